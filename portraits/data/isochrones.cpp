@@ -13,8 +13,8 @@ namespace {
 
 using reduction::State;
 
-/// Directions v/u, by a number that grows from u > 0 to u < 0: on logarithmic axes ln(v/u), else an angle in quarters
-/// of the turn, from 0 to 2, on the ellipse that the rectangle's sides span.
+/// Directions v/u as a number that grows from u > 0 to u < 0. On logarithmic axes it is ln(v/u). Else it is an angle,
+/// from 0 to 2 quarter turns, on the ellipse that the rectangle's sides span.
 class Directions {
  public:
   Directions(const reduction::Flow& flow, const Rectangle& rectangle) : flow_(flow), rectangle_(rectangle) {
@@ -26,7 +26,7 @@ class Directions {
     for (int i = 0; i <= steps; ++i) all_.push_back(first + (last - first) * i / steps);
     if (logarithmic) return;
     sides_ = {u, high.v};
-    // And down to k = 1e-4 next to the axis v = 0, where ln k changes fast.
+    // Add directions down to k = 1e-4 next to the axis v = 0, where ln k changes fast.
     for (int decade = -4; decade <= 3; ++decade) {
       const double k = std::pow(10, decade);
       const double quarter = std::atan(k * flow.system().mu() * u / high.v) / (std::numbers::pi / 2);
@@ -37,7 +37,7 @@ class Directions {
 
   const std::vector<double>& all() const { return all_; }
 
-  /// The state of that direction that stops after the time 1.
+  /// Returns the state in a direction whose stop time is 1.
   State unit(double direction) const {
     State ray{std::exp(-direction / 2), std::exp(direction / 2)};
     if (!rectangle_.logarithmic) {
@@ -90,7 +90,7 @@ std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& 
   for (double tau : times) {
     const auto scaled = [tau](State unit) { return State{tau * unit.u, tau * unit.v}; };
     const auto inside = [&](State at) { return at.u >= low.u && at.u <= high.u && at.v >= low.v && at.v <= high.v; };
-    // The last state inside, between a direction outside and one inside.
+    // Returns the last state inside, between a direction outside and one inside.
     const auto border = [&](double outside, double within) {
       const auto is_inside = [&](double direction) { return inside(scaled(directions.unit(direction))); };
       return scaled(directions.unit(reduction::last_where(is_inside, within, outside)));
@@ -104,7 +104,7 @@ std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& 
       if (piece.empty() || (is_inside && i + 1 < all.size())) continue;
       if (!is_inside) piece.push_back(border(all[i], all[i - 1]));
       const auto rows = static_cast<Eigen::Index>(piece.size());
-      // A state is its two speeds, one after the other.
+      // A State is two doubles in memory, so the piece is a matrix of 2 rows.
       const Eigen::Map<const Eigen::Array2Xd> columns(&piece.front().u, 2, rows);
       result.push_back({tau, columns.row(0), columns.row(1)});
       piece.clear();

@@ -13,25 +13,26 @@ struct Rectangle {
   bool logarithmic = false;
 };
 
-/// The times of isochrones, ascending, and the step that they are all multiples of, without gaps; 0: none.
+/// The times of isochrones, increasing, and the step of which they are all multiples; 0 if there is none.
 struct IsochroneTimes {
   std::vector<double> times;
   double step;
 };
 
-/// Those that were asked for, in any order.
-/// @param times  not empty
-/// @param unit   of them
+/// Returns the requested times sorted.
+/// @param times  not empty, in any order
+/// @param unit   unit of the times
 IsochroneTimes asked_times(std::vector<double> times, double unit);
 
-/// Multiples of a round time up to the last, in its unit: as many as are asked for, as nearly as round times allow; about as
-/// many as usual, by the roundest steps, where no number is.
+/// Returns the multiples of a round time up to `last`, in a unit: about the requested number, as nearly as round times
+/// allow. Without a number it returns about the usual number, by the roundest steps.
 IsochroneTimes even_times(double last, double unit, std::optional<int> asked, int usual);
 
-/// The pieces of isochrones that lie in the rectangle, by growing time; along each, v/u turns from u > 0 to u < 0.
+/// Returns the parts of isochrones that lie in the rectangle, by increasing time. Along each, v/u turns from u > 0 to u
+/// < 0.
 ///
-/// tau*(c u, c v) = c tau*(u, v): one of them is computed, as a function of the direction v/u, and the others are its
-/// copies. Points are close enough to be joined by lines, and end on the border to the last digits.
+/// By tau*(c u, c v) = c tau*(u, v) one isochrone is computed, as a function of the direction v/u, and the others are
+/// its copies. Points are close enough for straight lines between them, and end on the border to the last digits.
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
                                   const std::vector<double>& times);
 

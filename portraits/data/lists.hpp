@@ -1,4 +1,4 @@
-// What the data of the portraits share: arrays as lists of JSON.
+// Helpers that the files of the portraits' data share.
 #pragma once
 
 #include <vector>

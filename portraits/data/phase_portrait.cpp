@@ -33,21 +33,21 @@ Window default_window(const ReducedSystem& system, View view, const std::vector<
   for (const State& state : shown) far = {std::max(far.u, std::abs(state.u)), std::max(far.v, state.v)};
   constexpr double margin = 1.2;
   if (view == View::patch || view == View::log || view == View::blowup) {
-    // Both axes are speeds at the patch; of the blow-up's chart one is u.
+    // Both axes are speeds at the patch; in the blow-up's chart one is u.
     const double side = margin * std::max(system.mu() * far.u, far.v);
     if (side > 0) return {view == View::blowup && far.u > 0 ? margin * far.u : side / system.mu(), side};
     return {1, system.mu()};
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
-  // Sliding and pivoting take the same time along the two borders: neither is squeezed against an axis. But beyond a k
-  // that is large nothing happens: balls slide as if they did not spin.
+  // Sliding and pivoting take the same time along the two borders, so that neither is squeezed against an axis. Above a
+  // large k the window ends, because balls there slide as if they did not spin.
   constexpr double large = 20;
   const double sliding = system.sliding_limit(1) / (1 - system.drive());
   return {1, round_down(std::min(system.pivoting_limit(1) / sliding, large * system.mu()))};
 }
 
-/// Whether the axis of v may be bent, and whether the plane would be a comb else.
+/// Returns two flags: the axis of v may be bent; on a linear axis the plane would be a comb of verticals.
 std::pair<bool, bool> bends(const reduction::PhasePlane& plane) {
   constexpr double comb = 12;
   const auto& [direction, k, order] = plane.tangents.front();
@@ -60,31 +60,32 @@ SpeedScale scale_of(const reduction::PhasePlane& plane, Window window, bool line
 }
 
 using Instant = PortraitOrbit::Instant;
-using Track = std::vector<Instant>;  // from first to stop
+using Track = std::vector<Instant>;  // from the first state to the stop
 
-/// How far apart two states may be that lie next to each other on an orbit: 1 and no more.
+/// The visible distance of two neighbouring states of an orbit; at most 1 is allowed.
 using Distance = std::function<double(const Instant&, const Instant&)>;
 
-/// @param ln_k_stop  of the terminal ratio, which is taken for that of rest
+/// Converts a state.
+/// @param ln_k_stop  ln k of the terminal ratio, used at rest
 Instant instant(const Orbit::Remaining& at, double mu, double ln_k_stop) {
   const double ln_k = at.u == 0 ? (at.v > 0 ? infinity : ln_k_stop) : at.ln_v - std::log(mu * std::abs(at.u));
   return {at.u, at.v, at.ln_v, ln_k, at.tau_left};
 }
 
-/// The same of an orbit that has so much time left.
+/// Converts a state with a given time left.
 Instant instant(const OrbitPoint& point, double left, double mu, double ln_k_stop) {
   return instant({point.u, point.v, point.ln_v, left}, mu, ln_k_stop);
 }
 
-/// By how much ln k differs where it is seen to change: beyond, orbits hug an axis.
+/// Returns the visible change of ln k; beyond |ln k| = 20 orbits hug an axis.
 double turn(const Instant& a, const Instant& b) {
   return std::abs(std::clamp(a.ln_k, -20.0, 20.0) - std::clamp(b.ln_k, -20.0, 20.0));
 }
 
-/// Adds what lies between the last state of a track and those at the given places, halved until neighbours are near.
+/// Appends the states at the given places to a track, with further states between until neighbours are near.
 template <class At>
 void refine(Track& track, double from, const std::vector<double>& places, At at, const Distance& distance) {
-  std::vector<std::pair<double, Instant>> open;  // the next at the back
+  std::vector<std::pair<double, Instant>> open;  // the next state is at the back
   for (double place : places) open.insert(open.begin(), {place, at(place)});
   while (!open.empty()) {
     const auto [place, state] = open.back();
@@ -101,14 +102,15 @@ void refine(Track& track, double from, const std::vector<double>& places, At at,
   }
 }
 
-/// The last number in the direction of a step from another at which a condition holds, before it fails for good.
+/// Returns the last number from `from` on in the direction of a step at which a condition holds, before it fails for
+/// good.
 template <class Holds>
 double last_along(Holds holds, double from, double step) {
   for (; holds(from + step); step *= 1.5) from += step;
   return reduction::last_where(holds, from, from + step);
 }
 
-/// Whether a curve has begun no later than at xi: with a drive orbits come from v = 0, not from infinity.
+/// Returns true if a curve begins at xi or later. With a drive orbits come from v = 0, not from infinity.
 bool begins(const reduction::SimilarityCurve& curve, const ReducedSystem& system, double xi) {
   return system.drive() > 0 && curve.chart().log_far_ratio() == -infinity &&
          curve.chart().log_ratio(xi) < reduction::least_log_ratio(system.law(), system.r(), system.drive());
@@ -135,11 +137,11 @@ class OrbitTracer {
 
   PortraitOrbit orbit(State start) const { return columns(is_stepped_ ? stepped(start) : exact(start)); }
 
-  /// The orbit through a point, from where it enters the window.
+  /// Returns the orbit through a point, from its entry into the window.
   PortraitOrbit orbit_through(State point) const { return orbit(entry(point)); }
 
-  /// Orbits of both signs of u from so many starts along the right half of the border, at equal distances across the
-  /// flow as it is seen on paper.
+  /// Returns orbits of both signs of u. They start on the right half of the border, at equal distances across the flow
+  /// on paper.
   std::vector<PortraitOrbit> orbits(int count) const {
     std::vector<PortraitOrbit> result;
     std::optional<PortraitOrbit> curve;
@@ -147,7 +149,7 @@ class OrbitTracer {
       if (scale_.linear()) {
         result.push_back(orbit({seed.u, speed(seed)}));
       } else {
-        // A copy of the one that all are copies of: its v may be too small for a double.
+        // Scale the one curve, because v may be too small for a double.
         constexpr double above = 9;
         if (!curve) curve = contensou::portraits::orbit_through(flow_, 0, ln_w(0), above);
         result.push_back(copied(*curve, seed));
@@ -158,19 +160,19 @@ class OrbitTracer {
   }
 
  private:
-  /// A state by logarithms, which do not underflow.
+  /// A state whose v is given by its logarithm, which does not underflow.
   struct Seed {
     double u, ln_v;
   };
 
-  /// On the upper border to the last digit.
+  /// Returns v, exact on the upper border.
   double speed(const Seed& at) const {
     return at.ln_v == std::log(window_.v) ? window_.v : std::min(std::exp(at.ln_v), window_.v);
   }
 
   double ln_k(const Seed& at) const { return at.ln_v - std::log(system_.mu() * at.u); }
 
-  /// Of the similarity curve there: of all its copies the one that the tables are of.
+  /// Returns ln w of the similarity curve itself, of which the orbit is a scaled copy.
   double ln_w(double ln_k) const {
     const reduction::SimilarityCurve& curve = *flow_.solution().through(ln_k);
     return curve.ln_w(curve.chart().coordinate(ln_k));
@@ -181,18 +183,18 @@ class OrbitTracer {
     struct Step {
       double place, across;
     };
-    // Places 0 to 1 are on the upper border, from there to 2 on the right one, downwards; with a drive orbits begin on
-    // the lower one, too, which is no orbit then.
+    // Places 0 to 1 are the upper border, 1 to 2 the right one, downwards. With a drive orbits also begin on the lower
+    // border, 2 to 3, because it is no orbit then.
     const auto on_border = [this](double place) {
       if (place < 1) return Seed{place * window_.u, std::log(window_.v)};
       return place < 2 ? Seed{window_.u, scale_.ln_v(2 - place)} : Seed{(3 - place) * window_.u, -infinity};
     };
     std::vector<Step> border{{0, 0}};
-    constexpr int steps = 500;  // of a side
+    constexpr int steps = 500;  // number of steps along a side
     const int all_steps = (system_.drive() > 0 ? 3 : 2) * steps;
     for (int i = 0; i < all_steps; ++i) {
       const Seed at = on_border((i + 0.5) / steps);
-      // Rates over their speeds depend on k alone, and below this one no more.
+      // Rates divided by speeds depend on k alone, and below this ln k they are constant.
       constexpr double lowest = -20;
       const double k = std::exp(std::max(ln_k(at), lowest));
       const auto rate = system_.field({1 / system_.mu(), k});
@@ -217,8 +219,8 @@ class OrbitTracer {
     return result;
   }
 
-  /// On the border, amid a sector between two invariant half-lines that may be too narrow for the steps of seeds: halfway
-  /// to the axis, or between two rays.
+  /// Returns a start on the border in a sector between two invariant half-lines that may be too narrow for the steps of
+  /// seeds: halfway between two rays, or at half or twice the ratio k of the ray next to an axis.
   Seed amid(const reduction::TerminalChart& sector) const {
     const auto [low, high] = std::minmax({sector.log_terminal_ratio(), sector.log_far_ratio()});
     const double half = std::log(2);
@@ -228,7 +230,7 @@ class OrbitTracer {
     return {std::min(std::exp(ln_top - ln_k) / system_.mu(), window_.u), ln_top};
   }
 
-  /// The orbit from a start, by rows of another of the same curve.
+  /// Returns the orbit from a start, as scaled rows of an orbit on the same curve.
   PortraitOrbit copied(const PortraitOrbit& curve, const Seed& start) const {
     const double ln_k_start = ln_k(start);
     const double factor = system_.mu() * start.u * std::exp(-ln_w(ln_k_start));
@@ -258,8 +260,7 @@ class OrbitTracer {
     return std::log(flow_.terminal().end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k);
   }
 
-  /// The orbit, by its nearness xi to the terminal ratio while k is seen to change, then by the time left, whose
-  /// logarithm falls in even steps.
+  /// Computes the orbit, first by xi while k visibly changes, then by equal steps of the logarithm of the time left.
   Track exact(State start) const {
     const Orbit orbit = flow_.orbit(start);
     const Distance distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
@@ -283,20 +284,20 @@ class OrbitTracer {
   }
 
   double on_window(const Instant& a, const Instant& b) const {
-    // Far outside, orbits are seen by ratio only.
+    // Far outside the window only ratios matter.
     const auto change = [](double x, double y) {
       return std::abs(std::clamp(x, -2.0, 2.0) - std::clamp(y, -2.0, 2.0));
     };
     const double u = change(a.u / window_.u, b.u / window_.u) / 0.02;
     const double v = change(a.v / window_.v, b.v / window_.v) / 0.02;
-    // By ratio next to the axes, where the curve may turn sharply.
+    // Next to the axes, where the curve may turn sharply, distances are ratios.
     const auto fold = [](double x, double y) { return std::abs(std::log(std::max(x, 1e-3) / std::max(y, 1e-3))); };
     const double folds = std::max(fold(std::abs(a.u) / window_.u, std::abs(b.u) / window_.u) / 0.15,
                                   fold(a.v / window_.v, b.v / window_.v) / 0.4);
     return std::max({u, v, turn(a, b) / 0.4, folds});
   }
 
-  /// Where the orbit through a point enters the window: backwards along its curve, scaled onto the point.
+  /// Returns the state at which the orbit through a point enters the window: the scaled curve, followed backwards.
   State entry(State point) const {
     const double mu = system_.mu();
     const double ln_k = std::log(point.v / (mu * std::abs(point.u)));
@@ -366,7 +367,7 @@ void require(const PortraitRequest& request) {
 }
 
 void require(Window window, const PortraitRequest& request) {
-  // Stop times and squares of speeds across the window must be doubles.
+  // Stop times and squares of speeds in the window must be doubles.
   constexpr double smallest = 1e-150;
   const auto reasonable = [](double side) { return side >= smallest && side <= 1 / smallest; };
   if (!reasonable(window.u) || !reasonable(window.v)) {
@@ -394,7 +395,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, bool linea
   if (!request.drawn_only || shows_window(view)) {
     portrait.isochrones = isochrones(flow, {{part.u_low, part.v_low}, {part.u_high, part.v_high}}, times.times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
-    constexpr double most = 4;  // times as many where a part is shown
+    constexpr double most = 4;  // at most this factor more orbits in a part of a window
     const double denser = std::clamp(window.u / (part.u_high - part.u_low), 1.0, most);
     portrait.orbits =
         tracer.orbits(request.orbits_per_side.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));
@@ -414,17 +415,17 @@ PhasePortrait portrait_in(const Flow& flow, View view, Window window, bool linea
   return portrait;
 }
 
-/// The stop time of the corner of what is shown, which is the last to stop.
+/// Returns the stop time of the corner of the visible part, which is the last to stop.
 double last_time(const Flow& flow, Window window, const PortraitRequest& request) {
   if (!request.part) return flow.orbit({window.u, window.v}).stop_time();
   return flow.orbit({std::max(std::abs(request.part->u_low), std::abs(request.part->u_high)), request.part->v_high})
       .stop_time();
 }
 
-/// Stop times of the isochrones of each plane: those asked for; else multiples of a round time, up to the last. As many
-/// as are asked for, as nearly as round times allow; the roundest where no number is. Where the last times of planes that
-/// are compared differ much, each has so many of one series 1, 2, 5, 10, below its own last.
-/// @param lasts  of the planes
+/// Returns the stop times of the isochrones of each plane: the requested ones, else multiples of a round time up to the
+/// last. Without a requested number, the steps are the roundest. If the last times of compared planes differ much, each
+/// has a number of times of one series 1, 2, 5, 10, below its own last.
+/// @param lasts  last stop times of the planes
 std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const PortraitRequest& request) {
   constexpr double near = 0.95, alike = 3, of_decade = 3;
   constexpr int usual = 7, usual_beside_others = 4, usual_of_series = 3;
@@ -449,7 +450,7 @@ std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const 
   return result;
 }
 
-/// One frame for all: the same window, of patch without one asked for the same rim speeds.
+/// Returns one window for all planes; for the view patch without a requested window, windows of equal rim speeds.
 std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const PortraitRequest& request) {
   if (request.part) {
     const auto& [u_low, u_high, v_low, v_high] = *request.part;
@@ -461,7 +462,7 @@ std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const 
   std::vector<Window> windows;
   for (const Flow& flow : flows) windows.push_back(default_window(flow.system(), view, shown));
   const auto largest = [&](double Window::*side) { return std::ranges::max(windows, {}, side).*side; };
-  // Without points to show the v that none fills with mere sliding.
+  // Without points to show, v is the smallest, so that no plane is filled with mere sliding.
   const bool rims = view == View::patch;
   const double u = largest(&Window::u);
   const double v = shown.empty() && !rims ? std::ranges::min(windows, {}, &Window::v).v : largest(&Window::v);
@@ -495,7 +496,7 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
           : here;
   const double last = last_along([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
   Track track{at(first)};
-  // By u where it does not underflow: ln v - ln k has no digit left where orbits hug the axis.
+  // Take u if it does not underflow, because ln v - ln k has lost its digits where orbits hug the axis.
   const auto its_ln_size = [mu = flow.system().mu()](const Instant& it) {
     return (it.u > 0 ? std::log(mu * it.u) : it.ln_v - it.ln_k) + std::max(it.ln_k, 0.0);
   };

@@ -18,12 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// v/(mu |u|), by its logarithm, which does not underflow. Not by Eigen's exp, which is never below 5.6e-309.
+/// Returns v/(mu |u|) from its logarithm, which does not underflow. Eigen's exp is never below 5.6e-309, so it is not
+/// used.
 std::vector<double> ratios(const PortraitOrbit& orbit) {
   return list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
 }
 
-/// True if beta is an axis of the view; the data then have it for each state of an orbit.
+/// Returns true if beta is an axis of the view. The data then contain it for each state of an orbit.
 bool has_beta(const PhasePortrait& portrait) { return portrait.view == View::regularised; }
 
 Json json_of(const PhasePortrait& of, const PortraitOrbit& orbit) {
@@ -46,7 +47,7 @@ Json json_of(const PhasePortrait& of, const std::vector<Curve>& curves) {
   return json;
 }
 
-/// [U, V], or of a part [[U1, U2], [V1, V2]].
+/// Returns [U, V], or for a part [[U1, U2], [V1, V2]].
 Json window_of(const PhasePortrait& portrait) {
   const auto& [u, v] = portrait.window;
   const auto& [u_low, u_high, v_low, v_high] = portrait.part;
@@ -67,7 +68,7 @@ Json origin_of(const PhasePortrait& portrait, const PortraitSource& source) {
   return json;
 }
 
-/// All but the schema.
+/// Returns all members except the schema.
 Json members_of(const PhasePortrait& portrait, const PortraitSource& source) {
   Json json = origin_of(portrait, source);
   json.update({{"orbits", json_of(portrait, portrait.orbits)}, {"isochrones", json_of(portrait, portrait.isochrones)}});
@@ -81,7 +82,7 @@ Json members_of(const PhasePortrait& portrait, const PortraitSource& source) {
   return json;
 }
 
-/// A name in a cell: quoted where it needs it.
+/// Returns a name as a CSV cell, quoted if necessary.
 std::string cell(const std::string& name) {
   if (name.find_first_of(",\"\n") == name.npos) return name;
   std::string quoted;
@@ -89,6 +90,7 @@ std::string cell(const std::string& name) {
   return '"' + quoted + '"';
 }
 
+/// Returns the rows of a portrait as CSV.
 /// @param lead  first cells of each row
 std::string rows_of(const PhasePortrait& portrait, const PortraitSource& source, const std::string& lead) {
   std::string csv;

@@ -29,15 +29,15 @@ using std::numbers::pi;
 
 namespace {
 
-/// The directions of a sector, or a turn where there are none: q at numbers x that grow in the way of the motion, dense
-/// towards both ends.
+/// The directions q of a sector, or of a full turn without sectors, as a function of x. x grows in the direction of the
+/// motion, and directions are dense towards both ends.
 struct Course {
   std::function<double(double x)> q;
-  double low, high;  ///< of x
+  double low, high;  ///< range of x
 };
 
 Course course_of(const PlanarSector& sector) {
-  // Nearer to a ray angles cannot be told apart; a border is known to some digits only.
+  // Angles nearer to a ray cannot be distinguished. A border is known to some digits only.
   const auto nearest = [](bool ray) { return ray ? 25.0 : 12.0; };
   const auto q = [=, length = sector.to - sector.from](double x) {
     return x < 0 ? sector.from + length / (1 + std::exp(-x)) : sector.to - length / (1 + std::exp(x));
@@ -63,14 +63,14 @@ class PlanarTracer {
       lowest_ = std::min(lowest_, p);
     }
     highest_ += 0.1;
-    // Nobody sees orbits move nearer to the centre.
+    // Motions nearer to the centre are invisible.
     constexpr double deep = 9;
     lowest_ -= deep / plane.scaling()->growth();
     for (const PlanarSector& sector : plane.sectors()) courses_.push_back(course_of(sector));
     if (plane.turn() != nullptr) read_turn();
   }
 
-  /// The orbit through a point, or from there on, in pieces that lie in the window.
+  /// Returns the orbit through a point, or from the point on, in parts that lie in the window.
   std::vector<PlanarPortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
     std::vector<PlanarPortraitOrbit> pieces;
     if (x == plane_.centre()) return pieces;
@@ -84,14 +84,14 @@ class PlanarTracer {
         piece.v[i] = point.y;
         piece.tau_left[i] = time_left({point.x, point.y});
       }
-      // A chord may say otherwise in its last digits.
+      // A chord may break the order in the last digits.
       for (Eigen::Index i = 1; i < rows; ++i) piece.tau_left[i] = std::min(piece.tau_left[i], piece.tau_left[i - 1]);
       pieces.push_back(std::move(piece));
     }
     return pieces;
   }
 
-  /// Which sector a point is in; none without a value.
+  /// Returns the number of the sector of a point; empty if the field has no value there.
   std::optional<std::size_t> sector(const Vector2d& x) const {
     if (x == plane_.centre() || !has_value(x)) return std::nullopt;
     const double q = plane_.canonical(x).q;
@@ -104,7 +104,7 @@ class PlanarTracer {
     return std::nullopt;
   }
 
-  /// The lines of one time left.
+  /// Returns the lines of equal time left.
   std::vector<Isochrone> isochrones(const std::vector<double>& times) const {
     const double c = plane_.scaling()->time;
     std::vector<Isochrone> result;
@@ -139,7 +139,7 @@ class PlanarTracer {
     return result;
   }
 
-  /// Finite times left on the border of the window, ascending.
+  /// Returns the finite times left on the border of the window, increasing.
   std::vector<double> times_at_border() const {
     std::vector<double> times;
     for (const Vector2d& x : border_) {
@@ -167,19 +167,19 @@ class PlanarTracer {
   }
   double time_left(const Vector2d& x) const {
     try {
-      // One picture has one kind of times: to the centre, or to infinity where motions grow slower with their size.
+      // A picture has one kind of times: to the centre, or to infinity if motions become slower with distance.
       const reduction::PlanarOrbit orbit = plane_.orbit(x);
       const PlanarEnd timed = plane_.scaling()->time < 0 ? PlanarEnd::infinity : PlanarEnd::centre;
       return orbit.end() == timed ? orbit.end_time() : infinity;
     } catch (const std::domain_error&) {
-      return infinity;  // a chord has left the part of the plane that has values
+      return infinity;  // the chord leaves the part of the plane where the field has values
     }
   }
-  /// p of the sector's curve.
+  /// Returns p of the sector's curve.
   double level(double q) const { return -plane_.first_integral(plane_.point(q, 0)); }
 
   void read_turn() {
-    constexpr double margin = 1e-9;  // L jumps from 2 pi to 0 by a turn
+    constexpr double margin = 1e-9;  // L jumps by a turn between 2 pi and 0
     growth_ = level(2 * pi - margin) - level(margin);
     const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
     sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
@@ -198,7 +198,7 @@ class PlanarTracer {
     const PlanarSector& sector = plane_.sectors()[index];
     const Course& course = courses_[index];
     const auto on_orbit = [&](double x_) { return std::pair(course.q(x_), integral + level(course.q(x_))); };
-    // Where the point is.
+    // Find x of the point.
     double fraction = (q - sector.from) / (sector.to - sector.from);
     if (fraction < 0 || fraction > 1) fraction = (q + 2 * pi - sector.from) / (sector.to - sector.from);
     const double here = std::clamp(std::log(fraction / (1 - fraction)), course.low, course.high);
@@ -217,7 +217,7 @@ class PlanarTracer {
 
   bool seen(double p) const { return p > lowest_ && p < highest_; }
 
-  /// R, whose sign is the way of the motion on a ray.
+  /// Returns R, whose sign is the direction of the motion on a ray.
   double radial_at(double q) const {
     for (const auto& ray : plane_.rays()) {
       if (std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9) return ray.radial;
@@ -225,7 +225,7 @@ class PlanarTracer {
     return plane_.end(plane_.point(q, 0)) == PlanarEnd::centre ? -1 : 1;
   }
 
-  /// The motion on a ray, from one end of what is seen to the other or between two p.
+  /// Returns the motion on a ray, from one end of the visible range to the other, or between two p.
   Polyline ray(double q, std::optional<double> from, std::optional<double> to) const {
     Polyline line;
     const double radial = radial_at(q);
@@ -245,15 +245,15 @@ class PlanarTracer {
 
   const PlanarReduction& plane_;
   PlanarWindow window_;
-  Panel panel_;  ///< that clips
+  Panel panel_;  ///< the panel that clips
   std::vector<Vector2d> border_;
-  double highest_, lowest_;  ///< p that is seen
+  double highest_, lowest_;  ///< visible range of p
   std::vector<Course> courses_;
-  double growth_ = 0;  ///< of p in a counter-clockwise turn
-  double sense_ = 1;   ///< of the motion
+  double growth_ = 0;  ///< change of p in a counter-clockwise turn
+  double sense_ = 1;   ///< direction of the motion
 };
 
-/// Adds the orbit from one x to another, points no farther apart than can be seen.
+/// Appends the orbit from one x to another, with visibly close points.
 template <class OnOrbit>
 void PlanarTracer::refine(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
   struct Place {
@@ -292,7 +292,7 @@ void PlanarTracer::refine(Polyline& line, const OnOrbit& on_orbit, double from, 
 
 Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_here) const {
   if (q < 0) q += 2 * pi;
-  // p at an angle that goes on over the turns, so that it is p at q.
+  // Returns q and p at an angle that continues over the turns.
   const auto on_orbit = [&](double angle) {
     const double turns = std::floor(angle / (2 * pi)), rest = std::clamp(angle - 2 * pi * turns, 1e-9, 2 * pi - 1e-9);
     return std::pair(rest, integral + level(rest) + growth_ * turns);
@@ -312,8 +312,8 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
-/// Orbits that fill the window: each goes through the middle of the widest gap, and next its mirror images where they
-/// have as much room, since most systems have some symmetry of that kind.
+/// Returns orbits that fill the window. Each goes through the middle of the widest gap. Its mirror images follow if
+/// they have as much room, because most systems have such a symmetry.
 /// @param tracer  PlanarTracer or MotionTracer
 template <class Tracer>
 std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindow& window, const Vector2d& middle,
@@ -336,7 +336,7 @@ std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindo
   }
   Gaps gaps(std::move(seeds), {1, 1});
   std::vector<PlanarPortraitOrbit> orbits;
-  std::vector<Point> mirrored;  // places to look at first
+  std::vector<Point> mirrored;  // places to try first
   const Point centre = place(middle);
   for (int traced = 0; traced < count.value_or(most) && !gaps.empty();) {
     auto widest = &gaps.widest();
@@ -369,7 +369,7 @@ std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindo
   return orbits;
 }
 
-/// Traces motions forth and back in time, where there is no scaling that orbits are moved by.
+/// Traces motions forwards and backwards in time, for systems without a scaling.
 class MotionTracer {
  public:
   MotionTracer(const PlanarReduction& plane, const PlanarWindow& window)
@@ -382,7 +382,7 @@ class MotionTracer {
     panel_.y = {"", window.low[1], window.high[1], false, {}};
   }
 
-  /// As PlanarTracer's.
+  /// Returns an orbit as PlanarTracer does.
   std::vector<PlanarPortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
     Polyline line;
     if (!from_here) {
@@ -401,17 +401,17 @@ class MotionTracer {
     return pieces;
   }
 
-  /// 0 where the field has a value: what no orbit crosses is not known.
+  /// Returns 0 if the field has a value. Sectors are not known without a scaling.
   std::optional<std::size_t> sector(const Vector2d& x) const {
     try {
       if (forth_.field()(x).allFinite()) return 0;
     } catch (const std::exception&) {
-      // none
+      // no value
     }
     return std::nullopt;
   }
 
-  /// The orbits that leave the saddles and those that come to them, a little beside them.
+  /// Returns the orbits that leave the saddles and those that enter them, from points just beside the saddles.
   std::vector<PlanarPortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
     std::vector<PlanarPortraitOrbit> all;
     for (const reduction::Equilibrium& saddle : equilibria) {
@@ -433,7 +433,7 @@ class MotionTracer {
   }
 
  private:
-  /// Follows a motion out of the window and for some of its sides beyond, for it may come back.
+  /// Follows a motion out of the window and for some of its sides beyond, because it may return.
   Polyline way(const PlanarReduction& plane, const PlanarReduction& by_steps, const Vector2d& x) const {
     const Vector2d f = plane.field()(x);
     const Vector2d sides = window_.high - window_.low;
@@ -454,9 +454,9 @@ class MotionTracer {
     Vector2d here = x;
     double time = 0, step = near / speed;
     const double last = motion.period().value_or(infinity);
-    // An orbit that nears a closed one comes to cells of the picture again and again.
+    // An orbit that tends to a closed one visits the same cells of the picture again and again.
     constexpr int cells = 300, turns = 3;
-    std::map<std::pair<int, int>, std::pair<int, int>> visits;  // the last point in a cell, and how often it came there
+    std::map<std::pair<int, int>, std::pair<int, int>> visits;  // last point in a cell, and number of visits
     for (int i = 0; i < most && time < last; ++i) {
       const double next = std::min(time + step, last);
       Vector2d there;
@@ -465,7 +465,7 @@ class MotionTracer {
       } catch (const std::domain_error&) {
         step /= 2;
         if (step > 1e-6 * near / speed) continue;
-        // The end of what is known: steps may lead on.
+        // The reduction ends here, but steps in time may go on.
         if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
         motion = by_steps.orbit(here);
         time = 0;
@@ -493,14 +493,14 @@ class MotionTracer {
       time = next;
       if (beyond > far) break;
       if (moved < allowed / 2) step *= 1.5;
-      if (moved < rest && step * speed > 1e3) break;  // it nears an equilibrium
+      if (moved < rest && step * speed > 1e3) break;  // the motion tends to an equilibrium
     }
     return line;
   }
 
   PlanarReduction forth_, back_, steps_forth_, steps_back_;
   PlanarWindow window_;
-  Panel panel_;  ///< that clips
+  Panel panel_;  ///< the panel that clips
 };
 
 Vector2d middle_of(const PlanarReduction& plane) {
@@ -548,7 +548,7 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   const auto trace = [&](const auto& tracer) {
     portrait.orbits = filling(tracer, portrait.window, middle_of(plane), request.orbits);
     if (request.highlight) {
-      plane.end(*request.highlight);  // is one with a value
+      plane.end(*request.highlight);  // throws for a point without a value
       portrait.highlight = tracer.orbit(*request.highlight, true);
     }
     for (const Vector2d& x : request.through) {
@@ -571,7 +571,7 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
     if (!times.empty()) portrait.isochrones = tracer.isochrones(asked);
     portrait.isochrone_step = step;
   } else if (request.isochrones != 0 && !times.empty()) {
-    // Next to a ray that leads elsewhere times grow beyond all.
+    // Next to a ray that leads elsewhere, times are unbounded.
     const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
     constexpr int usual = 7;
     const auto [even, step] = even_times(last, 1, request.isochrones, usual);

@@ -1,4 +1,3 @@
-// The orbit of a start, and where the symmetry moves it.
 #include "contensou/portraits/reduced_orbits.hpp"
 
 #include <algorithm>
@@ -37,7 +36,7 @@ ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start
     const double x = curve.chart().log_ratio(there);
     return Point{x, integral + curve.ln_w(there) + ln_mu + x};
   };
-  // Finer about k = 1. For small mu u falls while k falls by thousands of powers of e.
+  // Points are dense about k = 1. For small mu u falls while ln k falls by thousands.
   constexpr int upstream = 400, most = 4000;
   for (int i = upstream; i > 0; --i) from.orbit[0].push_back(at(xi + 0.05 * i));
   double there = xi;
@@ -61,7 +60,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
       refuse_ray();
     }
   }();
-  /// From angle to angle, in the way of the motion.
+  /// Returns the curve through angles, in the direction of the motion.
   const auto line = [&](const std::vector<double>& angles, double constant) {
     Polyline points;
     for (double angle : angles) {
@@ -80,9 +79,9 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
   ReducedOrbits from{.start = {q, p}, .orbit = {}};
   std::vector<double> angles;
   if (plane.rays().empty()) {
-    // Turns are copies of one another, too.
+    // In a focus the turns are copies of one another.
     constexpr int pieces = 400;
-    constexpr double margin = 1e-9;  // L goes on from 2 pi to 0 by a turn
+    constexpr double margin = 1e-9;  // L jumps by a turn between 2 pi and 0
     for (int i = 0; i <= pieces; ++i) angles.push_back(margin + (2 * pi - 2 * margin) * i / pieces);
     if (q < 0) from.start.x += 2 * pi;
     const Polyline turn = line(angles, integral);
@@ -100,7 +99,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
     from.rays.push_back(left);
     if (last) from.rays.push_back(right);
     angles.clear();
-    constexpr int half = 500;  // closer and closer to the rays
+    constexpr int half = 500;  // dense towards the rays
     for (int j = -half; j <= half; ++j) angles.push_back(left + (right - left) / (1 + std::exp(-0.05 * j)));
     const bool of_start = left < start_q && start_q < right;
     if (of_start) from.start.x = start_q;

@@ -9,10 +9,9 @@
 
 namespace contensou::portraits {
 
-/// Places at which a further orbit may go through a picture, each in the sector that no orbit leaves. The next orbit goes
-/// through the middle of the widest gap.
-/// @tparam Sector  compares
-/// @tparam State   belongs to a place
+/// Places through which a further orbit of a picture may go. Each lies in a sector, which orbits do not leave. The next
+/// orbit goes through the middle of the widest gap. @tparam Sector  type with == @tparam State   state that belongs to
+/// a place
 template <class Sector, class State>
 class WidestGaps {
  public:
@@ -20,7 +19,7 @@ class WidestGaps {
     Point place;
     State state;
     Sector sector;
-    double border = first;  ///< twice the distance to another sector
+    double border = first;  ///< twice the distance to the nearest place of another sector
     double gap = first;     ///< distance to the nearest orbit of its sector, or to the border
   };
 
@@ -31,7 +30,7 @@ class WidestGaps {
       for (const Seed& other : seeds_) {
         if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.place, other.place));
       }
-      seed.gap += seed.border;  // a sector has one orbit at least, in its middle
+      seed.gap += seed.border;  // so that each sector gets an orbit, in its middle
     }
   }
 
@@ -41,20 +40,20 @@ class WidestGaps {
     return *std::ranges::min_element(seeds_, {}, [&](const Seed& seed) { return distance(seed.place, place); });
   }
 
-  /// Takes a point of an orbit of that sector into account.
+  /// Reduces the gaps of a sector to the distances from a point of one of its orbits.
   void pass(const Sector& sector, Point point) {
     for (Seed& seed : seeds_) {
       if (seed.sector == sector) seed.gap = std::min({seed.gap, seed.border, distance(seed.place, point)});
     }
   }
 
-  /// Forgets the places with less room than that.
+  /// Removes the places with a smaller gap.
   void drop_below(double gap) {
     std::erase_if(seeds_, [&](const Seed& seed) { return seed.gap < gap; });
   }
 
  private:
-  static constexpr double first = 1e3;  ///< more than any distance in a picture
+  static constexpr double first = 1e3;  ///< larger than any distance in a picture
   double distance(Point a, Point b) const { return std::hypot((a.x - b.x) * unit_.x, (a.y - b.y) * unit_.y); }
 
   std::vector<Seed> seeds_;

@@ -1,5 +1,5 @@
-// The one file that knows gnuplot. gnuplot-iostream writes the data of the script; it would start gnuplot, too, but not
-// say when that is missing, fails or hangs.
+// All use of gnuplot. gnuplot-iostream writes the data of the script. It could also start gnuplot, but does not report
+// that gnuplot is missing, fails or hangs.
 #include "contensou/portraits/gnuplot.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace contensou::portraits {
 
 namespace {
 
-/// How a whole file of a format begins and ends.
+/// The beginning and the end of a whole file of a format.
 struct Format {
   std::string_view ending;
   PictureFormat format;
@@ -46,19 +46,19 @@ constexpr std::array formats{
     Format{"tex", PictureFormat::tex, "", ""},
 };
 
-/// Seconds that gnuplot may take: a film takes 10, and a busy machine ten times as long.
+/// Seconds that gnuplot may take. A film takes 10 s, and on a busy machine ten times as long.
 constexpr unsigned time_limit = 300;
 
-/// A terminal of gnuplot, and how long things of length 1 come out in its unit: points of PDF and EPS, else dots.
+/// A terminal of gnuplot and its sizes for length 1 in its unit: points for PDF and EPS, else pixels.
 struct Terminal {
   std::string_view name, font;
   double units_per_mm;
-  double letter, line, symbol;  ///< symbol 0: it goes with the letters
-  double dash;                  ///< 0: it goes with the width of its line
+  double letter, line, symbol;  ///< symbol 0: proportional to the letters
+  double dash;                  ///< 0: proportional to the width of the line
 };
 
-/// Cairo's terminals take a size of letters for 96 to the inch. PDF and EPS halve it unless told a fontscale, and halve
-/// lines, EPS once more.
+/// Returns the terminal of a format. Cairo's terminals take letter sizes for 96 dpi. PDF and EPS halve letters without
+/// a fontscale; they halve line widths, EPS twice.
 Terminal terminal_of(PictureFormat format, double dpi) {
   constexpr double points = 72 / 25.4;
   switch (format) {
@@ -75,13 +75,14 @@ Terminal terminal_of(PictureFormat format, double dpi) {
   }
 }
 
-/// How gnuplot is told the format, and how large it draws a point of size 1.
+/// gnuplot's command for the format, and the size of a point of size 1.
 struct Canvas {
   std::string command;
   double point_mm;
 };
 
-/// @param letter  the size of letters, mm
+/// Returns the canvas of a figure.
+/// @param letter  size of letters, mm
 Canvas canvas(const Figure& figure, double letter, PictureFormat format) {
   const Terminal terminal = terminal_of(format, figure.dpi);
   const auto [width, height] = figure.size;
@@ -89,7 +90,7 @@ Canvas canvas(const Figure& figure, double letter, PictureFormat format) {
   const bool vector = format == PictureFormat::pdf || format == PictureFormat::eps;
   const std::string size = vector ? fmt::format("{}cm,{}cm", width / 10, height / 10)
                                   : fmt::format("{:.0f},{:.0f}", width * per_mm, height * per_mm);
-  constexpr double dash = 0.6;  // widths of a line, as SVG has it, whose dashes are longer in wider lines
+  constexpr double dash = 0.6;  // widths of a line, as in SVG, whose dashes are longer for wider lines
   return {
       fmt::format("set terminal {} size {} enhanced rounded background '#{:06x}' font '{},{:.4g}' linewidth {:.4g}{}",
                   terminal.name, size, figure.theme.ground.rgb, figure.font.empty() ? terminal.font : figure.font,
@@ -104,7 +105,7 @@ void replace_all(std::string& text, std::string_view old, std::string_view with)
   }
 }
 
-/// A text in gnuplot's enhanced markup, whose signs are taken as they are after a backslash. It breaks no lines.
+/// Returns a text in gnuplot's enhanced markup on one line. Its special characters follow a backslash.
 std::string enhanced(const Text& text, double size) {
   constexpr std::string_view signs = "\\^_{}@&~";
   std::string result = fmt::format("{{/*{:.3g} ", size);
@@ -128,8 +129,8 @@ std::string enhanced(const Text& text, double size) {
   return result + '}';
 }
 
-/// A gnuplot string: between single quotes nothing is run and only the quote itself is special. Control characters would
-/// end the line. Bytes that are not UTF-8 become U+FFFD, as nlohmann's writer does it.
+/// Returns a gnuplot string in single quotes, in which nothing is executed and only the quote is special. Control
+/// characters, which would end the line, become spaces. Bytes that are not UTF-8 become U+FFFD, by nlohmann's writer.
 std::string quoted(const std::string& text) {
   using nlohmann::json;
   const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
@@ -141,7 +142,7 @@ std::string quoted(const std::string& text) {
   return result + '\'';
 }
 
-/// Between two plots of one command.
+/// Separator of two plots of one command.
 constexpr const char* next_plot = ", \\\n     ";
 
 std::string colour(Colour colour) { return fmt::format("rgb '#{:06x}'", colour.rgb); }
@@ -154,7 +155,7 @@ std::string line_style(const Stroke& stroke) {
                                                     : " dt 1");
 }
 
-/// gnuplot's numbers of a shape, and of the shape that is first painted out with the ground; 0: none.
+/// gnuplot's numbers of a shape and of its filled form, which is drawn first in the ground's colour; 0: none.
 struct PointType {
   int outline, ground;
 };
@@ -177,7 +178,7 @@ std::vector<Row> rows(const Polyline& line) {
   return result;
 }
 
-/// Numbers as the plots '-' of a command read them after it.
+/// The inline data of a command, which its plots '-' read.
 class Data {
  public:
   Data() {
@@ -190,7 +191,7 @@ class Data {
     gnuplotio::top_level_array_sender(text_, rows, gnuplotio::Mode1D(), gnuplotio::ModeText());
     text_ << "e\n";
   }
-  /// Blocks of rows, with an empty line between them.
+  /// Appends blocks of rows, with an empty line between them.
   template <class Blocks>
   void add_blocks(const Blocks& blocks) {
     gnuplotio::top_level_array_sender(text_, blocks, gnuplotio::Mode2D(), gnuplotio::ModeText());
@@ -220,7 +221,8 @@ class Script {
     put("unset multiplot\n");
   }
 
-  /// What comes first, once. In a locale without a degree sign gnuplot warns of it at `set encoding`.
+  /// Returns the first lines of the script. In a locale without a degree sign gnuplot prints a warning at `set
+  /// encoding`.
   std::string heading() const {
     return fmt::format(
         "# Drawn by contensou; gnuplot 5. `LC_ALL=C.UTF-8 gnuplot FILE.gp > FILE.svg` draws it again.\n"
@@ -235,13 +237,13 @@ class Script {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
   }
 
-  /// A place on the page, from millimetres.
+  /// Returns a place on the page, given in millimetres.
   std::string at(double x, double y) const {
     return fmt::format("screen {:.8g},{:.8g}", x / figure_.size.width_mm, y / figure_.size.height_mm);
   }
 
   void axis(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
-    // The range of the panel before may be none that the scale can have.
+    // Reset the range first: that of the panel before may be impossible on this scale.
     put("set {0}range [*:*]\n{3} logscale {0}\nset {0}range [{1:.8g}:{2:.8g}]\n", which, axis.low, axis.high,
         axis.logarithmic ? "set" : "unset");
     std::vector<std::string> places;
@@ -253,10 +255,10 @@ class Script {
       put("set {0}tics nomirror out scale 0.6 ({1})\n", which, fmt::join(places, ", "));
   }
 
-  /// The next plot of a command, of data that follow it.
+  /// Adds a plot to the command; its data follow the command.
   void plot(const std::string& style) { put("{}'-' {} notitle", std::exchange(separator_, next_plot), style); }
 
-  /// A colour map, on linear axes of its own, and its scale.
+  /// Adds a colour map, on its own linear axes, and its scale.
   void colour_map(const ColourMap& colours, const PanelPlace& place) {
     const auto& [left, bottom, width, height] = place.colour_scale;
     std::vector<std::string> steps;
@@ -333,7 +335,7 @@ class Script {
     data.add(places);
   }
 
-  /// Texts, the colour bar and samples of the legend, in a plot of its own that covers the page, in millimetres.
+  /// Draws texts, the colour bar and samples of the legend in a plot of its own that covers the page, in millimetres.
   void page() {
     put("set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n"
         "unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n",
@@ -364,11 +366,11 @@ class Script {
   Layout layout_;
   Canvas canvas_;
   std::string ink_ = colour(figure_.theme.ink);
-  std::string separator_;  ///< before the next plot of the command
+  std::string separator_;  ///< text before the next plot of the command
   std::string text_;
 };
 
-/// What is wrong with an end; empty: nothing.
+/// Returns the reason of a failure; empty if the program succeeded.
 std::string complaint(const ProgramRun& run) {
   switch (run.end) {
     case ProgramRun::End::out_of_time:
@@ -403,11 +405,11 @@ std::ptrdiff_t count(std::string_view text, std::string_view part) {
   return found;
 }
 
-/// The size of the page in millimetres; and italics cut a text into pieces, at whose ends some SVG viewers drop spaces
-/// unless told to keep them.
+/// Adds the size of the page in millimetres, and the attribute to keep spaces. Italics divide a text into elements, at
+/// whose ends some SVG viewers drop spaces.
 std::string finished_svg(std::string svg, const Figure& figure) {
   replace_all(svg, "<text>", "<text xml:space=\"preserve\">");
-  // What XML has no place for and gnuplot leaves in texts: an end of CDATA, U+FFFE and U+FFFF.
+  // XML does not allow these, and gnuplot leaves them in texts: the end of CDATA, U+FFFE and U+FFFF.
   replace_all(svg, "]]>", "]]&gt;");
   replace_all(svg, "\xEF\xBF\xBE", "\xEF\xBF\xBD");
   replace_all(svg, "\xEF\xBF\xBF", "\xEF\xBF\xBD");
@@ -418,7 +420,7 @@ std::string finished_svg(std::string svg, const Figure& figure) {
   return svg;
 }
 
-/// Cairo writes the time of day into a picture; the same figure is the same bytes. No offset in the file changes.
+/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. No offset in the file changes.
 std::string without_date(std::string bytes, std::string_view before, std::string_view date) {
   const std::size_t at = bytes.find(before);
   if (at != std::string::npos && at + before.size() + date.size() <= bytes.size()) {
@@ -459,11 +461,11 @@ std::string script_of(const Figure& figure, PictureFormat format) {
   return script.heading() + script.text();
 }
 
-/// Has gnuplot draw a script.
+/// Returns the picture that gnuplot draws from a script.
 std::string drawn(const std::string& commands, PictureFormat format) {
   ProgramRun run;
   try {
-    run = run_program({"gnuplot", "-d"}, commands, time_limit);  // without ~/.gnuplot
+    run = run_program({"gnuplot", "-d"}, commands, time_limit);  // -d: without ~/.gnuplot
   } catch (const std::system_error& error) {
     throw GnuplotError(fmt::format("what gnuplot reads and writes does not fit: {}", error.code().message()));
   }
@@ -493,7 +495,7 @@ std::string substitute_of(const std::string& font) {
   constexpr std::array any{"sans", "sans-serif", "serif", "mono", "monospace"};
   std::string substitute, name = lower(font);
   if (std::ranges::find(any, name) != any.end()) return "";
-  // The last words of a name may be of its style: bold, italic.
+  // The last words of a name may be a style, such as bold or italic.
   for (;; name.resize(name.find_last_of(' '))) {
     const ProgramRun run = run_program({"fc-match", "--format=%{family}", name.c_str()}, "", time_limit);
     if (!run.succeeded()) return "";

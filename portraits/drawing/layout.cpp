@@ -25,7 +25,7 @@ double value(const Axis& axis, double fraction) {
   return axis.low + fraction * (axis.high - axis.low);
 }
 
-/// The part [from, to] of the way from a to b that lies in the unit square, if there is one (Liang and Barsky).
+/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; false if there is none.
 bool clip(Point a, Point b, double& from, double& to) {
   from = 0;
   to = 1;
@@ -44,7 +44,8 @@ bool clip(Point a, Point b, double& from, double& to) {
   return from < to || (from == to && a.x == b.x && a.y == b.y);
 }
 
-/// Of places on paper: std::hypot would guard squares that do not overflow, and take several times as long.
+/// Returns the distance of two places on paper. std::hypot takes several times as long, to avoid an overflow that is
+/// impossible here.
 double distance(Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   return std::sqrt(dx * dx + dy * dy);
@@ -83,7 +84,7 @@ std::vector<Polyline> clipped(const Panel& panel, const Polyline& line) {
       open = false;
       continue;
     }
-    // The ends of the line itself as they are; the others on the border.
+    // Keep the ends of the line exactly; compute the others on the border.
     const auto at = [&](double t) { return from_paper(panel, between(a, b, t)); };
     if (!open) parts.push_back({from == 0 ? line[i - 1] : at(from)});
     parts.back().push_back(to == 1 ? line[i] : at(to));
@@ -96,7 +97,6 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
   if (line.size() < 3) return line;
   std::vector<Point> places;
   for (const Point& point : line) places.push_back(on_paper(panel, point));
-  // Douglas and Peucker.
   std::vector<bool> kept(line.size(), false);
   kept.front() = kept.back() = true;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
@@ -107,7 +107,7 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
     std::size_t middle = first;
     for (std::size_t i = first + 1; i < last; ++i) {
       const double off = off_chord(places[first], places[last], places[i]);
-      // Of equal ones the first, whatever the last digits.
+      // Among equal distances take the first, independent of the last digits.
       constexpr double same = 1e-9;
       if (off > max_off * (1 + same)) {
         max_off = off;
@@ -156,7 +156,7 @@ Arrow arrow_along(const Panel& panel, const Polyline& line, double fraction) {
 std::optional<Arrow> short_arrow(const Panel& panel, const Box& box, const Arrow& arrow) {
   constexpr double length_mm = 0.5;
   const Point at = on_paper(panel, arrow.at);
-  // On a logarithmic axis a direction is that of a small step.
+  // On a logarithmic axis the direction is the derivative of the logarithm.
   const auto step = [](const Axis& axis, double from, double change) {
     return axis.logarithmic ? change / from / std::log(axis.high / axis.low) : change / (axis.high - axis.low);
   };
@@ -210,13 +210,13 @@ Point panel_size(const PaperSize& figure, int panels) {
 
 namespace {
 
-/// A text in lines of at most that many sizes of letters.
+/// Breaks a text into lines of at most a width, in sizes of letters.
 std::vector<Text> broken(const Text& text, double width) {
   std::vector<Text> lines, words(1);
   for (const Run& run : text.runs()) {
     for (std::size_t begin = 0; begin <= run.words.size();) {
       std::size_t end = std::min(run.words.find(' ', begin), run.words.size());
-      // Of several spaces one is a place to break.
+      // Several spaces are one place to break.
       while (end + 1 < run.words.size() && run.words[end + 1] == ' ') ++end;
       words.back() += Text(Run{run.words.substr(begin, end - begin), run.italic, run.level});
       if (end < run.words.size()) words.emplace_back();
@@ -233,10 +233,10 @@ std::vector<Text> broken(const Text& text, double width) {
   return text.empty() ? std::vector<Text>{} : lines;
 }
 
-/// Sizes of letters, in which lengths below are given: of a line of text.
+/// Height of a line of text. Lengths below are in sizes of letters.
 constexpr double line_height = 1.45;
 
-/// The ticks of an axis of that length, as many as leave room between their texts.
+/// Returns the ticks of an axis of a length: as many as leave room between their texts.
 std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
   const auto room = [&](const Text& text) { return upright ? 1.5 : tick_size * text_width(text) + 1.2; };
   std::vector<Axis::Tick> all = axis.ticks;
@@ -252,7 +252,8 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
     for (double pieces = std::max(2.0, length / (upright ? 3 : 5));; pieces *= 0.75) {
       all.clear();
       const double step = round_step(range, pieces);
-      const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(end / step))) + 1, 5, 15);  // two differ
+      // So that two ticks differ.
+      const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(end / step))) + 1, 5, 15);
       for (double at : multiples(axis.low - 1e-6 * step, axis.high + 1e-6 * step, step)) {
         all.push_back({at, number(std::abs(at) < 1e-9 * step ? 0 : at, digits)});
       }
@@ -261,7 +262,7 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
       if (all.size() <= 2 || widest <= length * step / range) return all;
     }
   }
-  // Those that keep off the ones before.
+  // Drop ticks that overlap the one before.
   std::vector<Axis::Tick> kept;
   double free = -1e300;
   for (const Axis::Tick& tick : all) {
@@ -345,7 +346,7 @@ class Compositor {
     const int count = static_cast<int>(figure_.panels.size());
     const int columns = std::min(panel_columns(width * em_, count), figure_.max_columns), rows = count / columns;
     const double strip = width / columns;
-    // Heights first: ticks of y-axes follow from them, and margins from those.
+    // Heights come first: the ticks of y axes follow from them, and the margins from the ticks.
     double above = 0.5, below = 0.5;
     for (const Panel& panel : figure_.panels) {
       above = std::max(above, 0.7 + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
@@ -382,8 +383,9 @@ class Compositor {
     }
   }
 
-  /// @param box   in which it lies
-  /// @param left  of the strip that is its own
+  /// Places a panel.
+  /// @param box   rectangle between its axes
+  /// @param left  left edge of the panel's strip
   void panel(int i, Box box, double left, double strip) {
     const Panel& panel = figure_.panels[i];
     PanelPlace& place = layout_.panels[i];
@@ -406,7 +408,7 @@ class Compositor {
     const std::vector<Text> title = broken(panel.title, strip - 1);
     double y = box.bottom + box.height + 0.5 + line_height * (static_cast<double>(title.size()) - 0.5);
     for (const Text& line : title) {
-      // Inside its strip.
+      // Keep the title inside the strip.
       const double half = text_width(line) / 2;
       text(line, std::clamp(middle, left + half, std::max(left + half, left + strip - half)), y);
       y -= line_height;
@@ -431,7 +433,7 @@ class Compositor {
     const double bottom = layout_.panels.back().box.bottom / em_;
     const Box& first = layout_.panels.front().box;
     const double total = (first.bottom + first.height) / em_ - bottom;
-    // Beside the panels: those to scale may be narrower than their room.
+    // The bar stands next to the panels, which may be narrower than their room if they are to scale.
     double left = 0;
     constexpr double gap = 1.6;
     for (const PanelPlace& place : layout_.panels)
@@ -445,7 +447,7 @@ class Compositor {
       y -= line_height;
     }
     const auto count = static_cast<double>(bar.colours.size());
-    constexpr double overlap = 0.04;  // so that there is no seam between them
+    constexpr double overlap = 0.04;  // overlap, so that there is no seam
     for (double i = 0; i < count; ++i) {
       const double from = height * i / count;
       layout_.colours.push_back(mm(left, bottom + from, 1, std::min(height / count + overlap, height - from)));
@@ -474,7 +476,7 @@ Figure trimmed(Figure figure) {
 }
 
 void widen(Figure& figure, std::size_t panel, double times) {
-  // Twice: other numbers beside the ticks leave another width.
+  // Two rounds, because other numbers at the ticks change the width.
   for (int i = 0; i < 2; ++i) {
     const Box box = lay_out(figure).panels[panel].box;
     Axis &x = figure.panels[panel].x, &y = figure.panels[panel].y;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double points_per_mm = 72.27 / 25.4;
 
-/// Signs beyond Latin letters, each with its mathematics.
+/// Characters beyond Latin letters, each with its mathematics.
 constexpr std::string_view signs =
     " α\\alpha β\\beta γ\\gamma δ\\delta ε\\varepsilon ζ\\zeta η\\eta θ\\theta ι\\iota κ\\kappa"
     " λ\\lambda μ\\mu ν\\nu ξ\\xi π\\pi ρ\\rho σ\\sigma ς\\varsigma τ\\tau υ\\upsilon φ\\varphi"
@@ -30,7 +30,7 @@ constexpr std::string_view signs =
     " Ω\\Omega ·\\cdot{} ×\\times ∝\\propto ∞\\infty ≤\\le ≥\\ge →\\to −- ±\\pm °{}^\\circ …\\ldots"
     " ′' || << >> ";
 
-/// A character of a text, or of mathematics, as TeX has it.
+/// Returns a character of a text, or of mathematics, as TeX.
 std::string tex_character(std::string_view one, bool mathematics) {
   const auto first = static_cast<unsigned char>(one.front());
   if (one == no_break_space) return "~";
@@ -40,7 +40,7 @@ std::string tex_character(std::string_view one, bool mathematics) {
     return mathematics ? fmt::format("{}{}", math, math[0] == '\\' ? " " : "")
                        : fmt::format("\\ensuremath{{{}}}", math);
   }
-  if (first >= 0xC3 && first <= 0xC5 && one.size() == 2) return std::string(one);  // Latin with accents
+  if (first >= 0xC3 && first <= 0xC5 && one.size() == 2) return std::string(one);  // Latin letters with accents
   if (first >= 0x80) {
     throw std::domain_error(fmt::format(
         "pgfplots: LaTeX has no letter for '{}': leave it out of the title, or write svg or pdf, which have all", one));
@@ -110,7 +110,7 @@ class Writer {
     fmt::format_to(std::back_inserter(tex_), format, std::forward<Values>(values)...);
   }
 
-  /// The name of a colour, which the picture defines before all else.
+  /// Returns the name of a colour; the picture defines all colours first.
   std::string name(Colour colour) {
     used_.insert(colour.rgb);
     return fmt::format("c{:06X}", colour.rgb);
@@ -143,16 +143,16 @@ class Writer {
         axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
-  /// Coordinates along an axis: those of its data (of a logarithmic one their powers of ten), in a unit that TeX's fixed
-  /// point holds.
+  /// The coordinates along an axis: the data, or on a logarithmic axis their powers of ten, in a unit that TeX's fixed
+  /// point can represent.
   struct Coordinates {
     Axis axis;
-    double origin = 0, unit = 1;  ///< of data
-    double mm, start;             ///< of a unit; of 0, on the page
-    int digits;                   ///< behind the point, for hundredths of mm
+    double origin = 0, unit = 1;  ///< in data
+    double mm, start;             ///< mm of a unit; place of 0 on the page
+    int digits;                   ///< digits behind the point, for hundredths of mm
 
     Coordinates(const Axis& of, double from_mm, double side_mm) : axis(of) {
-      constexpr double least = 0.2, most = 500, farthest = 20;  // of a side, and away from it, in its units
+      constexpr double least = 0.2, most = 500, farthest = 20;  // of a side, and distance from it, in units of the side
       const auto [low, high] = std::pair(data(axis.low), data(axis.high));
       const double side = high - low;
       if (side < least || side > most) unit = std::pow(10, std::floor(std::log10(side)));
@@ -165,7 +165,7 @@ class Writer {
     double data(double value) const { return axis.logarithmic ? std::log10(value) : value; }
     std::string operator()(double value) const { return fmt::format("{:.{}f}", (data(value) - origin) / unit, digits); }
 
-    /// What they are, where they are not the data's own.
+    /// Returns a comment about the unit, if it is not that of the data.
     std::string remark(char name) const {
       std::string words;
       if (axis.logarithmic) words += fmt::format(", log10 {}", name);
@@ -175,7 +175,7 @@ class Writer {
     }
   };
 
-  /// pgfplots draws the axes; what is in them is placed by TikZ, in units of the axes, which is faster by far.
+  /// Draws a panel: pgfplots draws the axes, TikZ the contents in units of the axes, because that is much faster.
   void panel(std::size_t i) {
     const Panel& panel = figure_.panels[i];
     const Box& box = layout_.panels[i].box;
@@ -216,13 +216,13 @@ class Writer {
         if (!head) continue;
         const Point tail = on_paper(panel, head->at), tip = on_paper(panel, arrow.at);
         const double back_x = (tail.x - tip.x) * box.width, back_y = (tail.y - tip.y) * box.height;
-        // mm on paper, so far back from the tip and so far to the left of it
+        // Returns the point some mm on paper behind the tip, and some to its left.
         const double length = layer.size * head_length * layout_.letter / std::hypot(back_x, back_y);
         const auto corner = [&](double back, double left) {
           return fmt::format("({:.4f}mm,{:.4f}mm)", length * (back * back_x + left * back_y),
                              length * (back * back_y - left * back_x));
         };
-        // A head that needs none of TikZ's libraries.
+        // This head needs no TikZ library.
         const double half = 0.325, notch = 0.7;
         put("\\fill[{}] {}--+{}--+{}--+{}--cycle;\n", name(layer.colour), at(arrow.at), corner(1, half),
             corner(notch, 0), corner(1, -half));
@@ -245,7 +245,7 @@ class Writer {
 
   const Figure& figure_;
   Layout layout_;
-  std::set<unsigned> used_;  ///< colours
+  std::set<unsigned> used_;  ///< rgb of the colours
   std::string tex_;
 };
 

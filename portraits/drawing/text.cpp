@@ -60,7 +60,7 @@ Text operator+(Text text, const Text& more) {
 }
 
 Text& Text::operator+=(const Text& text) {
-  const std::vector<Run> more = text.runs_;  // it may be this one
+  const std::vector<Run> more = text.runs_;  // a copy, because `text` may be *this
   for (const Run& run : more) append(run);
   return *this;
 }
@@ -86,7 +86,7 @@ Text sub(const Text& text) { return at_level(text, -1); }
 Text sup(const Text& text) { return at_level(text, 1); }
 
 double text_width(const Text& text) {
-  constexpr double small = 0.8;  // of an index or a power
+  constexpr double small = 0.8;  // size of an index or a power
   double width = 0;
   for (const Run& run : text.runs()) {
     for (const std::string_view character : characters(run.words)) {

@@ -6,22 +6,23 @@
 
 namespace contensou::portraits {
 
-/// How a program ended that was run.
+/// The end of a program that was run, and its output.
 struct ProgramRun {
   enum class End { exited, not_run, out_of_time, ended_by_signal };
 
   End end;
-  int number;  ///< its status, or that of the signal
+  int number;  ///< exit status, or number of the signal
   std::string output, messages;
 
   bool succeeded() const { return end == End::exited && number == 0; }
 };
 
-/// Runs a program, found on PATH, in no language. It ends with this one. No shell and no file on a disk is used.
-/// @param command  its name and arguments
-/// @param input    that it reads
-/// @param seconds  that it may take
-/// @throws std::system_error  if there is no room in memory for what it reads and writes
+/// Runs a program found on PATH, in the locale C.UTF-8. The program ends when this one does. It uses no shell and no
+/// file on a disk.
+/// @param command  name and arguments
+/// @param input    standard input of the program
+/// @param seconds  time limit
+/// @throws std::system_error  if memory cannot hold its input or output
 ProgramRun run_program(std::vector<const char*> command, std::string_view input, unsigned seconds);
 
 }  // namespace contensou::portraits

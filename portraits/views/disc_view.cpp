@@ -1,4 +1,4 @@
-// The whole half-plane in one picture: the Poincare disc, and the same with the origin blown up.
+// The whole half-plane in one picture: the Poincare disc, also with the origin blown up.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,10 +14,10 @@ using std::numbers::pi;
 
 namespace {
 
-/// A polar map of the half-plane of the patch, rho = hypot(mu u, v) and theta = atan(k), onto a half-disc or a
-/// half-annulus of outer radius 1.
+/// A polar map of the half-plane of the patch onto a half-disc or half-annulus of outer radius 1. rho is hypot(mu u, v)
+/// and theta is atan(k).
 struct PolarMap {
-  double unit;  ///< the speed in whose units rho is measured
+  double unit;  ///< unit of rho, a speed
   double hole;  ///< radius of the half-circle that the origin is blown up to
 
   double radius(double rho) const {
@@ -45,7 +45,7 @@ Polyline half_circle(double radius) {
   return line;
 }
 
-/// Singular points by kind, on the circle at infinity and on the origin's.
+/// Adds singular points by kind, on the circle at infinity and on that of the origin.
 void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   using reduction::SingularKind;
   using reduction::SingularPlace;
@@ -67,9 +67,9 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   kind(SingularKind::degenerate, Marks::Shape::square, "degenerate");
 }
 
-/// The way of the motion along the circles of the points at infinity and of the blown-up origin.
+/// Adds the directions of motion along the circles of the points at infinity and of the blown-up origin.
 void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
-  std::vector<double> angles{0};  // of the invariant half-lines and of v = 0, from there to u = 0
+  std::vector<double> angles{0};  // of v = 0 and the invariant half-lines, up to u = 0
   for (const reduction::SingularPoint& point : drawing.portrait.plane.points) {
     const double angle = std::atan(point.k);
     if (angle > angles.back()) angles.push_back(angle);
@@ -80,7 +80,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
     const double middle = (angles[i] + angles[i + 1]) / 2;
     const double k = std::tan(middle);
     const auto [force, moment] = system.law()(reduction::slip_of_ratio(k));
-    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // of theta
+    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // direction of theta
     for (double sign : {1.0, -1.0}) {
       for (double rho : {0.0, infinity}) {
         if (rho == 0 && map.hole == 0) continue;
@@ -97,7 +97,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const double mu = portrait.system().mu();
   const PolarMap map{portrait.window.v, hole};
   Panel panel;
-  // Labels keep off the marks, however small the panel.
+  // Labels avoid the marks, however small the panel is.
   const double letter = drawing.letter / std::min(drawing.panel_mm.x / 2.26, drawing.panel_mm.y / 1.26);
   const double off = std::max(0.075, 0.62 * letter), margin = std::max(0.13, off + 0.5 * letter);
   panel.x = {"", -1 - 0.13, 1 + 0.13, false, {}};
@@ -123,7 +123,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   PortraitPanel layers(drawing, std::move(panel), {place, state});
   layers.set_arrows(0.4, 1);
   const auto copies = [&](const PortraitOrbit& curve) {
-    // Across k = 1 at even steps of the radius.
+    // Orbits cross k = 1 at equal steps of the radius.
     const int count = drawing.crowd(10);
     const Instant at = at_log_ratio(curve, 0);
     const double rho = std::hypot(mu * at.u, at.v);

@@ -21,7 +21,8 @@ constexpr Colour law_guide{0x888888};
 constexpr Colour law_force{0x0b4f8a};
 constexpr Colour law_moment{0xb3003b};
 
-/// The look of a law's curves, also in grey: the exact law solid and heavy, its approximation dashed, others otherwise.
+/// Returns the look of a law's curves, distinct in grey: the exact law solid and heavy, its approximation dashed,
+/// others otherwise.
 Stroke stroke_of(const reduction::Law& law, Colour colour) {
   if (law.as<reduction::HertzLaw>()) return {colour, 2.4};
   if (law.as<reduction::PadeLaw>()) return {colour, 1.6, true};
@@ -52,7 +53,7 @@ Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size
     const Text force = math("Φ") + ", " + name, moment = math("Ψ") + ", " + name;
     panel.lines.push_back({{curve(law, &reduction::Resistance::force)}, stroke_of(law, law_force), force});
     panel.lines.push_back({{curve(law, &reduction::Resistance::moment)}, stroke_of(law, law_moment), moment});
-    // Moments are told from forces by circles.
+    // Circles distinguish moments from forces.
     const Polyline& line = panel.lines.back().lines.front();
     Marks circles{{}, law_moment, 0.7, Marks::Shape::circle, moment};
     for (std::size_t i = line.size() / 16; i < line.size(); i += line.size() / 8) circles.points.push_back(line[i]);

@@ -21,7 +21,7 @@ std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count
   return result;
 }
 
-/// Into how many bands an interval is cut: steps are 1, 2 or 5 times a power of ten in the unit of the bar.
+/// Returns the number of bands of an interval whose steps are 1, 2 or 5 times a power of ten in the unit of the bar.
 std::size_t bands_per(double interval, double unit) {
   for (std::size_t count : {3, 4, 5, 2}) {
     constexpr double same = 1e-6;
@@ -31,7 +31,7 @@ std::size_t bands_per(double interval, double unit) {
   return 1;
 }
 
-/// Equal bands, some for each interval.
+/// Returns equal bands, some for each interval.
 TimeBands linear_bands(double longest, double interval, double unit, const Palette& palette) {
   const std::size_t per_interval = bands_per(interval, unit);
   TimeBands bands;
@@ -61,7 +61,8 @@ Colour viridis(double fraction, double white) {
 Palette palette(bool screen) {
   std::vector<Colour> times;
   constexpr int steps = 64;
-  // Near the stop: on paper the darkest, on a dark screen the lightest. All have 3:1 to the ground, regions included.
+  // Times next to the stop are darkest on paper and lightest on a dark screen. All have a contrast of 3:1 with the
+  // ground and with regions.
   for (int i = 0; i <= steps; ++i) {
     const double fraction = static_cast<double>(i) / steps;
     times.push_back(viridis(screen ? 1 - 0.6 * fraction : 0.55 * fraction));
@@ -99,7 +100,7 @@ TimeBands bands_of(double longest, std::vector<double> isochrones, double step, 
 
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette) {
   constexpr int per_decade = 6;
-  // Edges at sixths of decades in the unit that the bar is marked in.
+  // Edges are sixths of decades in the unit of the bar.
   const int top = static_cast<int>(std::ceil(per_decade * std::log10(longest / unit)));
   TimeBands bands;
   for (int i = static_cast<int>(std::floor(per_decade * std::log10(shortest / unit))); i < top; ++i) {
@@ -116,7 +117,7 @@ ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
   for (std::size_t band : bands.marked) begins.push_back(bands.begin(band) / caption.time_unit);
   const bool equal = begins.front() == 0;
   const std::vector<Text> powers = equal ? std::vector<Text>{} : powers_of_ten(begins);
-  // Bands are equal on the bar.
+  // Bands have equal heights on the bar.
   for (std::size_t i = 0; i < begins.size(); ++i) {
     bar.ticks.push_back({static_cast<double>(bands.marked[i]) / static_cast<double>(bands.colours.size()),
                          equal ? number(begins[i]) : powers[i]});

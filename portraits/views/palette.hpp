@@ -10,47 +10,48 @@
 
 namespace contensou::portraits {
 
-/// The colours of what portraits are made of. Lightness tells the times apart, so they survive in grey.
+/// The colours of portraits. Times differ in lightness, so that they remain distinct in grey.
 struct Palette {
   Theme theme;
   Colour orbit, comparison, highlight, invariant, isochrone, field, region;
-  std::vector<Colour> times;  ///< from the stop on
+  std::vector<Colour> times;  ///< colours of times left, from the stop on
 };
 
 Palette palette(bool screen);
 
-/// Viridis, from dark to light in steps that eyes of any kind see as equal.
-/// @param fraction  of the way, 0 to 1
-/// @param white  fraction of white that is mixed in
+/// Returns a colour of Viridis, from dark to light in steps that all viewers see as equal.
+/// @param fraction  place between dark and light, 0 to 1
+/// @param white     fraction of white that is added
 Colour viridis(double fraction, double white = 0);
 
-/// Times left cut into bands, each of one colour.
+/// Times left in bands of one colour each.
 struct TimeBands {
   std::vector<double> edges;        ///< increasing, between bands
   std::vector<Colour> colours;      ///< one more than edges
-  std::vector<std::size_t> marked;  ///< bands that the colour bar names the beginning of
+  std::vector<std::size_t> marked;  ///< bands at whose beginning the colour bar has a number
   std::vector<double> arrows;       ///< times left at which orbits have an arrow head
 
   std::size_t band(double tau) const;
   double begin(std::size_t band) const { return band == 0 ? 0 : edges[band - 1]; }
 };
 
-/// Bands that change at isochrones: some equal ones for each interval where they are multiples of a step, in round steps of
-/// the unit where that is round; else one between each two.
-/// @param longest     time that is shown, in tau
-/// @param isochrones  times of isochrones; none: about four intervals
-/// @param step        of them; 0: none
+/// Returns bands that change at isochrones. If isochrones are multiples of a step, each interval has some equal bands,
+/// in round steps of the unit if possible; else there is one band between two isochrones.
+/// @param longest     longest visible time, in tau
+/// @param isochrones  times of isochrones; if empty, about four intervals
+/// @param step        step of the isochrones; 0: none
 TimeBands bands_of(double longest, std::vector<double> isochrones, double step, double unit, const Palette& palette);
 
-/// Bands of equal ratio from the shortest time to the longest, in tau, with edges at round multiples of the unit.
+/// Returns bands of equal ratio from the shortest time to the longest, in tau, with edges at round multiples of the
+/// unit.
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette);
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption);
 
-/// The time left in a legend, with its symbol and unit.
+/// Returns the legend text for the time left, with its symbol and unit.
 Text time_left(const PortraitCaption& caption);
 
-/// The orbit of the start that is asked for is heavier than those through points.
+/// Returns the stroke of requested orbits; the orbit of the start is heavier than those through points.
 inline Stroke asked_stroke(const Palette& palette, bool of_start) { return {palette.highlight, of_start ? 3.4 : 2.0}; }
 
 inline constexpr const char* through_legend = "through the points given";

@@ -1,4 +1,4 @@
-// Layers of a panel: isochrones, and where their labels have room.
+// Layers of a panel: isochrones and their labels.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,29 +12,31 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Of places with equal room the first, whatever the last digits: portraits have two equal halves.
+/// Compares rooms so that among places with equal room the first wins, independent of the last digits. Portraits have
+/// two equal halves.
 bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
 
-/// Where a label of that size has most room: the candidate that is farthest, in half widths or half heights, from
-/// points that it keeps off; from other labels it is far enough everywhere.
+/// The place for a label of a size with most room. Room is the distance, in half widths or half heights, from the
+/// points that the label avoids. Other labels only need to be far enough away.
 class LabelPlace {
  public:
   LabelPlace(double half_width, double half_height) : half_width_(half_width), half_height_(half_height) {}
 
-  /// @param points     on paper, by growing x
-  /// @param labels     on paper; others of about the same size, which need more room
-  /// @param middle     x of a line to keep off
+  /// Tries a place.
+  /// @param points  points on paper by increasing x
+  /// @param labels  places of other labels on paper, of about the same size, which need more room
+  /// @param middle  x of a line to avoid
   void try_at(Point at, const std::vector<Point>& points, const std::vector<Point>& labels, double middle) {
     constexpr double spare = 2.2;
     double room = std::min(max_room, std::abs(middle - at.x) / half_width_);
     for (const Point& other : labels) room = std::min(room, distance(at, other) / spare);
     if (room < 1) return;
-    // Over the border only where there is nothing better.
+    // A place over the border is the last choice.
     constexpr double over = 0.05;
     const double edge = std::min(std::min(at.x, 1 - at.x) / half_width_, std::min(at.y, 1 - at.y) / half_height_);
     room = std::min(room, std::max(edge, over));
     if (!is_more(room, best_)) return;
-    // From the nearest along x on, both ways: what is farther along x than the room that is left does not matter.
+    // Search from the nearest point along x in both directions. Points beyond the room left along x have no effect.
     const auto here = std::ranges::lower_bound(points, at.x, {}, &Point::x);
     const auto matters = [&](Point other) {
       return is_more(room, best_) && std::abs(other.x - at.x) < room * half_width_;
@@ -52,7 +54,7 @@ class LabelPlace {
   Point where() const { return where_; }
 
  private:
-  static constexpr double max_room = 2;  ///< beyond which nobody looks
+  static constexpr double max_room = 2;  ///< more room than this has no value
 
   double distance(Point a, Point b) const {
     return std::max(std::abs(a.x - b.x) / half_width_, std::abs(a.y - b.y) / half_height_);
@@ -65,7 +67,7 @@ class LabelPlace {
 
 }  // namespace
 
-/// Points on paper that labels keep off, by growing x: orbits, also those that are drawn later on top, and arrows.
+/// Returns points on paper that labels avoid, by increasing x: orbits, also those drawn later on top, and arrows.
 std::vector<Point> PanelLayers::obstacles(const std::vector<Polyline>& crossed) const {
   std::vector<Point> points = heads_;
   const auto add = [&](const Polyline& line) {
@@ -86,7 +88,7 @@ void PanelLayers::add_isochrones(const std::vector<TimedPiece>& pieces, const Te
   for (auto piece = pieces.begin(); piece != pieces.end();) {
     const double time = piece->time;
     const Text text = number(time / unit);
-    // On the right where there is room, so that numbers stand one above the other; else wherever; else over a line.
+    // First choice: on the right, so that numbers stand above one another; then anywhere; then over a line.
     LabelPlace right(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
                      look_.letter * 0.7 / look_.panel_mm.y);
     LabelPlace anywhere = right;

@@ -25,7 +25,7 @@ std::vector<Point> PanelLayers::on_paper_along(const Polyline& line, double step
 }
 
 void PanelLayers::add_coloured(const std::vector<TimedLine>& orbits) {
-  // A piece of line for each band that an orbit crosses; one layer for each band, the last moments on top.
+  // Each band that an orbit crosses has a part of the line; each band is a layer, the last times on top.
   const TimeBands& bands = look_.bands;
   std::map<std::size_t, std::vector<Polyline>, std::greater<>> layers;
   std::map<std::size_t, Arrows, std::greater<>> heads;
@@ -74,7 +74,8 @@ void PanelLayers::add_points(const std::vector<Point>& points) {
   }
 }
 
-/// Heads where equal times are left, halfway between isochrones; at least one on an orbit, where it is seen best.
+/// Returns heads at equal times left, halfway between isochrones, and at least one on an orbit, where it is most
+/// visible.
 std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orbit) {
   const Polyline& line = orbit.line;
   const std::vector<double>& times = orbit.left;
@@ -92,7 +93,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
     heads_.push_back(at);
     return true;
   };
-  // With the time of the nearest row.
+  // Record the arrow with the time of the nearest row.
   const auto add_there = [&](const Arrow& arrow) {
     if (!has_room(arrow)) return;
     const auto nearest =
@@ -100,7 +101,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
     result.push_back({arrow, times[static_cast<std::size_t>(nearest - line.begin())]});
   };
   if (arrows_ == Style::time) {
-    // In the order of the motion, along which the time left falls.
+    // The order is that of the motion, along which the time left decreases.
     for (auto time = look_.bands.arrows.rbegin(); time != look_.bands.arrows.rend(); ++time) {
       const auto place = std::ranges::lower_bound(times, *time, std::greater<>());
       if (place == times.begin() || place == times.end()) continue;
@@ -140,7 +141,7 @@ void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)
   constexpr double cell_mm = 6.5;
   const int columns = static_cast<int>(look_.panel_mm.x / cell_mm), rows = static_cast<int>(look_.panel_mm.y / cell_mm);
   struct Needle {
-    Point at, direction;  ///< on paper, the direction of length 1
+    Point at, direction;  ///< on paper, direction of length 1
     double size;
   };
   std::vector<Needle> needles;

@@ -17,7 +17,7 @@ constexpr Colour velocity_colour{0x0b4f8a};
 constexpr Colour force_colour{0xb3003b};
 constexpr Colour patch_colour{0xb9cfe4};
 
-/// An ellipse's arc; angles counter-clockwise from the x axis.
+/// Returns an arc of an ellipse; angles are counter-clockwise from the x axis.
 Polyline arc(Point centre, double rx, double ry, double from, double to) {
   constexpr int pieces = 90;
   Polyline line;
@@ -28,10 +28,10 @@ Polyline arc(Point centre, double rx, double ry, double from, double to) {
   return line;
 }
 
-/// A drawing as it grows.
+/// A drawing to which parts are added.
 class Sketch {
  public:
-  /// @param usual  size, whose shape is kept unless both sides are asked for
+  /// @param usual  size whose shape is kept unless both sides are requested
   Sketch(Text title, Text subtitle, const PaperSize& usual, const AskedSize& size) {
     figure_.title = std::move(title);
     figure_.subtitle = std::move(subtitle);
@@ -46,7 +46,7 @@ class Sketch {
     panel_.labels.push_back({at, std::move(text), colour, align});
   }
 
-  /// A line that ends in an arrow head.
+  /// Adds a line that ends in an arrow head.
   void arrow(Polyline shaft, Colour colour, double width) {
     const Point& tip = shaft.back();
     const Point& before = shaft[shaft.size() - 2];
@@ -54,13 +54,13 @@ class Sketch {
     line(std::move(shaft), {colour, width, false});
   }
 
-  /// With a head at either end.
+  /// Adds a line with a head at each end.
   void distance(Point from, Point to) {
     arrow({from, to}, guide, 1);
     panel_.arrows.push_back({{{from, {from.x - to.x, from.y - to.y}}}, guide});
   }
 
-  /// The figure, to scale, of that size about a middle.
+  /// Returns the figure to scale, of a size, about a middle.
   Figure framed(Point middle, double width, double height) {
     panel_.x = {"", middle.x - width / 2, middle.x + width / 2, false, {}};
     panel_.y = {"", middle.y - height / 2, middle.y + height / 2, false, {}};
@@ -77,7 +77,7 @@ class Sketch {
 }  // namespace
 
 Figure patch_drawing(const AskedSize& size) {
-  // Unit of length: eps. The slip of the patch's centre points along x.
+  // The unit of length is eps. The patch's centre slips along x.
   constexpr double h = 1.65;
   constexpr Point O{0, 0};
   constexpr Point C{0, -h};
@@ -88,7 +88,7 @@ Figure patch_drawing(const AskedSize& size) {
   const auto polar = [&](double r, double theta) {
     return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)};
   };
-  // Hatched lightly, so that the patch is seen as a face.
+  // Light hatching shows that the patch is a face.
   for (int i = -18; i <= 18; ++i) {
     const double x = i / 18.5;
     const double half = std::sqrt(1 - x * x);
@@ -103,7 +103,7 @@ Figure patch_drawing(const AskedSize& size) {
   sketch.line(arc(C, 0.62, 0.62, pi / 2, pi / 2 + last), {guide, 1, false});
   sketch.label({C.x - 0.15, C.y + 0.47}, math("θ*"), guide);
 
-  // A chord and an element on it.
+  // Draw a chord and an element on it.
   constexpr double theta = 0.33;
   const double middle = h * std::cos(theta);
   const double half = std::sqrt(1 - h * std::sin(theta) * (h * std::sin(theta)));
@@ -126,13 +126,13 @@ Figure patch_drawing(const AskedSize& size) {
   }
   sketch.line(element, {ink, 1.6, false});
   const Point P = polar(r, theta);
-  const Point along{std::cos(theta), -std::sin(theta)};  // of the slip there
+  const Point along{std::cos(theta), -std::sin(theta)};  // direction of the slip there
   sketch.arrow({P, {P.x + 0.55 * along.x, P.y + 0.55 * along.y}}, velocity_colour, 1.8);
   sketch.arrow({P, {P.x - 0.42 * along.x, P.y - 0.42 * along.y}}, force_colour, 2.2);
   sketch.label({P.x - 0.5 * along.x, P.y - 0.5 * along.y + 0.1}, math("dF"), force_colour);
   sketch.label({P.x + 0.72 * along.x, P.y + 0.72 * along.y - 0.01}, math("ω r"), velocity_colour);
 
-  // The motion of the patch.
+  // Draw the motion of the patch.
   sketch.arrow({O, {0.78, 0}}, velocity_colour, 2.4);
   sketch.label({0.72, -0.13}, math("v"), velocity_colour);
   sketch.arrow(arc(O, 0.27, 0.27, pi * 1.05, pi * 0.2), velocity_colour, 1.6);
@@ -144,13 +144,13 @@ Figure patch_drawing(const AskedSize& size) {
   sketch.dot(C);
   sketch.label({0.14, C.y - 0.06}, math("C"));
 
-  // h, beside the drawing.
+  // Draw h beside the drawing.
   sketch.line({O, {-1.3, 0}}, {guide, 0.7, true});
   sketch.line({C, {-1.3, C.y}}, {guide, 0.7, true});
   sketch.distance({-1.22, -0.02}, {-1.22, C.y + 0.02});
   sketch.label({-1.22, C.y / 2}, math("h = v/ω"));
 
-  // The axes of the plane.
+  // Draw the axes of the plane.
   sketch.arrow({{1.3, C.y}, {1.75, C.y}}, ink, 1.2);
   sketch.arrow({{1.3, C.y}, {1.3, C.y + 0.45}}, ink, 1.2);
   sketch.label({1.82, C.y + 0.02}, math("x"));
@@ -159,7 +159,7 @@ Figure patch_drawing(const AskedSize& size) {
 }
 
 Figure ball_drawing(const AskedSize& size) {
-  // Unit of length: R. The plane is seen from above at an angle.
+  // The unit of length is R. The plane is seen from above at an angle.
   constexpr double depth_x = 0.6;
   constexpr double depth_y = 0.27;
   const auto seen = [](double x, double y) { return Point{x + depth_x * y, depth_y * y}; };
@@ -171,7 +171,7 @@ Figure ball_drawing(const AskedSize& size) {
   // The ball hides what lies behind its outline, the circle of radius 1 about (0, 1).
   constexpr double long_side = 1.3;
   constexpr double short_side = 1.6;
-  const auto enters = [](double x) {  // y at which the line y -> (x, y, 0) meets the outline
+  const auto enters = [](double x) {  // returns the y at which the line (x, y, 0) meets the outline
     const double square = depth_x * depth_x + depth_y * depth_y;
     const double linear = depth_y - x * depth_x;
     return (linear - std::sqrt(linear * linear - square * x * x)) / square;
@@ -185,7 +185,7 @@ Figure ball_drawing(const AskedSize& size) {
                {hidden, far_right.y}},
               {guide, 1, false});
 
-  // The spot, a circle of the plane, hatched.
+  // Draw the contact patch, a hatched circle in the plane.
   constexpr double eps = 0.36;
   for (int i = -9; i <= 9; ++i) {
     const double y = eps * i / 9.5;
@@ -196,13 +196,13 @@ Figure ball_drawing(const AskedSize& size) {
   for (const Point& point : arc({0, 0}, eps, eps, 0, 2 * pi)) spot.push_back(seen(point.x, point.y));
   sketch.line(spot, {velocity_colour, 1.6, false});
 
-  // The ball, with its equator: the near half drawn through.
+  // Draw the ball with its equator, whose near half is solid.
   constexpr Point centre{0, 1};
   sketch.line(arc(centre, 1, 1, 0, 2 * pi), {ink, 2.4, false});
   sketch.line(arc(centre, 1, 0.26, pi, 2 * pi), {guide, 0.9, false});
   sketch.line(arc(centre, 1, 0.26, 0, pi), {guide, 0.9, true});
 
-  // Axes through the point of contact: x along the slip.
+  // Draw axes through the point of contact, x along the slip.
   sketch.line({seen(0, 0), {0, 2}}, {guide, 0.9, true});
   sketch.arrow({{0, 2}, {0, 2.55}}, ink, 1.4);
   sketch.arrow({{0, 0}, {1.8, 0}}, ink, 1.4);
@@ -213,7 +213,7 @@ Figure ball_drawing(const AskedSize& size) {
   sketch.label({1.9, 0}, math("x"));
   sketch.label({seen(0, 2.1).x + 0.11, seen(0, 2.1).y + 0.02}, math("y"));
 
-  // Its motion.
+  // Draw the motion of the ball.
   sketch.arrow({seen(0, 0), seen(0.95, 0)}, velocity_colour, 2.6);
   sketch.label({0.86, -0.14}, math("v"), velocity_colour);
   sketch.arrow(arc({0, 2.26}, 0.3, 0.1, -pi * 0.75, pi * 0.85), velocity_colour, 1.8);

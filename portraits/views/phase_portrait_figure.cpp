@@ -41,7 +41,8 @@ bool have_one_law(std::span<const PhasePortrait> portraits) {
       portraits, [&](const PhasePortrait& other) { return law_names(other) == law_names(portraits.front()); });
 }
 
-/// @param unit  of the bar's numbers, in tau
+/// Returns the bands of time of portraits.
+/// @param unit  unit of the bar's numbers, in tau
 TimeBands bands_of(std::span<const PhasePortrait> portraits, double unit, const Palette& palette) {
   double longest = 0, of_highlights = 0;
   std::vector<double> times;
@@ -56,7 +57,7 @@ TimeBands bands_of(std::span<const PhasePortrait> portraits, double unit, const 
   return bands_of(longest, std::move(times), step, unit, palette);
 }
 
-/// What all have in common: the body, and mu or law where there is one.
+/// Returns a title of the properties that all portraits share: the body, and mu or the law.
 Text common_title(std::span<const PhasePortrait> portraits) {
   const PhasePortrait& first = portraits.front();
   Text title = body_name(first.system().inertia());
@@ -96,7 +97,7 @@ Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption, Portr
 
 namespace {
 
-/// The size in which so many planes side by side look best.
+/// Returns the best size for a number of planes side by side.
 PaperSize usual_size(const ViewLayout& layout, std::size_t count) {
   if (count == 1) return {layout.width_mm, layout.height_mm};
   const double width = count == 2 ? 250 : count == 4 ? 190 : 300;
@@ -110,7 +111,7 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   const ViewLayout& layout = layout_of(first.view);
   const int panels = layout.panels_across * static_cast<int>(portraits.size());
   PaperSize usual = usual_size(layout, portraits.size());
-  // Curves that stand one above another, over the same axis, need less height than planes.
+  // Curves one above another over the same axis need less height than planes.
   const bool stacked = style.size.width_mm && panel_columns(*style.size.width_mm, panels) < panels;
   if (shows_moments(first.view) && stacked) usual.height_mm *= 0.6;
   const PaperSize size = fitted(usual, panels, style.size);

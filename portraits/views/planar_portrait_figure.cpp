@@ -1,4 +1,4 @@
-// The plane of any system that has a scaling.
+// The plane of any planar system as a drawing.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -46,7 +46,7 @@ TimeBands bands_of(const PlanarPortrait& portrait, const Palette& palette) {
   return bands_of(longest, std::move(times), step, 1, palette);
 }
 
-/// Rays in the way of the motion, from one border of the panel to the centre or the other way.
+/// Adds rays in the direction of the motion, between the border of the panel and the centre.
 void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
   const auto& [low, high] = portrait.window;
   const reduction::PlanarReduction& plane = portrait.plane;
@@ -126,7 +126,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
       }
       const double speed = rate.cwiseQuotient(sides).norm();
       if (!(speed > 0) || !std::isfinite(speed)) return std::nullopt;
-      constexpr double step = 1e-4;  // of the window
+      constexpr double step = 1e-4;  // a fraction of the window
       return Drift{at, {at.x + step * rate[0] / speed, at.y + step * rate[1] / speed}, speed};
     };
     layers.add_directions(drift, "direction of the motion");

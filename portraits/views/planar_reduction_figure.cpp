@@ -1,4 +1,4 @@
-// The symmetry of any planar system that has a scaling.
+// The symmetry of any planar system with a scaling.
 #include <numbers>
 
 #include "contensou/portraits/reduction_figure.hpp"

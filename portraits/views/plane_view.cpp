@@ -15,11 +15,11 @@ namespace {
 
 using Copies = std::vector<PortraitPanel::Copy>;
 
-/// Ticks of v: round speeds while it slides, below that powers of ten, as far as they are speeds.
+/// Returns ticks of v: round speeds in the linear part, powers of ten below.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
-  constexpr double lowest = 0.12;  // of the linear part
-  // Below, no speed of anything: a place between them and the stop is told by the shading.
+  constexpr double lowest = 0.12;  // below this height the axis is not linear
+  // Smaller powers of ten are no real speeds, and ticks end there.
   constexpr double least_power = -30;
   for (double h : {0.1, 0.2, 0.3, 0.4}) {
     const double decades = scale.ln_v(h) / std::log(10.0);
@@ -35,7 +35,7 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   return ticks;
 }
 
-/// The half-plane with the sides of the window in units of u and v.
+/// Returns a half-plane panel with the window's sides in units of u and v.
 MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
   const auto [U, V] = drawing.portrait.window;
@@ -47,7 +47,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   panel.y = {drawing.speed(math("v")), bottom, top, false, {}};
   if (!scale.linear()) {
     const Text exponent = math("s = ") + number(scale.exponent, 3), power = math("v") + sup(math("s"));
-    // Beside others the panel is small, and has a title.
+    // A panel beside others is small, and has a title.
     const bool beside_others = !drawing.caption.panel.empty();
     panel.y.name +=
         beside_others ? "  (shaded: " + power + ")" : "  (shaded: height as " + power + ", " + exponent + ")";
@@ -72,7 +72,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   layers.add_isochrones();
   layers.add_field();
   layers.add_invariant({{{0, top}, {0, 0}}}, {{{-x, 0}, {0, 0}}, {{x, 0}, {0, 0}}}, [&](double ln_k) {
-    const double slope = std::exp(ln_k) * drawing.portrait.system().mu() / unit;  // v over x
+    const double slope = std::exp(ln_k) * drawing.portrait.system().mu() / unit;  // v divided by x
     return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
   });
   layers.add_highlights();
@@ -81,7 +81,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   return std::move(layers).finished();
 }
 
-/// Copies that pass, at a given ln k, through evenly spaced u of both signs.
+/// Adds copies that pass evenly spaced u of both signs at a given ln k.
 void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double max_u, int count) {
   const double u = at_log_ratio(curve, ln_k).u;
   for (int i = 0; i < count; ++i) {
@@ -104,7 +104,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   panel.x = {drawing.speed(math("u = R ω") + sub(math("z"))), right_half ? 0 : -U, U, false, {}};
   panel.y = {"ln " + math("k") + ",   " + math("k = v/(μ|u|)"), 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
-  // Where orbits are seeded: at the top, or around the middle.
+  // Orbits start at the top or around the middle.
   const double top = std::log(portrait.window.v / (portrait.system().mu() * U));
   const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
@@ -127,7 +127,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
       return result;
     }
     add_evenly(result, curve, top, U, per_side);
-    // Orbits that enter from the sides, evenly down to the bottom.
+    // Add orbits that enter from the sides, evenly down to the bottom.
     const double u = at_log_ratio(curve, top).u;
     for (int i = 1; i <= per_side; ++i) {
       const double factor = std::pow(shrinks, static_cast<double>(i) / (per_side + 0.5));
@@ -135,7 +135,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
     }
     return result;
   };
-  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is below the border
+  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // a place for -infinity below the border
   const PanelMap map{.place =
                          [low](const Instant& at, const Instant&) {
                            return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
@@ -178,8 +178,9 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   const auto log_u = [=](double u) { return std::log(mu * std::abs(u) / V); };
   const bool spins_last = portrait.plane.tangents.front().direction != InvariantDirection::sliding;
   const std::vector<double> rays = ray_log_ratios(portrait);
-  // Around the orbits that were asked for, where they begin and where they cross k = 1: some powers of e, more of them
-  // where the speed that is over first falls. Scaling is a shift along the diagonal, so both axes have one scale.
+  // The panel surrounds the requested orbits, their beginnings and their crossings of k = 1, with a margin of some
+  // powers of e. The margin is larger towards small values of the speed that vanishes first. Scaling is a shift along
+  // the diagonal, so both axes have one scale.
   Panel panel;
   panel.to_scale = true;
   std::vector<double> xs, ys;
@@ -202,13 +203,13 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   panel.x.low = left - (spins_last && rays.empty() ? near : deep);
   panel.y.high = top + (spins_last ? near : rim);
   panel.y.low = bottom - (spins_last || !rays.empty() ? deep : near);
-  // The shape of the page, but not to the left of where copies begin below its top.
+  // The panel has the shape of the page, except left of the beginnings of copies.
   const double height = panel.y.high - panel.y.low, width = panel.x.high - panel.x.low;
   panel.x.low = std::min(panel.x.low, std::max(panel.x.high - broad * height, panel.y.high - upstream_of_copies));
   panel.y.low = std::min(panel.y.low, panel.y.high - width / broad);
   panel.x.name = "ln(" + math("μ|u|/V") + "),  " + math("V = ") + number(V, 4) + " " + drawing.caption.speed_unit;
   panel.y.name = "ln(" + math("v/V") + ")";
-  // Minus infinity is a point far beyond the borders.
+  // Minus infinity becomes a point far beyond the borders.
   const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
   const PanelMap map{
       .place =
@@ -220,7 +221,7 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
       }};
   PortraitPanel layers(drawing, panel, map);
   const auto copies = [&](const PortraitOrbit& curve) {
-    // Translates along the diagonal, evenly across the panel.
+    // Add translates along the diagonal, evenly across the panel.
     const int count = drawing.crowd(14);
     const double w = log_u(at_log_ratio(curve, 0).u);
     const double first = panel.x.low - (spins_last ? 0 : near);

@@ -1,4 +1,4 @@
-// Layers of a portrait's panel: which orbits fill it.
+// The choice of the orbits that fill a portrait's panel.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -25,7 +25,7 @@ void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const Portr
   const bool has_rays = !drawing_.portrait.plane.terminal.rays.empty();
   add_layers([&](const PhasePortrait& of) {
     if (has_rays || !of.plane.terminal.rays.empty()) return filling(of.flow, mirrored);
-    // From so steep that it passes the whole window.
+    // The curve begins so steep that it passes the whole window.
     const double steepest = std::log(of.window.v / (of.system().mu() * of.window.u)) + 7;
     return copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(upstream_of_copies, steepest))));
   });

@@ -140,7 +140,7 @@ void PortraitPanel::add_field() {
     if (!there) return std::nullopt;
     const reduction::State here{there->u, there->v};
     const reduction::Rate rate = regularised ? system.regularised_field(here) : system.field(here);
-    // A step that is small beside both speeds.
+    // The step is small compared with both speeds.
     const double h = 1e-4 / std::max(std::abs(rate.u / here.u), std::abs(rate.v / here.v));
     return Drift{place(here.u, here.v), place(here.u + h * rate.u, here.v + h * rate.v),
                  std::hypot(rate.u / drawing_.portrait.window.u, rate.v / drawing_.portrait.window.v)};

@@ -13,36 +13,37 @@
 
 namespace contensou::portraits {
 
-/// What a view is drawn from.
+/// The data and options from which a view is drawn.
 struct Drawing : LayerLook {
   const PhasePortrait& portrait;
   const PortraitCaption& caption;
   const PortraitStyle& style;
 
-  /// So many lines as fill a panel of this width as well as that count a wide one.
+  /// Scales a number of lines meant for a panel 100 mm wide to this panel.
   int crowd(int count) const {
     return std::max(count / 2, std::min(count, static_cast<int>(count * panel_mm.x / 100)));
   }
   bool coloured() const { return style.colour_by_time && portrait.comparisons.empty(); }
-  Text speed(const Text& name) const;  ///< with its unit
+  Text speed(const Text& name) const;  ///< the name with its unit
 };
 
 using Instant = PortraitOrbit::Instant;
 
-/// The state by u and ln v, or by both logarithms where u > 0.
+/// Return the state at u and ln v, or at both logarithms for u > 0.
 Instant instant_at(double mu, double u, double ln_v);
 Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
 
-/// The legend of a portrait's orbits where two laws are compared.
+/// Returns the legend of a portrait's orbits if two laws are compared.
 Text law_legend(const PhasePortrait& portrait);
 
-/// How many powers of e above k = 1 the one curve begins whose copies fill a panel.
+/// Distance above k = 1, as a power of e, at which the one curve begins whose copies fill a panel.
 inline constexpr double upstream_of_copies = 14;
 
-/// ln k of the invariant rays, by growing k.
+/// Returns ln k of the invariant rays, increasing.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
-/// The state at which an orbit has that ln k, interpolated between its rows; the last before the stop if it has none.
+/// Returns the state of an orbit at a given ln k, interpolated between rows; the last state before the stop if the
+/// orbit does not reach it.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
 /// A panel with its map.
@@ -51,36 +52,37 @@ struct MappedPanel {
   PanelMap map;
 };
 
-/// A panel that fills with layers of the phase plane, placed by its map.
+/// A panel to which layers of the phase plane are added, placed by its map.
 class PortraitPanel : public PanelLayers {
  public:
   PortraitPanel(const Drawing& drawing, Panel axes, PanelMap map)
       : PanelLayers(drawing, drawing.style.arrows, std::move(axes)), drawing_(drawing), map_(std::move(map)) {
-    // Where v is bent it slides above the bend, and hardly any time passes.
+    // On a bent axis of v, sliding takes place above the bend, in hardly any time.
     early_arrows_ = !drawing.portrait.scale.linear();
   }
 
-  /// An orbit, scaled by a factor; sign -1 mirrors it.
+  /// An orbit scaled by a factor; the sign -1 mirrors it.
   struct Copy {
     const PortraitOrbit& orbit;
     double factor = 1;
     double sign = 1;
   };
 
-  /// The orbits of the portrait, and those of the law that it is compared with.
+  /// Adds the orbits of the portrait, and those of the law that it is compared with.
   void add_orbits();
 
-  /// The same for what is seen beyond the window. Without invariant rays all orbits off the axes are copies of one;
-  /// with rays orbits fill the panel one by one, each through the middle of the widest gap.
+  /// Adds orbits beyond the window. Without invariant rays they are copies of one orbit. With rays orbits fill the
+  /// panel one by one, each through the middle of the widest gap.
   ///
-  /// @param copies    some of a curve that passes k = 1 at v = 1
-  /// @param mirrored  whether the left half of the panel is the mirror image of the right one
+  /// @param copies    returns copies of a curve that passes k = 1 at v = 1
+  /// @param mirrored  true if the left half of the panel is the mirror image of the right half
   void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies, bool mirrored);
   void add_highlights();
-  /// Isochrones, labelled where orbits leave room; those of the other law without labels.
+  /// Adds isochrones, with labels where orbits leave room; those of the other law without labels.
   void add_isochrones();
-  /// @param axes  and
-  /// @param ray   the lines of an invariant ray, by its ln k: orbits, in the way of the motion
+  /// Adds the axes and the invariant rays.
+  /// @param axes, pivoting  lines of the axes; orbits in the direction of the motion
+  /// @param ray             returns the lines of an invariant ray, by its ln k, likewise
   void add_invariant(std::vector<Polyline> axes, const std::vector<Polyline>& pivoting,
                      const std::function<std::vector<Polyline>(double ln_k)>& ray);
   void add_field();
@@ -97,7 +99,7 @@ class PortraitPanel : public PanelLayers {
 
   const Drawing& drawing_;
   PanelMap map_;
-  std::deque<PortraitOrbit> traced_;  ///< that copies refer to
+  std::deque<PortraitOrbit> traced_;  ///< orbits to which copies refer
 };
 
 }  // namespace contensou::portraits

@@ -13,7 +13,7 @@
 
 namespace contensou::portraits {
 
-/// The panels of each view.
+/// Each of these returns the panels of a view.
 std::vector<MappedPanel> plane_view(const Drawing& drawing);
 std::vector<MappedPanel> patch_view(const Drawing& drawing);
 std::vector<MappedPanel> log_view(const Drawing& drawing);
@@ -24,33 +24,36 @@ std::vector<MappedPanel> time_view(const Drawing& drawing);
 std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
-/// Motions from five ratios at the start, of each law, and those asked for: what the views of motions are drawn from.
+/// Calls `add` for each motion of the views of motions: from five ratios at the start, for each law, and the requested
+/// ones.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
                                                                   Stroke stroke, const Text& legend)>& add);
 
-/// The ratios, growing: about where sliding alone takes as long as pivoting alone, and half-decades to both sides.
+/// Returns these ratios, increasing: about the one at which pure sliding and pure pivoting take the same time, and
+/// half-decades on both sides.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
 
-/// How orbits near the origin: (u, ln k), where even a contact of order 10^5 with an axis has a shape.
+/// Returns the panel of (u, ln k), in which the approach of orbits to the origin is visible even for a contact of order
+/// 10^5 with an axis.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
-/// A view as users name it and as it is laid out on a page.
+/// A view with its name for users and its layout on a page.
 struct ViewLayout {
   View view;
   std::string_view name;
-  std::string_view axes;  ///< in words
+  std::string_view axes;  ///< quantities on the axes, in words
   std::vector<MappedPanel> (*panels)(const Drawing&);
   int panels_across;
   double width_mm;
   double height_mm;
-  /// The shortest and the longest time left that colours tell apart, in bands of equal ratio, where the plane is seen
-  /// stretched. Null: in equal bands.
+  /// Returns the shortest and the longest time left for colours in bands of equal ratio, for views that distort the
+  /// plane. Null: the bands are equal.
   std::pair<double, double> (*times)(const PhasePortrait&);
   Text shows;
-  bool shows_driven = false;  ///< whether with a drive it shows something else, driven_shows
+  bool shows_driven = false;  ///< true if driven_shows replaces `shows` with a drive
 };
 
-/// The stop time of a state at distances x, y from the origin in logarithms: u = exp(x) V/mu, v = exp(y) V.
+/// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V.
 inline double scaled_stop_time(const PhasePortrait& portrait, double x, double y) {
   const double V = portrait.window.v;
   return portrait.flow.orbit({std::exp(x) * V / portrait.system().mu(), std::exp(y) * V}).stop_time();
@@ -64,10 +67,10 @@ inline std::pair<double, double> far_times(const PhasePortrait& portrait) {
 constexpr std::string_view plane_shows = "every orbit runs to the stop; the axes are orbits, too";
 constexpr std::string_view driven_shows =
     "what only spins is driven to creep: orbits begin at v = 0, too, and every orbit runs to the stop";
-/// Where v has a SpeedScale.
+/// Subtitle if the axis of v has a SpeedScale.
 constexpr std::string_view bent_shows = "slip dies first, at nearly constant spin; then the spin runs down to the stop";
 
-/// All views, in the order in which they are listed.
+/// All views, in the order of lists.
 inline const std::array view_layouts{
     ViewLayout{View::uv, "uv", "the paper's plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows, true},
     ViewLayout{View::patch, "patch",

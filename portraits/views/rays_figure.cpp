@@ -22,26 +22,26 @@ constexpr Colour guide_colour{0x888888};
 constexpr Colour curve_colour{0x0b4f8a};
 constexpr Colour marked_colour{0xb3003b};
 
-constexpr double ends = 100;  ///< k is seen from 1/ends to ends
+constexpr double ends = 100;  ///< k ranges from 1/ends to ends
 constexpr int pieces = 600;
 
-/// The ratios that curves are drawn through; denser beyond the panel, so that none ends inside.
+/// Returns the ratio of point i of a curve. Ratios go beyond the panel, so that no curve ends inside.
 double ratio_at(int i) { return std::pow(ends, 1.5 * (2.0 * i / pieces - 1)); }
 
-/// One r that curves are drawn for.
+/// One r for which curves are drawn.
 struct Drawn {
   double r;
   Stroke stroke;
   Text legend;
 };
 
-/// r of the ray with that k: (Phi - rho)/(k Psi).
+/// Returns r of the ray with that k: (Phi - rho)/(k Psi).
 double force_over_moment(const reduction::Law& law, double k, double drive) {
   const auto [force, moment] = law(reduction::slip_of_ratio(k));
   return (force - drive) / (k * moment);
 }
 
-/// The k at which the drive is all of the force, Phi = rho: the ray of r = 0.
+/// Returns the k at which the drive balances the force, Phi = rho: the ray of r = 0.
 double k_without_moment(const reduction::Law& law, double drive) {
   return reduction::terminal_ratios(law, 1e-12, drive).rays.front().k;
 }
@@ -53,7 +53,7 @@ Panel panel_over_k(const Text& title) {
   return panel;
 }
 
-/// k* against r: what attracts is solid, what repels dashed.
+/// Draws k* against r: attracting rays solid, repelling ones dashed.
 Panel rays(const reduction::Law& law, double low, double high, std::optional<double> marked, double drive) {
   std::vector<Point> points;
   if (drive > 0) points.push_back({0, k_without_moment(law, drive)});
@@ -69,7 +69,7 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   panel.x = {math("r = γμ") + sup("2") + math("/χ"), 0, 1.2 * top, false, {}};
   if (drive == 0 && top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
   panel.y = {math("k*"), 1 / ends, ends, true, {}};
-  // r = Phi/(k Psi) grows along a ray that attracts.
+  // Along an attracting ray r = Phi/(k Psi) grows.
   Lines attracting{{}, {curve_colour, 2.4}, "attracts"}, repelling{{}, {curve_colour, 1.4, true}, "repels"};
   for (std::size_t begin = 0; begin + 1 < points.size();) {
     const bool grows = points[begin + 1].x > points[begin].x;
@@ -91,14 +91,14 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  // Each where the curve of the ratios does not come: it leaves r_low at 0 and comes to r_high at infinity.
+  // Labels stand away from the curve, which leaves r_low at k = 0 and reaches r_high at infinity.
   panel.labels = {{{high, 1.6 / ends}, math("r") + sub("high"), guide_colour}};
   if (drive == 0) panel.labels.push_back({{low, ends / 1.6}, math("r") + sub("low"), guide_colour});
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
   return panel;
 }
 
-/// D in units of its terms, with heads that say which way k goes.
+/// Draws D relative to its terms, with heads that show the direction of k.
 Panel ways(const reduction::Law& law, const std::vector<Drawn>& all, double drive) {
   Panel panel = panel_over_k(math("k") + " falls where " + math("D > 0"));
   panel.y = {math(drive > 0 ? "D/(Φ + ρ + r k Ψ)" : "D/(Φ + r k Ψ)"), -1.05, 1.05, false, {}};
@@ -121,7 +121,7 @@ Panel ways(const reduction::Law& law, const std::vector<Drawn>& all, double driv
   return panel;
 }
 
-/// m between its bounds; a line ends at each ray.
+/// Draws m between its bounds; a line ends at each ray.
 Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, double drive) {
   Panel panel = panel_over_k("time left = " + math("P + m S"));
   panel.y = {math("m"), 0, 0, false, {}};
@@ -134,7 +134,8 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, dou
         const double k = ratio_at(i);
         if (flow.solution().through(std::log(k)) != curve) continue;
         line.push_back({k, curve->sliding_coefficient(curve->chart().coordinate(std::log(k)))});
-        if (drive == 0 || k >= 1) panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);  // else it is singular
+        // For small k with a drive m is singular.
+        if (drive == 0 || k >= 1) panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);
       }
       lines.lines.push_back(std::move(line));
     }

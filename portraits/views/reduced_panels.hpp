@@ -4,10 +4,10 @@
 
 namespace contensou::portraits {
 
-inline constexpr double strip_below = 4.5, strip_above = 3.2;  ///< the start, of the strip in p
-inline constexpr double plane_widths = 2.2;                    ///< of the plane's window, in those of the start
+inline constexpr double strip_below = 4.5, strip_above = 3.2;  ///< range of p below and above the start, in the strip
+inline constexpr double plane_widths = 2.2;  ///< size of the plane's window divided by that of the start
 
-/// Both panels, with the axes that they have, filled: rays, copies of the start's orbit, what the symmetry does.
+/// Fills both panels, whose axes are given: rays, copies of the start's orbit, the action of the symmetry.
 Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& title, const AskedSize& size);
 
 }  // namespace contensou::portraits

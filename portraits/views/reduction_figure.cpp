@@ -23,15 +23,15 @@ Text legend_of_copies() { return "its copies by " + math("X") + ", ln 2 apart"; 
 
 constexpr const char* legend_of_orbit = "orbit of the start";
 
-/// Copies divided by their starts: beads on one line. Later and earlier starts of the same orbit, which the symmetry does
-/// not make of each other, lie on others.
+/// Draws copies divided by their starts, as beads on one line. Later and earlier starts of the same orbit lie on other
+/// lines, because the symmetry does not map them onto each other.
 Panel collapse(const ReducedOrbits& from) {
   Panel panel;
   panel.title = "copies over their starts: one line";
   panel.x = {math("u/u") + sub("0"), 0, plane_widths, false, {}};
   panel.y = {math("v/v") + sub("0"), 0, plane_widths, false, {}};
   const Polyline& orbit = from.orbit.front();
-  // In units of the state that the copy has where the orbit is at `start`.
+  // The unit is the state of the copy at which the orbit is at `start`.
   const auto divided = [&](Point at, Point start, double shift) {
     const Point point = from.in_plane({at.x, at.y + shift}), unit = from.in_plane({start.x, start.y + shift});
     return Point{point.x / unit.x, point.y / unit.y};
@@ -111,7 +111,7 @@ Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& tit
     add(from.orbit, shift, {colour_of_copy(shift), 1.5}, shift == copy_shifts.front() ? legend_of_copies() : Text());
   }
   add(from.orbit, 0, {colours.highlight, 3.2}, legend_of_orbit);
-  // The generator, from the start to its double.
+  // Draw the generator, from the start to its double.
   for (Panel* panel : {&plane, &strip}) {
     Polyline way = upright(from.start.x, 0, ln2);
     if (panel == &plane) way = mapped(way);

@@ -16,13 +16,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// dln v/dbeta on the axis u = 0 and dln u/dbeta on v = 0, added: 1/beta_1.
+/// Returns 1/beta_1, the sum of |d ln v/dbeta| on the axis u = 0 and |d ln u/dbeta| on v = 0.
 double rate_at(const reduction::ReducedSystem& system, double w, double v) {
   const double chi = system.inertia().chi;
   return 30 * pi * chi * v + 256 / (3 * pi) * chi * system.r() * system.law().pivoting_moment() * w;
 }
 
-/// 1 + beta/beta_1: on the axis v = 0, u is u0 over this, and on u = 0, v is v0 over this.
+/// Returns 1 + beta/beta_1. On the axis v = 0, u is u0 divided by it; on u = 0, v is v0 divided by it.
 double regularised_time(const reduction::Flow& flow, const Instant& at, const Instant& start) {
   if (at.tau_left == 0) return infinity;
   const double mu = flow.system().mu();
@@ -47,8 +47,8 @@ double spin_left(const Instant& at, const Instant& start) { return at.u / start.
 double log_slip_left(const Instant& at, const Instant& start) { return at.ln_v - start.ln_v; }
 double time_passed(const Instant& at, const Instant& start) { return 1 - at.tau_left / start.tau_left; }
 
-/// A motion at equal ratios of 1 + beta/beta_1, from 1 to a border. Rows of an orbit lie where the plane needs them: those
-/// of a small patch leave out decades of beta.
+/// A motion at equal ratios of 1 + beta/beta_1, from 1 to a limit. The rows of an orbit are chosen for the plane; for a
+/// small patch they leave out decades of beta.
 struct BetaCourse {
   std::vector<double> places;
   std::vector<Instant> instants;
@@ -75,7 +75,7 @@ BetaCourse beta_course(const reduction::Flow& flow, reduction::State start, doub
 
 std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
-  // Far beyond where both speeds, of which one is at first by far the smaller, have begun to fall like powers.
+  // The limit is far beyond the beginning of power laws for both speeds, even if one is much smaller at the start.
   const reduction::ReducedSystem& system = portrait.system();
   const std::vector<double> ratios = start_ratios(portrait);
   const double slow = std::max(rate_at(system, 1, ratios.back()) / rate_at(system, 1, 0),
@@ -94,7 +94,7 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
     panels[i].map = map_of(portrait.flow, quantities[i]);
   }
 
-  // Towards the stop u and v are powers of beta; of the two, the one that outlives the other goes like 1/beta.
+  // Towards the stop u and v are powers of beta. The one that outlives the other is proportional to 1/beta.
   Lines powers_of_u{{}, {drawing.palette.comparison, 1, true}, "asymptotes"}, powers_of_v = powers_of_u;
   add_courses(drawing, [&](const PhasePortrait& of, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
     const auto& terminal = of.plane.terminal;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr Colour path_colour{0x222222};
 constexpr Colour textbook_colour{0x8a8a8a};
-/// Told apart in grey, too: by lightness and by their marks.
+/// Colours that differ in grey, by their lightness. Marks distinguish the lines, too.
 constexpr Colour slip_colour{0x8c0f35};
 constexpr Colour rim_colour{0x2f7fc1};
 constexpr Colour speed_colour{0xe0a030};
@@ -29,9 +29,9 @@ constexpr Colour ball_colour{0xf3efe6};
 
 constexpr PaperSize usual{290, 125};
 
-/// A path that bends less than this fraction of its length is straight to the eye.
+/// A path that bends by less than this fraction of its length is drawn as straight.
 constexpr double straight = 0.01;
-/// From this ratio of the two times on, the time axis is logarithmic.
+/// Ratio of the two times from which on the time axis is logarithmic.
 constexpr double long_spin = 6;
 
 void require_columns(const RollCurve& curve) {
@@ -42,7 +42,7 @@ void require_columns(const RollCurve& curve) {
   }
 }
 
-/// How far into the motion the path is shown.
+/// Returns the time up to which the path is shown.
 double shown_time(const RollPicture& picture) {
   const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
   const double last = picture.ball.t[picture.ball.t.size() - 1];
@@ -64,7 +64,7 @@ Point at_time(const RollCurve& curve, double t) {
   return between({curve.x[i], curve.y[i]}, {curve.x[i + 1], curve.y[i + 1]}, fraction);
 }
 
-/// An interval that is wider by a margin and has at least that length, about the same middle.
+/// Returns an interval with a margin and a least length about the same middle.
 std::pair<double, double> widened(double low, double high, double min_length) {
   constexpr double margin = 0.08;
   const double middle = (low + high) / 2;
@@ -72,7 +72,7 @@ std::pair<double, double> widened(double low, double high, double min_length) {
   return {middle - half, middle + half};
 }
 
-/// Both paths with the points from which the balls roll; the axes are as long as the paths.
+/// Draws both paths with the points from which the balls roll; the axes are as long as the paths.
 Panel paths(const RollPicture& picture) {
   constexpr double size = 1.1;
   const double x = picture.ball.x[0], y = picture.ball.y[0];
@@ -92,7 +92,7 @@ Panel paths(const RollPicture& picture) {
                            !is_ball            ? "textbook"
                            : picture.lies_flat ? "this body"
                                                : "this ball"});
-    // This ball's on top.
+    // The marks of this ball lie on top.
     if (curve->rolls > 0) {
       panel.marks.insert(panel.marks.begin(), {{at_time(*curve, curve->rolls)}, stroke.colour, size});
     }
@@ -100,7 +100,7 @@ Panel paths(const RollPicture& picture) {
   return panel;
 }
 
-/// The path from above.
+/// Draws the path from above.
 Panel path_panel(const RollPicture& picture) {
   Panel panel = paths(picture);
   for (auto [axis, letter] : {std::pair{&panel.x, "x"}, {&panel.y, "y"}}) {
@@ -113,8 +113,9 @@ Panel path_panel(const RollPicture& picture) {
   return panel;
 }
 
-/// Widens the axes of the path, the first panel, to the shape of that panel on the page: to scale, unless the path is so
-/// flat that most of the panel would be empty; then one side is stretched a round number of times, and says so.
+/// Widens the axes of the path, the first panel, to the shape of that panel on the page. The path is to scale unless it
+/// is so flat that most of the panel would be empty. Then one side is stretched a round number of times, and a text
+/// says so.
 void fill_panel(Figure& figure) {
   constexpr double flattest = 0.2, wanted = 0.75;
   const Box box = lay_out(figure).panels.front().box;
@@ -127,10 +128,10 @@ void fill_panel(Figure& figure) {
   path.to_scale = times == 1;
 }
 
-/// Which way the paths lead, and whether they bend.
+/// The direction of the paths, and whether they bend.
 struct Course {
-  Point along{1, 0};  ///< the direction of the farthest point of the path
-  double reach = 0;   ///< its distance from the start; 0: the ball spins in place
+  Point along{1, 0};  ///< direction of the farthest point of the path
+  double reach = 0;   ///< distance of that point from the start; 0: the ball spins in place
   bool bends = false;
 };
 
@@ -151,7 +152,7 @@ Course course_of(const RollPicture& picture) {
   return course;
 }
 
-/// The distance along a straight path against time.
+/// Draws the distance along a straight path against time.
 Panel distance_panel(RollPicture picture, Point along) {
   for (RollCurve* curve : {&picture.ball, &picture.textbook}) {
     curve->y = along.x * curve->x + along.y * curve->y;
@@ -176,7 +177,7 @@ Panel speed_panel(const RollPicture& picture) {
              last,
              logarithmic,
              {}};
-  // A fast spin leaves room for the slip.
+  // A fast spin is divided by a round number, so that the axis has room for the slip.
   const double fastest = std::max(picture.ball.slip.maxCoeff(), picture.ball.speed.maxCoeff());
   const double spin_to_slip = fastest > 0 ? picture.ball.rim.maxCoeff() / fastest : 1;
   const double spin_scale = spin_to_slip > 4 ? round_down(spin_to_slip) : 1;
@@ -193,7 +194,7 @@ Panel speed_panel(const RollPicture& picture) {
       }
       top = std::max(top, (curve->*column).maxCoeff() / scale);
       if (!dashed) {
-        // At even steps on paper, before each of which the curve still is.
+        // Marks stand at even steps on paper, up to the end of the curve.
         constexpr int count = 8;
         for (double i = 0.5 + 0.15 * static_cast<int>(shape); i < count; ++i) {
           const double t = from_paper(panel, {i / count, 0}).x;
@@ -216,7 +217,8 @@ Panel speed_panel(const RollPicture& picture) {
   return panel;
 }
 
-/// What a frame of a film has drawn of a panel so far. A GIF has no dashes, and the colours of its first frame alone.
+/// Returns the part of a panel that a frame of a film shows. A GIF has no dashes, and only the colours of its first
+/// frame.
 Panel until(const Panel& whole, std::size_t frame) {
   Panel panel = whole;
   panel.marks.clear();
@@ -227,8 +229,8 @@ Panel until(const Panel& whole, std::size_t frame) {
   return panel;
 }
 
-/// A ball of radius 1 from above: a circle through what was its top, half of it thick, so that a turn is told from its
-/// opposite, and a spot on that half; what it does beside that.
+/// Draws a ball of radius 1 from above, with its state in words beside it. A circle through its former top shows its
+/// turning; half of the circle is thick and has a spot, so that opposite positions differ.
 Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eigen::Index frame, Colour colour,
                       const char* name, bool lies_flat) {
   using Eigen::Vector3d;
@@ -292,7 +294,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
                            : slow > 1 ? fmt::format("slowed {:.3g} times", slow)
                                       : fmt::format("{:.3g} times faster", 1 / slow);
   const bool moves = whole.panels.size() == 2;
-  const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(25 * slow))));  // each frame differs
+  const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(25 * slow))));  // so that each frame differs
   whole.max_columns = moves ? 2 : 3;
   std::vector<Figure> frames;
   Eigen::Matrix3d turned[]{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
@@ -315,7 +317,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
                                                                  : "this ball, from above",
                                              picture.lies_flat));
       if (!moves) continue;
-      // Where it is, and where it began to roll; this ball's on top.
+      // Mark the position, and the point from which the ball rolls; this ball's marks lie on top.
       Panel& path = frame.panels.front();
       const Polyline& line = path.lines[static_cast<std::size_t>(which)].lines.front();
       Marks rolls{{},

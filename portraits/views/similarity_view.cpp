@@ -9,11 +9,11 @@ namespace contensou::portraits {
 
 namespace {
 
-constexpr double half_height = 5;  // of the panels, in p
-constexpr double step = 0.8;       // between translates, or more where k hardly changes while p does
-constexpr int max_count = 24;      // translates of a curve
+constexpr double half_height = 5;  // half height of the panels, in p
+constexpr double step = 0.8;       // distance of translates; more where p changes while k hardly does
+constexpr int max_count = 24;      // most translates of a curve
 
-/// One panel: translates of each curve, with the arrow of the symmetry.
+/// Draws one panel: translates of each curve, with the arrow of the symmetry.
 MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
                        const std::function<double(double x)>& ln_k_at) {
   const double middle = std::log(drawing.portrait.window.v);
@@ -30,8 +30,8 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
   PortraitPanel layers(drawing, std::move(axes), map);
   const auto copies = [&](const PortraitOrbit& curve) {
     const Instant at = at_log_ratio(curve, 0);
-    // From the one that only touches the lower border to the one that only touches the upper, but next to an axis,
-    // which no number of them would reach.
+    // Translates range from the one that touches the lower border to the one that touches the upper border. Rows
+    // next to an axis are left out, because no number of translates would reach them.
     const Axis& x = layers.panel().x;
     const double margin = 0.02 * (x.high - x.low);
     double rise = 0, fall = 0;
@@ -55,7 +55,7 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
     return std::vector<Polyline>{{{x, y.high}, {x, y.low}}};
   });
   layers.add_highlights();
-  // What the symmetry does.
+  // Draw the action of the symmetry.
   MappedPanel finished = std::move(layers).finished();
   Panel& panel = finished.panel;
   const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
@@ -74,7 +74,7 @@ std::vector<MappedPanel> similarity_view(const Drawing& drawing) {
   const double mu = portrait.system().mu();
   const std::vector<double> rays = ray_log_ratios(portrait);
   const auto [low, high] = rays.empty() ? std::pair{0.0, 0.0} : std::pair{rays.front(), rays.back()};
-  // A motion that is asked for begins inside.
+  // A requested motion begins inside.
   const double start = portrait.highlight && portrait.highlight->u[0] != 0 ? portrait.highlight->ln_k[0] : 0;
   Panel by_q, by_ratio;
   by_q.title = math("q = v/u") + ": the symmetry moves " + math("p") + " alone";

@@ -14,20 +14,20 @@ namespace contensou::portraits {
 
 namespace {
 
-/// A panel of one quantity, over its start or by itself, against the fraction of the stop time.
+/// Returns the map of one quantity, or of its ratio to the start, against the fraction of the stop time.
 PanelMap over_time(double (*quantity)(const Instant& at, const Instant& start)) {
   return {[quantity](const Instant& at, const Instant& start) {
     return Point{1 - at.tau_left / start.tau_left, quantity(at, start)};
   }};
 }
 
-/// ln k; at rest it is only a limit, that the last rows of an orbit are next to.
+/// Returns ln k, limited, because at rest it is only a limit of the last rows of an orbit.
 double clamped_ln_k(const Instant& at, const Instant&) {
   constexpr double lowest = -60;
   return at.tau_left == 0 ? std::numeric_limits<double>::quiet_NaN() : std::clamp(at.ln_k, lowest, -lowest);
 }
 
-/// The asymptotic solution for small mu at the times of the rows of a motion; ln k is not a number where it is at rest.
+/// Returns the approximation for small mu at the times of a motion's rows; ln k is NaN at rest.
 PortraitOrbit estimate_beside(const PhasePortrait& of, const PortraitOrbit& motion) {
   const double mu = of.system().mu();
   const reduction::SmallMuMotion solution(of.system(), {motion.u[0], motion.v[0]});

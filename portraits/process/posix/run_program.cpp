@@ -21,17 +21,17 @@ namespace contensou::portraits {
 
 namespace {
 
-/// The status of a program that cannot be run, as a shell's.
+/// The exit status for a program that cannot be run, as in a shell.
 constexpr int not_run = 127;
 
-/// A file in memory, for a program to read or to write.
+/// A file in memory that a program reads or writes.
 class MemoryFile {
  public:
   MemoryFile() {
     if (file_ < 0) fail();
   }
   explicit MemoryFile(std::string_view content) : MemoryFile() {
-    while (!content.empty()) {  // a limit is met by the write after the one that it cuts short
+    while (!content.empty()) {  // a write at a limit is cut short, and only the next one fails
       const ssize_t written = ::write(file_, content.data(), content.size());
       if (written < 0) fail();
       content.remove_prefix(static_cast<std::size_t>(written));
@@ -57,7 +57,7 @@ class MemoryFile {
   int file_ = open();
 };
 
-/// What only Linux has, and what stands in for it elsewhere, in macOS.
+// Functions that only Linux has, and substitutes for other systems such as macOS.
 #ifdef __linux__
 int MemoryFile::open() { return ::memfd_create("contensou", MFD_CLOEXEC); }
 
@@ -73,7 +73,7 @@ int MemoryFile::open() {
 void end_with_parent() {}
 #endif
 
-/// @return  its status as of waitpid()
+/// Runs the program. @return  status as of waitpid()
 int run(std::vector<const char*> command, const MemoryFile& input, const MemoryFile& output, const MemoryFile& messages,
         unsigned seconds) {
   command.push_back(nullptr);
@@ -84,7 +84,7 @@ int run(std::vector<const char*> command, const MemoryFile& input, const MemoryF
   environment.push_back(nullptr);
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child == 0) {  // only what is async-signal-safe: other threads may hold locks
+  if (child == 0) {  // only async-signal-safe calls, because other threads may hold locks
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -98,7 +98,7 @@ int run(std::vector<const char*> command, const MemoryFile& input, const MemoryF
     }
     ::_exit(not_run);
   }
-  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // where nobody is told a status, the picture decides
+  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // without a status the picture decides
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return status;
 }

@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void fail() { throw std::system_error(static_cast<int>(::GetLastError()), std::system_category()); }
 
-/// A file for a program to read or to write that stays in memory while there is room, and goes when it is closed.
+/// A file that a program reads or writes. It stays in memory if there is room, and is deleted when closed.
 class MemoryFile {
  public:
   MemoryFile() {
@@ -41,7 +41,7 @@ class MemoryFile {
     DWORD read = 0;
     ::SetFilePointer(file_, 0, nullptr, FILE_BEGIN);
     if (::ReadFile(file_, text.data(), static_cast<DWORD>(text.size()), &read, nullptr) == 0) fail();
-    std::erase(text, '\r');  // some programs end lines as Windows does
+    std::erase(text, '\r');  // some programs end lines with \r\n
     return text;
   }
 
@@ -49,7 +49,7 @@ class MemoryFile {
   HANDLE file_ = INVALID_HANDLE_VALUE;
 };
 
-/// Words that the started program takes apart as they were: none of ours holds a quotation mark.
+/// Returns the command line of a program. No argument here contains a quotation mark.
 std::wstring command_line(const std::vector<const char*>& command) {
   std::wstring line;
   for (const char* word : command) {
@@ -58,7 +58,7 @@ std::wstring command_line(const std::vector<const char*>& command) {
   return line;
 }
 
-/// Of a program that is not on PATH but where installers put it: C:\Program Files\NAME\bin\NAME.exe.
+/// Returns the usual place of an installed program that is not on PATH: C:\Program Files\NAME\bin\NAME.exe.
 std::filesystem::path where_installed(const std::string& name) {
   const wchar_t* programs = ::_wgetenv(L"ProgramFiles");
   return std::filesystem::path(programs != nullptr ? programs : L"") / name / "bin" / (name + ".exe");
@@ -82,7 +82,7 @@ ProgramRun run_program(std::vector<const char*> command, std::string_view input,
   };
   if (!start(nullptr) && !start(where_installed(command.front()).c_str()))
     return {ProgramRun::End::not_run, 127, "", ""};
-  // It ends with the job, and the job with this program.
+  // The program ends with the job, and the job with this program.
   const HANDLE job = ::CreateJobObjectW(nullptr, nullptr);
   JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
   limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE;
