@@ -11,26 +11,27 @@ namespace contensou::si {
 
 /// An axisymmetric body.
 struct Body {
-  std::string_view name = "ball";  ///< empty for one that has none
+  std::string_view name = "ball";  ///< empty for a body without a name
   reduction::Inertia inertia = reduction::homogeneous_ball;
-  std::optional<double> patch_ratio{};  ///< where the body itself decides it: a flat puck rests on its whole face
-  bool rolls_on_a_small_patch = true;   ///< mu <= 1
-  std::string_view law = "exact";       ///< of the pressure that it brings
-  std::optional<double> factor = {};    ///< of m R^2 in its moment of inertia, where it was given: with_factor
+  std::optional<double> patch_ratio{};  ///< patch ratio if the body fixes it: a flat puck rests on its whole face
+  bool rolls_on_a_small_patch = true;   ///< true: mu must be at most 1
+  std::string_view law = "exact";       ///< name of the law that its pressure gives
+  std::optional<double> factor = {};    ///< moment of inertia divided by m R^2, if given (with_factor)
 
-  /// Whether it turns about the vertical only, and never rolls.
+  /// Returns true if the body turns about the vertical only, and never rolls.
   bool lies_flat() const { return inertia.chi == 1; }
 
-  /// The same with a moment of inertia of factor m R^2: of a ball about any axis, of a body that lies flat about the
-  /// vertical. R is the radius beyond which there is no mass, so that at most all of it is on that sphere or rim.
-  /// @throws std::domain_error  unless 0 < factor <= 2/3, of a body that lies flat 0 < factor <= 1
+  /// Returns the body with the moment of inertia factor m R^2: for a ball about any axis, for a body that lies flat
+  /// about the vertical. R is the largest radius with mass, so at most all mass lies on the sphere or rim of this
+  /// radius.
+  /// @throws std::domain_error  unless 0 < factor <= 2/3, or 0 < factor <= 1 for a body that lies flat
   Body with_factor(double of_m_R2) const;
 
-  /// What is wrong with a mu for this body; empty if nothing is.
+  /// Returns the reason why the body cannot have this mu; empty if it can.
   std::string complaint(double mu) const;
 };
 
-/// The bodies that have a name.
+/// Returns the bodies with a name.
 const std::vector<Body>& bodies();
 
 }  // namespace contensou::si

@@ -8,18 +8,18 @@
 
 namespace contensou::si {
 
-/// A ball, or a body that lies flat, that is built in, with a typical start.
+/// A built-in ball, or body that lies flat, with a typical start.
 struct CatalogueEntry {
   std::string name;  ///< one lower-case word
   Experiment experiment;
-  std::string sources;        ///< where the values come from and which of them are assumed
-  std::string left_out = {};  ///< what it does in the world and not in this model; empty for nothing of note
+  std::string sources;        ///< sources of the values, and which values are assumed
+  std::string left_out = {};  ///< effects on the real body that this model leaves out; empty if there are none of note
 };
 
-/// The built-in balls.
+/// Returns the built-in balls.
 const std::vector<CatalogueEntry>& catalogue();
 
-/// The entry of that name; null if there is none.
+/// Returns the entry of that name; null if there is none.
 const CatalogueEntry* find_ball(std::string_view name);
 
 }  // namespace contensou::si

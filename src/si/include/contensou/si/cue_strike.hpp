@@ -4,32 +4,33 @@
 
 namespace contensou::si {
 
-/// kg: 19 oz.
+/// Mass of a cue of 19 oz in kg.
 inline constexpr double standard_cue_mass = 0.54;
 
-/// A stroke with a cue that points along x. The tip meets the ball off its centre as seen along the cue.
+/// A stroke with a cue that points along x. The tip hits the ball off its centre, as seen along the cue.
 struct CueStrike {
-  double speed;                     ///< m/s, of the cue, > 0
-  double right;                     ///< of the centre, in radii of the ball
-  double above;                     ///< the centre, in radii of the ball
-  double elevation;                 ///< rad, of the cue's butt, 0 <= elevation < pi/2
-  double mass = standard_cue_mass;  ///< kg, of the cue, > 0
+  double speed;                     ///< speed of the cue, m/s, > 0
+  double right;                     ///< offset to the right of the centre, in radii of the ball
+  double above;                     ///< offset above the centre, in radii of the ball
+  double elevation;                 ///< elevation of the cue's butt, rad, 0 <= elevation < pi/2
+  double mass = standard_cue_mass;  ///< mass of the cue, kg, > 0
 };
 
-/// Where a tip slips off the ball: radii from the centre.
+/// Offset from the centre, in radii, above which a tip slips off the ball.
 inline constexpr double largest_tip_offset = 0.5;
 
-/// The velocities that a stroke gives to a ball at rest.
+/// Computes the velocities that a stroke gives to a ball at rest.
 ///
-/// The cue is a rod that gives an elastic impulse P along itself, without friction of the tip. With the cue along
-/// d = (cos e, 0, -sin e), the tip at r = -c d - a y + b n, n = (sin e, 0, cos e), and J = m R^2/gamma,
-///   m V = P d,  J omega = r x P d = P (a sin e, b, a cos e),
-/// and the points that touch leave each other as fast as they met, so that
+/// The cue is a rod that gives an elastic impulse P along itself, without friction of the tip. With the cue along d =
+/// (cos e, 0, -sin e), the tip at r = -c d - a y + b n, n = (sin e, 0, cos e), and J = m R^2/gamma,
+///   m V = P d,  J omega = r x P d = P (a sin e, b, a cos e).
+/// The points of contact separate as fast as they met, so that
 ///   P = 2 m s/(1 + m/M + gamma (a^2 + b^2)/R^2).
-/// The table takes the downward part of V; its friction during the impact is left out. This is the model of W. Leckie
-/// and M. Greenspan, "An event-based pool physics simulator", LNCS 4250 (2006), who measure b in the vertical plane.
+/// The table takes the downward part of V; its friction during the impact is left out. The model is that of W. Leckie
+/// and M. Greenspan, "An event-based pool physics simulator", LNCS 4250 (2006) 247, doi:10.1007/11922155_19, who
+/// measure b in the vertical plane.
 ///
-/// @throws std::domain_error  for a value out of its range, and where the tip slips off the ball
+/// @throws std::domain_error  if a value is out of its range, or the tip slips off the ball
 Velocities struck(const Ball& ball, const CueStrike& strike);
 
 }  // namespace contensou::si

@@ -11,42 +11,47 @@
 
 namespace contensou::si {
 
-/// A number of an event of a motion: {"rolls_after", "t", "s"}; of one that is a number by itself, "path", `of` is empty.
+/// The name of a number of an event, such as {"rolls_after", "t", "s"}. For a number without an event, such as "path",
+/// `of` is empty.
 struct EventNumber {
   std::string_view event, of, unit;
 };
 
-/// The numbers of the events of a ball's motions, each with numbers of its own or of its start in place of the ball's: when
-/// and where it rolls or, lying flat, rests; when and where its spin ends; with rolling friction or on a slope when and
-/// where it rests, if it does; slip length, turns, path (as Events); stop time.
+/// The numbers of the events of a ball's motion, as functions of the numbers that give the experiment.
+///
+/// The numbers are time and place of the beginning of rolling (for a body that lies flat, of rest), time and place of
+/// the end of the spin, with rolling friction or on a slope those of rest if it rests; slip length, turns and path (as
+/// Events); and the stop time.
 class EventNumbers {
  public:
-  /// @param rolling_below  as of Motion::rolls; the rolling friction is the experiment's own
-  /// @throws std::domain_error  as Motion::reduced and finite, and for one at rest
+  /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment
+  /// @throws std::domain_error  as Motion::reduced and finite; for a ball at rest
   EventNumbers(const Experiment& experiment, const reduction::Law& law, double rolling_below);
 
   const std::vector<EventNumber>& names() const { return names_; }
   const Eigen::VectorXd& values() const { return values_; }
   bool resisted() const;
 
-  /// The components that it is given by, and what they are.
+  /// Returns the components of the quantities that give the experiment.
   const std::vector<Component>& components() const { return components_; }
   double value(const Component& of) const;
 
-  /// The experiment with these in place of its own.
+  /// Returns the experiment with other values of some components.
   /// @throws std::domain_error  if there is no such experiment
   Experiment with(const std::vector<Component>& components, const Eigen::VectorXd& values) const;
 
-  /// Of such an experiment.
-  /// @param flow  of undriven_system(other, law)
-  /// @throws std::domain_error  as Motion::reduced and finite, and where it rolls for ever and this one rests
+  /// Returns the numbers of another experiment of this kind.
+  /// @param flow  flow of undriven_system(other, law)
+  /// @throws std::domain_error  as Motion::reduced and finite; if it rolls for ever and this one rests
   Eigen::VectorXd of(const Experiment& other, const reduction::Flow& flow) const;
   Eigen::VectorXd of(const Experiment& other) const;
 
-  /// How they change with a component, the others kept, by differences of fourth order, a thousandth of it apart: those by
-  /// the start and by friction to 1e-8 against the algebra of (R61); the time of rest of a motion that is integrated in
-  /// steps to 1e-8, too. None where they have a corner, as at a spin of 0 and by what moves a slip that is the
-  /// threshold of rolling to 1e-6, and at the end of what a ball can have.
+  /// Returns the derivatives of the numbers by one component, by fourth-order differences over a thousandth of its
+  /// value. Empty if they have a corner: at a spin of 0, at the limits of the component, and by a component that moves
+  /// the slip if the slip is within 1e-6 of the threshold of rolling.
+  ///
+  /// Accuracy  1e-8 for the derivatives by the start and by friction, compared with the algebra of (R61), and for the
+  ///           time of rest of a motion that is integrated in steps.
   std::optional<Eigen::VectorXd> slopes(const Component& by) const;
 
  private:
@@ -60,11 +65,11 @@ class EventNumbers {
   Eigen::VectorXd values_;
 };
 
-/// The slopes of all events by all components that have them.
+/// The derivatives of all events by all components for which they exist.
 struct EventGradient {
   std::vector<EventNumber> events;
   std::vector<Component> by;
-  Eigen::MatrixXd slopes;  ///< a row for each event, a column for each component, in SI units
+  Eigen::MatrixXd slopes;  ///< SI units; a row for each event, a column for each component
 };
 EventGradient event_gradient(const EventNumbers& numbers);
 

@@ -16,7 +16,8 @@
 
 namespace contensou::si {
 
-/// The mass of a ball that nobody gave. It is NaN, so that no energy computed from it is a number. The motion needs no mass.
+/// The mass of a ball whose mass is not given. It is NaN, so that every energy computed from it is NaN. The motion
+/// needs no mass.
 inline constexpr double unknown_mass = std::numeric_limits<double>::quiet_NaN();
 
 /// A ball, or a body that lies flat.
@@ -24,129 +25,132 @@ struct Ball {
   std::string name;
   double mass = unknown_mass;  ///< kg
   double radius;               ///< m
-  Body body = {};              ///< of bodies(), with its own factor where one was given
+  Body body = {};              ///< one of bodies(), with its own factor if given
 };
 
-/// Returns whether the mass is given, that is other than unknown_mass.
+/// Returns true if the mass is given, that is other than unknown_mass.
 bool mass_is_known(const Ball& ball);
 
 /// Returns the mass of a ball in kg.
-/// @param user  names in the message whatever needs the mass
+/// @param user  the function that needs the mass, for the message
 /// @throws std::domain_error  if the mass is not known
 double mass_for(std::string_view user, const Ball& ball);
 
-/// The patch as it was measured.
+/// A measured patch radius.
 struct PatchRadius {
   double value;  ///< m
 };
 
-/// The patch as it follows from how fast a spin without sliding dies out (patch_radius_of_deceleration).
+/// The rate at which a spin without sliding falls; it determines the patch (patch_radius_of_deceleration).
 struct SpinDeceleration {
   double value;  ///< rad/s^2
 };
 
-/// The whole face of a body that lies flat.
+/// The patch is the whole face of a body that lies flat.
 struct WholeFace {};
 
-/// Where the patch radius comes from. Kept with the contact, so that it follows when radius, mass, friction or gravity
-/// change.
+/// The source of the patch radius. The contact stores it, so that the radius follows changes of R, mass, friction or
+/// gravity.
 using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, WholeFace>;
 
 /// The patch where ball and plane touch, and its friction.
 struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
-  std::string law = {};         ///< of friction, by its name, where the pressure is not that of the body
-  double rolling_friction = 0;  ///< u_r: rolling without slip, the ball slows down at u_r g; 0: it rolls on
+  std::string law = {};         ///< name of the friction law, if it is not that of the body's pressure
+  double rolling_friction = 0;  ///< coefficient u_r: a ball that rolls without slip slows down at u_r g; 0: it rolls on
 };
 
 /// A ball that slides along x and spins about the vertical, with no horizontal angular velocity.
+/// A start with a slip along x and a spin about the vertical, without horizontal angular velocity.
 struct SlipAndSpin {
-  double slip;  ///< m/s, sliding speed of the contact point
-  double spin;  ///< rad/s about the vertical, either sign
+  double slip;  ///< sliding speed of the contact point, m/s
+  double spin;  ///< spin about the vertical, rad/s, of either sign
 };
 
 /// Any motion of a ball on the plane.
 struct Velocities {
-  Eigen::Vector2d velocity;          ///< m/s, of the centre
+  Eigen::Vector2d velocity;          ///< velocity of the centre, m/s
   Eigen::Vector3d angular_velocity;  ///< rad/s, z up
 };
 
-/// How the ball is set going, in the way in which it was given.
+/// The start of a motion, in the form in which it was given.
 using Start = std::variant<SlipAndSpin, Velocities>;
 
-/// What presses the ball on the plane.
+/// The forces between ball and plane other than friction.
 struct Environment {
-  /// m/s^2, the load over the mass: nothing else of a ball on a horizontal plane depends on it. A ball that something
-  /// presses on the plane with N newtons has N/mass.
+  /// Load divided by mass, m/s^2, on which alone the motion on a horizontal plane depends. A ball pressed on the plane
+  /// by N newtons has N/mass.
   double gravity = 9.80665;
-  std::optional<double> load{};  ///< N, where it was given in place of gravity, which is load/mass then
-  double slope = 0;              ///< degrees above -90 and below 90: the plane rises along x
+  std::optional<double> load{};  ///< load in N, if given; gravity is then load/mass
+  double slope = 0;              ///< angle of the plane in degrees, above -90 and below 90; it rises along x
 };
 
-/// m/s^2, the load over the mass: gravity, on a slope times its cosine.
+/// Returns the load divided by the mass, m/s^2: gravity, on a slope times the cosine of its angle.
 double pressing(const Environment& environment);
 
-/// m/s^2 that gravity alone accelerates along the plane; (0, 0) on a level one.
+/// Returns the acceleration of gravity along the plane, m/s^2; (0, 0) on a level plane.
 Eigen::Vector2d pull(const Environment& environment);
 
-/// Everything that decides one motion of a ball on a plane.
+/// All values that determine one motion of a ball on a plane.
 struct Experiment {
   Ball ball;
   Contact contact;
   Start start;
   Environment environment{};
-  Spreads spreads = {};  ///< what its numbers are known to, where that is said
+  Spreads spreads = {};  ///< standard deviations of the numbers, if given
 };
 
-/// What a quantity has been given, as many values as it has components.
+/// A quantity with its values, one for each component.
 struct GivenQuantity {
   const Quantity* quantity;
   std::vector<double> values;
 };
 
-/// What an experiment is given by, in the order of quantities(); standard values, gravity's aside, are left out.
+/// Returns the values that give an experiment, in the order of quantities(). Standard values other than gravity's are
+/// left out.
 std::vector<GivenQuantity> given_by(Experiment experiment);
 
-/// What a patch is given by, in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or "its whole face".
+/// Returns the source of a patch in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or
+/// "its whole face".
 std::string origin_of(const PatchSource& patch);
 
-/// The name of the law of an experiment of which no other is asked for: the contact's own, or that of the body's pressure.
+/// Returns the name of the default law of an experiment: that of the contact, or of the body's pressure.
 std::string law_of(const Experiment& experiment);
 
-/// The member of an experiment that is a quantity by itself, with no other way to give it; null for others.
+/// Returns the member of an experiment that stores a quantity; null if the quantity can be given in other ways.
 double* member_of(Experiment& experiment, const Quantity& quantity);
 
-/// Radius of the contact patch in m, from whatever the contact gives it by.
-/// @param law  a measured spin deceleration holds under it
-/// @throws std::domain_error  unless it is in (0, R]
+/// Returns the radius of the contact patch in m, from its source.
+/// @param law  law under which a measured spin deceleration holds
+/// @throws std::domain_error  unless the radius is in (0, R]
 double patch_radius_of(const Experiment& experiment, const reduction::Law& law);
 
-/// A start as velocities of the centre and of the ball.
+/// Returns a start as velocity of the centre and angular velocity.
 Velocities velocities_of(const Start& start);
 
-/// The same experiment with a start that does not spin about the vertical.
+/// Returns the experiment with a start that does not spin about the vertical.
 Experiment without_spin(Experiment experiment);
 
-/// Velocity (m/s) of the point of the ball that touches the plane, at the start:
-///   (vx - R omega_y, vy + R omega_x), Zh98 (2.1); 0 where the terms cancel to rounding.
+/// Returns the velocity (m/s) at the start of the point of the ball that touches the plane, (vx - R omega_y, vy + R
+/// omega_x), Zh98 (2.1). It is 0 if the terms cancel to rounding.
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
 
-/// Its size in m/s.
+/// Returns the size of this velocity in m/s.
 double slip_at_start(const Experiment& experiment);
 
-/// omega_z in rad/s at the start.
+/// Returns omega_z in rad/s at the start.
 double spin_at_start(const Experiment& experiment);
 
-/// Rejects what no ball can be or do.
-/// @throws std::domain_error  if a value is outside its Quantity's range, or if R omega_z or the slip overflows; as
-///                            patch_radius_of, where no law decides the patch
+/// Throws for values that no ball can have.
+/// @throws std::domain_error  if a value is outside its Quantity's range, or R omega_z or the slip overflows; as
+///                            patch_radius_of, if the patch does not depend on the law
 void require_experiment(const Experiment& experiment);
 
-/// Rejects a motion whose lengths, angles or energies may exceed the largest double.
-/// @param braked  s, when friction has ended
-/// @param last    s, the last instant that is asked for, if one is
-/// @throws std::domain_error  with the greatest speed that is allowed
+/// Throws for a motion whose lengths, angles or energies may exceed the largest double.
+/// @param braked  time of the end of friction, s
+/// @param last    last requested time, s, if any
+/// @throws std::domain_error  with the largest allowed speed
 void require_finite_motion(const Experiment& experiment, double braked, double last = 0);
 
 }  // namespace contensou::si

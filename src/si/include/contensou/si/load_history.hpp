@@ -4,33 +4,33 @@
 
 namespace contensou::si {
 
-/// A load that changes in time, linear from instant to instant, and the last one from then on.
+/// A load that changes in time: linear between given times, and constant after the last.
 ///
-/// Friction is proportional to it, and so the motion goes through the states that it has under a constant load, at
-/// other times: after t under this load it is where it would be after clock(t) under nominal().
+/// Friction is proportional to the load. So the motion goes through the same states as under a constant load, at other
+/// times: its state at t is the state at clock(t) under nominal().
 class LoadHistory {
  public:
-  /// @param t     s, from 0 on, not decreasing: two of one t are a jump
-  /// @param load  N, >= 0, as many
-  /// @throws std::domain_error  unless there are two or more, finite, of which one load is positive
+  /// @param t     times, s, from 0 on, not decreasing; two equal times are a jump
+  /// @param load  load at each time, N, >= 0
+  /// @throws std::domain_error  unless there are two or more, all finite, and one load is positive
   LoadHistory(std::vector<double> t, std::vector<double> load);
 
-  /// N, the first that is positive.
+  /// Returns the first positive load, N.
   double nominal() const { return nominal_; }
 
-  /// s under the nominal load, within which friction does what it does until t under this one.
+  /// Returns the time, s, under the nominal load after which the state is that at t under this load.
   double clock(double t) const;
 
-  /// The first t at which clock(t) is that; infinity if it never is.
+  /// Returns the first t at which clock(t) has a value; infinity if there is none.
   double time_of(double clock) const;
 
-  /// Where it bends.
+  /// Returns the times at which the load bends.
   const std::vector<double>& instants() const { return t_; }
   const std::vector<double>& loads() const { return load_; }
 
  private:
   std::vector<double> t_, load_;
-  std::vector<double> clock_;  ///< at each
+  std::vector<double> clock_;  ///< value of the clock at each time
   double nominal_ = 0;
 };
 

@@ -8,15 +8,15 @@ namespace contensou::si {
 
 /// One instant of the motion of a ball on the plane.
 struct MotionPoint {
-  double t;                          ///< s, since the start
-  Eigen::Vector2d position;          ///< m, of the centre; the start is (0, 0)
-  Eigen::Vector2d velocity;          ///< m/s, of the centre
-  Eigen::Vector3d angular_velocity;  ///< rad/s, z up
-  double slip;                       ///< m/s, speed of the contact point
-  double energy;                     ///< J, kinetic
+  double t;                          ///< time since the start, s
+  Eigen::Vector2d position;          ///< position of the centre, m; the start is (0, 0)
+  Eigen::Vector2d velocity;          ///< velocity of the centre, m/s
+  Eigen::Vector3d angular_velocity;  ///< angular velocity, rad/s, z up
+  double slip;                       ///< speed of the contact point, m/s
+  double energy;                     ///< kinetic energy, J
 };
 
-/// Many instants, one entry of each column for each; w is the angular velocity.
+/// The states at several times: a column for each number, a row for each time; w is the angular velocity.
 struct MotionColumns {
   Eigen::ArrayXd t, x, y, vx, vy, wx, wy, wz, slip, energy;
 
@@ -26,40 +26,39 @@ struct MotionColumns {
   void set(Eigen::Index row, const MotionPoint& point);
 };
 
-/// m/s: a ball that slips no faster counts as rolling, unless another threshold is asked for. A millimetre in a second
-/// is less than an eye or a camera tells from rolling. Zero would not do: friction over a pivoting patch is viscous,
-/// and the slip ends with the spin only.
+/// Default slip, m/s, below which a ball counts as rolling. No eye or camera distinguishes 1 mm/s from rolling. The
+/// threshold 0 is useless: friction of a pivoting patch is viscous, so the slip ends only with the spin.
 inline constexpr double rolling_slip = 1e-3;
 
-/// Kinetic energy in J: of a homogeneous ball m V^2/2 + (m R^2/5) omega^2.
+/// Returns the kinetic energy in J; for a homogeneous ball m V^2/2 + (m R^2/5) omega^2.
 double kinetic_energy(const Ball& ball, const Velocities& velocities);
 
-/// What friction takes from an experiment until it rolls, in J, under any friction law.
+/// The energy in J that friction takes from an experiment until it rolls, under any friction law.
 struct EnergyLoss {
-  double sliding;   ///< m v0^2/(2 chi), of a ball m v0^2/7
-  double pivoting;  ///< m (R omega_z0)^2/(2 gamma), of a ball m (R omega_z0)^2/5
+  double sliding;   ///< m v0^2/(2 chi), for a ball m v0^2/7
+  double pivoting;  ///< m (R omega_z0)^2/(2 gamma), for a ball m (R omega_z0)^2/5
 };
 
 EnergyLoss energy_loss(const Experiment& experiment);
 
-/// The rolling that an experiment ends in, or the rest of a body that lies flat, under any friction law, in the axes of the start (x along the initial slip
-/// for SlipAndSpin).
+/// Returns the final rolling of an experiment, or the rest of a body that lies flat, under any friction law. The axes
+/// are those of the start (for SlipAndSpin x is along the initial slip).
 ///
-/// With the axis x along the slip v, R omega_y + (1 - 1/chi) v is a first integral, of a homogeneous ball
-/// 7 R omega_y + 5 v (Zh98 after (2.5)): the velocity of the centre along the slip falls by v0/chi, 2 v0/7.
+/// With x along the slip v, R omega_y + (1 - 1/chi) v is a first integral, for a homogeneous ball 7 R omega_y + 5 v
+/// (Zh98 after (2.5)). So the velocity of the centre along the slip falls by v0/chi, for this ball 2 v0/7.
 Velocities final_motion(const Experiment& experiment);
 
-/// The motion when the contact point slides at `slip`, having slid for `slip_length` since the start, and the ball
-/// spins at `spin` about the vertical: friction leaves nothing else free.
+/// Returns the state of the motion from slip, slip length since the start, and spin about the vertical, which determine
+/// it.
 ///
-/// The slip keeps its direction e, and with it omega along e; along e the velocity of the centre falls by 1/chi of what
-/// the slip has lost, 2/7 of a homogeneous ball, and R omega across e takes the rest (Zh98 after (2.5)). So
-/// V = V0 - (v0 - v) e/chi and X = V0 t - (v0 t - slip_length) e/chi.
+/// The slip keeps its direction e, and so does omega along e. Along e the velocity of the centre falls by 1/chi of the
+/// lost slip, for a homogeneous ball 2/7; R omega across e takes the rest (Zh98 after (2.5)). So V = V0 - (v0 - v)
+/// e/chi and X = V0 t - (v0 t - slip_length) e/chi.
 ///
-/// @param t            s
-/// @param slip         m/s
-/// @param slip_length  m
-/// @param spin         rad/s
+/// @param t            time, s
+/// @param slip         slip v, m/s
+/// @param slip_length  length slid since the start, m
+/// @param spin         spin about the vertical, rad/s
 MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, double slip_length, double spin);
 
 }  // namespace contensou::si

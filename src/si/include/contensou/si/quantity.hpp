@@ -8,20 +8,20 @@
 
 namespace contensou::si {
 
-/// What a user gives of an experiment in numbers: a row here is a key of run files, an option of the program and a field of
-/// Python's Ball.
+/// A number, or vector, of an experiment that a user gives. Each is a key of run files, an option of the program and a
+/// field of Python's Ball.
 struct Quantity {
   enum class Range { any, not_zero, not_negative, positive, poisson_ratio, tilt };
 
   std::string_view name;  ///< the key of a run file
-  std::string_view unit;  ///< SI; empty for a pure number
+  std::string_view unit;  ///< SI unit; empty for a pure number
   std::string_view meaning;
   Range range;
-  std::string_view section;             ///< of a run file
-  std::string_view components = {};     ///< of a vector, between commas; empty for a number
-  std::optional<double> standard = {};  ///< the value if none is given; infinity may be one, but cannot be given
+  std::string_view section;             ///< section of a run file
+  std::string_view components = {};     ///< names of a vector's components, with commas; empty for a number
+  std::optional<double> standard = {};  ///< default value; it may be infinity, which cannot be given
 
-  /// The number of its components.
+  /// Returns the number of components.
   std::size_t count() const;
 };
 
@@ -80,45 +80,45 @@ inline constexpr Quantity slope{.name = "slope",
                                 .section = "environment",
                                 .standard = 0};
 
-/// All of them, in the order of a run file.
+/// Returns all quantities in the order of a run file.
 const std::vector<const Quantity*>& quantities();
 
-/// Quantities of which only one way is given: those of a way belong together.
+/// The ways to give one value, of which one is used. The quantities of a way belong together.
 using Ways = std::vector<std::vector<const Quantity*>>;
 
-/// Of a way those that must be given with each other: the rest has a standard value.
+/// Returns the quantities of a way that must all be given; the others have a default.
 Ways::value_type needed_of(const Ways::value_type& way);
 
-/// The parts of an experiment that can be given in several ways: the patch, the start, and what presses the ball on the plane.
+/// Returns the values of an experiment that can be given in several ways: the patch, the start, and the load.
 const std::vector<Ways>& alternatives();
 
-/// A unit that may stand behind a number: one of it is factor/divisor SI units.
+/// A unit that may follow a number; it is factor/divisor SI units.
 struct Unit {
   std::string_view symbol;
   double factor;
   double divisor = 1;
 };
 
-/// A dimension: its SI unit (or degrees) and the other units that are read.
+/// A dimension: its SI unit (or degrees) and the other units that are accepted.
 struct Dimension {
-  std::string_view name;    ///< as help calls a value
-  std::string_view symbol;  ///< of the unit that a plain number has
-  std::string_view words;   ///< the same, in the plural
+  std::string_view name;    ///< name in help
+  std::string_view symbol;  ///< symbol of the unit of a plain number
+  std::string_view words;   ///< name of that unit in the plural
   std::vector<Unit> others;
 };
 const std::vector<Dimension>& dimensions();
 
-/// The dimension of a unit's symbol; null for that of a pure number.
+/// Returns the dimension of a unit's symbol; null for that of a pure number.
 const Dimension* find_dimension(std::string_view symbol);
 
-/// "m, cm, mm, in, ft or yd".
+/// Returns the units as text, such as "m, cm, mm, in, ft or yd".
 std::string units_of(const Dimension& dimension);
 
-/// The value of a number with one of the units behind it, such as "2.25 in"; nothing for any other text.
+/// Returns the value of a number with one of the units behind it, such as "2.25 in"; empty for any other text.
 std::optional<double> parse_quantity(std::string_view text, const Dimension& dimension);
 
-/// Rejects a value that the quantity cannot have. Infinity and NaN are never allowed.
-/// @throws std::domain_error  naming the quantity, what is allowed and the value
+/// Throws for a value that the quantity cannot have. Infinity and NaN are never allowed.
+/// @throws std::domain_error  naming the quantity, the allowed values and the value
 void require(const Quantity& quantity, double value);
 
 }  // namespace contensou::si

@@ -7,57 +7,58 @@
 
 namespace contensou::si {
 
-/// The scaling between SI and the paper's variables; speeds and tau are in m/s.
+// The scaling between SI units and the paper's variables; speeds and tau are in m/s.
 
-/// mu = eps/R. Throws as patch_radius_of.
+/// Returns mu = eps/R. Throws as patch_radius_of.
 double patch_ratio(const Experiment& experiment, const reduction::Law& law);
 
-/// u = R omega_z, v = slip.
+/// Returns the start in the paper's variables: u = R omega_z, v = slip.
 reduction::State reduced_start(const Experiment& experiment);
 
-/// The reduced system of the ball or body, with its drive.
+/// Returns the reduced system of the ball or body, with its drive.
 /// @throws std::domain_error  as require_experiment, patch_radius_of and drive_of
 reduction::ReducedSystem reduced_system(const Experiment& experiment, const reduction::Law& law);
 
-/// The same without the slope's pull and without rolling resistance.
+/// Returns the reduced system without the slope's pull and without rolling resistance.
 reduction::ReducedSystem undriven_system(const Experiment& experiment, const reduction::Law& law);
 
-/// What drives the slip, over f N (reduction/README.md, (R53), (R54)).
+/// The drives of the slip, divided by f N (reduction/README.md, (R53), (R54)).
 struct Drives {
-  double slope;    ///< tan(alpha)/(chi f), of a slope that falls the way the ball slides; negative where it rises
+  double slope;    ///< tan(alpha)/(chi f) of a slope that falls in the direction of sliding; negative if it rises
   double rolling;  ///< u_r/f
-  double turning() const { return slope + rolling; }  ///< while it turns the way it slides
+  double turning() const { return slope + rolling; }  ///< drive while the body turns in the direction of sliding
 };
 
-/// @param along  the direction of the slip
-/// @param chi    1: of what is held and does not turn
+/// Returns the drives along a direction.
+/// @param along  direction of the slip
+/// @param chi    chi of the body; 1 if it is held and does not turn
 Drives drives_along(const Experiment& experiment, const Eigen::Vector2d& along, double chi);
 
-/// Whether a vector, or 0, points in that direction, to rounding.
-/// @param along  of length 1
+/// Returns true if a vector points in a direction to rounding, or is 0.
+/// @param along  direction of length 1
 bool points_along(const Eigen::Vector2d& vector, const Eigen::Vector2d& along);
 
-/// The direction of the slip at the start; where there is none, that in which it rolls or is pulled.
+/// Returns the direction of the slip at the start; without slip, that in which the ball rolls or is pulled.
 Eigen::Vector2d direction_at_start(const Experiment& experiment);
 
-/// Returns whether rolling friction or a slope acts.
+/// Returns true if rolling friction or a slope acts.
 bool is_driven(const Experiment& experiment);
 
-/// The drive rho of the motion from the start while the ball turns.
-/// @throws std::domain_error  saying why there is none: up or across the slope, or if it does not roll the way it slides,
-///                            the slip turns, and the motion is no orbit of a reduced system; as require_stop
+/// Returns the drive rho of the motion from the start while the ball turns.
+/// @throws std::domain_error  if the motion is no orbit of a reduced system, with the reason: it slides up or across
+///                            the slope, or not in the direction of rolling, so that the slip turns; as require_stop
 double drive_of(const Experiment& experiment);
 
-/// Rejects a slope on which what slides never stops.
-/// @throws std::domain_error  with the angle up to which friction holds it
+/// Throws for a slope on which a sliding body never stops.
+/// @throws std::domain_error  with the largest angle at which friction stops it
 void require_stop(const Experiment& experiment);
 
-/// Seconds that a tau of m/s lasts: t = 2 tau/(3 pi f g).
+/// Returns the time in seconds of a tau in m/s: t = 2 tau/(3 pi f g).
 double seconds(const Experiment& experiment, double tau);
 
-/// Rejects rolling friction and a slope, for an answer that knows none.
-/// @param what  the answer
-/// @throws std::domain_error  saying so
+/// Throws if rolling friction or a slope acts, for functions that do not allow them.
+/// @param what  name of the result, for the message
+/// @throws std::domain_error  with that name
 void require_undriven(const Experiment& experiment, std::string_view what);
 
 }  // namespace contensou::si

@@ -13,65 +13,67 @@ namespace contensou::si {
 
 struct Quantity;
 
-/// A number of an experiment that may be known to so much: a quantity, or a component of one that is a vector.
+/// A number of an experiment that may have a standard deviation: a quantity, or a component of a vector.
 struct Component {
   const Quantity* quantity;
   std::size_t index;
 
-  /// As a run file and the command line have it: friction, of a velocity vx.
+  /// Returns its name in run files and on the command line, such as friction or vx.
   std::string name() const;
 
   bool operator==(const Component&) const = default;
 };
 
-/// All of them, in the order of quantities(): not the moduli of a patch, nor inertia, which the body says.
+/// Returns all such numbers in the order of quantities(). Moduli, and the inertia, which follows from the body, are not
+/// among them.
 const std::vector<Component>& uncertain_components();
 
-/// Their names.
+/// Returns the names of these numbers.
 const std::vector<std::string>& uncertain_names();
 
-/// None for a name that is none of theirs.
+/// Returns the number of that name; empty if there is none.
 std::optional<Component> find_component(std::string_view name);
 
-/// A standard deviation as it is typed, such as "2 mm" or "5%", in the unit of the number; nothing for a plain number and
-/// for any other text.
-/// @param unit   as of a Quantity
+/// Returns a standard deviation from text such as "2 mm" or "5%", in the unit of the number; empty for a plain number
+/// and any other text.
+/// @param unit   unit of the Quantity
+/// @param value  value of which a % is taken
 /// @param value  what a % is of
 /// @throws std::domain_error  for a % of 0
 std::optional<double> parse_spread(std::string_view text, std::string_view unit, double value);
 
-/// What numbers of an experiment are known to: normal, with these standard deviations and correlations.
+/// Standard deviations and correlations of numbers of an experiment, whose distribution is normal.
 struct Spreads {
   struct Number {
     Component of;
-    double standard;  ///< in the unit of the quantity
+    double standard;  ///< standard deviation in the unit of the quantity
   };
   std::vector<Number> numbers = {};
   Eigen::MatrixXd correlation = {};  ///< symmetric, 1 on the diagonal
 
   bool empty() const { return numbers.empty(); }
 
-  /// Its place among the numbers; none for one that has no spread.
+  /// Returns the index of a number; empty if it has no spread.
   std::optional<Eigen::Index> place(const Component& of) const;
 
   /// Adds a number that is independent of the others.
   void add(const Component& of, double standard);
 
-  /// Of some of them alone, whatever the others are.
+  /// Returns the spreads of some numbers alone; the others may have any value.
   Spreads of(const std::function<bool(const Component&)>& kept) const;
 
   Eigen::MatrixXd covariance() const;
 };
 
-/// Those of a covariance.
-/// @param named  what its rows are of; a row that does not vary is left out
+/// Returns the spreads of a covariance.
+/// @param named  numbers of its rows; a row without variance is left out
 Spreads spreads_of(const Eigen::MatrixXd& covariance, const std::vector<Component>& named);
 
-/// The least eigenvalue of a matrix of correlations: below 0 no numbers can have them.
+/// Returns the smallest eigenvalue of a correlation matrix. If it is below 0, no numbers have these correlations.
 double least_eigenvalue(const Eigen::MatrixXd& correlation);
 
-/// An eigenvalue that stands for 0: correlations are written with some digits, and those of numbers that go together
-/// have one.
+/// Largest size of an eigenvalue that counts as 0. Correlations are written with few digits, and completely correlated
+/// numbers have an eigenvalue 0.
 inline constexpr double eigenvalue_rounding = 1e-6;
 
 }  // namespace contensou::si
