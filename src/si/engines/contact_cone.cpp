@@ -13,27 +13,28 @@
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
-// With F = f N Phi and M = c N Psi a cone's motion is that of (2.6) for a patch of radius c/f whose Psi(0) is 1:
+// With F = f N Phi and M = c N Psi the motion under a cone is that of (2.6) for a patch of radius c/f with Psi(0) = 1:
 //
 //     dv/ds = -Phi,   dw/ds = -r Psi,   w = mu |u|,   mu = c/(f R),   r = gamma mu^2/chi,   k = v/w = f v/(c |omega|),
 //
-// and of all (Phi, Psi) of the cone that one acts for which Phi v + Psi w, the power over f N, is greatest.
+// Of all (Phi, Psi) of the cone the one acts that maximises Phi v + Psi w, the power divided by f N.
 //
-// Ellipse, Phi^2 + Psi^2 <= 1. The greatest is normal to the ellipse: the law elliptic:1.
+// Ellipse, Phi^2 + Psi^2 <= 1. The velocity is normal to the ellipse at this point: the law elliptic:1.
 //
-// Box, Phi <= 1, Psi <= 1. Its corner, whatever v and w: the slip lasts S(v0), the spin P(u0), the limits of that law.
+// Box, Phi <= 1, Psi <= 1. It is the corner for all v and w: the slip lasts S(v0), the spin P(u0), the limits of that
+// law.
 //
-// Pyramid, Phi + Psi <= 1. A linear function is greatest at a corner: (1, 0) for k > 1, where the ball slides and its
-// spin is frozen, and (0, 1) for k < 1, where it spins and its slip is frozen. Each takes k to 1 and neither beyond.
-// There every point of the edge dissipates alike, and of those only Phi = r Psi = r/(1 + r) keeps k = 1: v and w fall
-// together, v = (c/f) |omega|, until both are 0. So a ball that starts with k > 1 slides until v = w0 and then has the
-// slip (c/f) |omega| as long as it spins: it rolls when the spin ends and not before. On the ray dv/ds = -r/(1 + r):
-// from v = w the stop takes v (1 + r)/r = v + w/r, in tau S(v) + P(u), and so it does from any start:
+// Pyramid, Phi + Psi <= 1. A linear function is largest at a corner: (1, 0) for k > 1, where the ball slides and its
+// spin is constant, and (0, 1) for k < 1, where it spins and its slip is constant. Each moves k to 1. There every point
+// of the edge has the same power, and only Phi = r Psi = r/(1 + r) keeps k = 1: v and w fall together, v = (c/f)
+// |omega|, until both are 0. So a ball that starts with k > 1 slides until v = w0, and then its slip is (c/f) |omega|
+// until the spin ends; it does not roll before. On the ray dv/ds = -r/(1 + r). From v = w the stop takes v (1 + r)/r =
+// v + w/r, in tau S(v) + P(u), and this sum is the stop time from any start; under the box it is the larger of the two:
 //
-//     s - s0 = v0 + w0/r                                                     the sum of what the box takes the larger of
+//     s - s0 = v0 + w0/r
 //
-// Points, n of them at c/f from the middle with N/n each. Where the body turns often while its slip changes little, what
-// acts on each is its mean over a turn, and that is what a ring of that radius has: the law ring, with mu = c/(f R).
+// Points: n points at c/f from the middle with the load N/n each. If the body turns often while its slip changes
+// little, the mean over a turn acts. This is the law ring of that radius, with mu = c/(f R).
 
 namespace contensou::si {
 
@@ -54,7 +55,7 @@ double mu_of(const Experiment& experiment, double moment_arm) {
   return moment_arm / experiment.contact.friction / experiment.ball.radius;
 }
 
-/// The motion under the pyramid: v and w fall evenly, until v = w either alone, then both.
+/// The motion under the pyramid: first v or w falls at a constant rate until v = w, then both fall.
 class PyramidMotion {
  public:
   PyramidMotion(const Experiment& experiment, double mu)
@@ -64,27 +65,27 @@ class PyramidMotion {
     stop_ = seconds(experiment, system.sliding_limit(v0) + system.pivoting_limit(w0 / mu));
   }
 
-  /// What v or w, `from` at the start, is at t.
+  /// Returns v or w at the time t; `from` is its value at the start.
   double speed(double from, double t) const {
     if (t < ray_) return from - (from - on_ray_) * (t / ray_);
     return t < stop_ ? on_ray_ * ((stop_ - t) / (stop_ - ray_)) : 0;
   }
 
-  /// When v or w, `from` at the start, is `speed`, less than that.
+  /// Returns the time at which v or w has fallen from `from` at the start to `speed`.
   double time(double from, double speed) const {
     return speed >= on_ray_ ? ray_ * ((from - speed) / (from - on_ray_)) : stop_ - (stop_ - ray_) * (speed / on_ray_);
   }
 
-  /// The integral over time of v or w, `from` at the start.
+  /// Returns the integral over time of v or w; `from` is its value at the start.
   double integral(double from) const { return ((from + on_ray_) * ray_ + on_ray_ * (stop_ - ray_)) / 2; }
 
-  double v0;  ///< m/s
-  double w0;  ///< m/s
+  double v0;  ///< slip at the start, m/s
+  double w0;  ///< rim speed at the start, m/s
 
  private:
-  double on_ray_;  ///< v = w where they become equal
-  double ray_;     ///< s, when they do
-  double stop_;    ///< s
+  double on_ray_;  ///< v = w when they become equal, m/s
+  double ray_;     ///< time at which they become equal, s
+  double stop_;    ///< stop time, s
 };
 
 }  // namespace
@@ -120,7 +121,7 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
   const reduction::Law law =
       cone == Cone::points ? *reduction::find_law("ring") : reduction::Law(reduction::EllipticLaw(1));
   const ReducedSystem system(law, mu > 0 ? mu : 1,
-                             experiment.ball.body.inertia);  // where mu is 0, its sliding is asked for
+                             experiment.ball.body.inertia);  // any system, if mu is 0: only its sliding is used
   if (mu > 0 && is_law) return fade_times(experiment, Motion::reduced(experiment, reduction::Flow(system)));
   if (mu > 0 && cone == Cone::pyramid) {
     const PyramidMotion motion(experiment, mu);

@@ -14,13 +14,13 @@ namespace contensou::si {
 
 namespace {
 
-/// sqrt(x^2 + y^2 + z^2), as std::hypot, which takes longer (and that of three numbers overflows in libc++ 16).
+/// Returns sqrt(x^2 + y^2 + z^2). std::hypot takes longer, and that of three numbers overflows in libc++ 16.
 double length(double x, double y, double z) {
   const double square = x * x + y * y + z * z;
   return square > 1e-200 && square < 1e300 ? std::sqrt(square) : std::hypot(std::hypot(x, y), z);
 }
 
-/// What is wrong with what the slip is made of; null if nothing is.
+/// Returns a description of a wrong number; null if there is none.
 const char* fault_of(reduction::Slip slip, double load, const Patch& patch) {
   if (!(patch.friction >= 0)) return "friction must be >= 0";
   if (!(patch.radius >= 0)) return "the patch radius must be >= 0";
@@ -46,7 +46,8 @@ const char* PatchFriction::evaluate(const Eigen::Vector3d& motion, double load, 
   wrench.value << -limit * resistance.force * along, -limit * arm * resistance.moment;
 
   const double inverse = 1 / std::max(slip.sliding, slip.pivoting);
-  const double by_sliding = slip.pivoting * inverse * inverse;  // of either slope
+  // Derivative of either slope's argument by the sliding speed.
+  const double by_sliding = slip.pivoting * inverse * inverse;
   const double by_pivoting = slip.sliding * inverse * inverse;
   const double across = resistance.force / slip.sliding;
   wrench.jacobian.topLeftCorner<2, 2>() =

@@ -16,7 +16,7 @@ namespace {
 
 using Way = Ways::value_type;
 
-/// Names with the section that they share, or each with its own.
+/// Returns the names, followed by their section if they share one, or each with its own.
 std::string joined(const std::vector<Source>& sources) {
   const bool together =
       std::ranges::all_of(sources, [&](const Source& source) { return source.section == sources.front().section; });
@@ -38,7 +38,7 @@ std::string ways_out(const Description& described, const Ways& ways) {
   return fmt::format("give {}", fmt::join(texts, ", or "));
 }
 
-/// The first of a way's quantities that is given; null if none is.
+/// Returns the first quantity of a way that is given; null if none is.
 const Quantity* given_of(const Description& described, const Way& way) {
   const auto found = std::ranges::find_if(way, [&](const Quantity* quantity) { return described.find(*quantity); });
   return found == way.end() ? nullptr : *found;
@@ -266,7 +266,7 @@ Experiment experiment_of(const Description& described) {
       experiment.environment.gravity = given->numbers[0];
     }
     require_experiment(experiment);
-  } catch (const std::domain_error& error) {  // of the values together
+  } catch (const std::domain_error& error) {  // the values exclude each other
     if (!described.in_one_file()) throw;
     described.home_of(friction).fail(error.what());
   }

@@ -103,7 +103,7 @@ double patch_radius_of(const Experiment& experiment, const reduction::Law& law) 
   } else if (std::holds_alternative<WholeFace>(contact.patch)) {
     patch = ball.radius;
   } else if (const auto* measured = std::get_if<SpinDeceleration>(&contact.patch)) {
-    // Measured where it can spin in place, on a level plane.
+    // A spin deceleration is measured while the ball spins in place, on a level plane.
     patch = patch_radius_of_deceleration(ball.radius, measured->value, contact.friction, environment.gravity,
                                          law.pivoting_moment(), ball.body.inertia.gamma);
   } else {
@@ -131,7 +131,7 @@ Experiment without_spin(Experiment experiment) {
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment) {
   const auto [centre, body] = velocities_of(experiment.start);
   const double R = experiment.ball.radius;
-  // What is left of a sum by the rounding of its terms is 0: a ball that is to roll rolls.
+  // A sum that is only the rounding of its terms becomes 0, so that a ball that is meant to roll rolls.
   const auto sum = [](double a, double b) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     return std::abs(a + b) <= rounding * std::abs(a) ? 0 : a + b;
@@ -192,7 +192,7 @@ void require_experiment(const Experiment& experiment) {
 void require_finite_motion(const Experiment& experiment, double braked, double last) {
   constexpr double largest = std::numeric_limits<double>::max() / 100;
   const Velocities start = velocities_of(experiment.start);
-  // m/s and 1/s; nothing moves or turns faster.
+  // Bounds of all speeds (m/s) and rates of turning (1/s).
   const double speed =
       start.velocity.stableNorm() + std::max(1.0, experiment.ball.radius) * start.angular_velocity.stableNorm();
   const double allowed = std::min({std::sqrt(largest / std::max(1.0, experiment.ball.mass)),

@@ -26,15 +26,15 @@ namespace contensou::si {
 
 namespace {
 
-/// A table of the file with what messages need to know about it.
+/// A table of the file, with the data for messages.
 struct Section {
-  std::string path;          ///< as in its header; empty for the file itself
+  std::string path;          ///< path as in the header; empty for the file itself
   const toml::table* table;  ///< empty if the file does not have it
   toml::source_position position;
 };
 
-/// The shortest digits that read back to the same double; with an exponent from 1e6 on, because TOML takes digits alone
-/// for a 64-bit integer.
+/// Returns the shortest digits that read back to the same double. From 1e6 on they have an exponent, because TOML takes
+/// digits alone for a 64-bit integer.
 std::string shortest(double value) {
   std::array<char, 32> digits{};
   char* const first = digits.data();
@@ -44,7 +44,7 @@ std::string shortest(double value) {
                        : std::to_chars(first, last, value).ptr};
 }
 
-/// What the user calls a key: `key` in [section].
+/// Returns the name of a key in messages: `key` in [section].
 std::string called(const Section& section, std::string_view key) {
   return section.path.empty() ? fmt::format("'{:.80}'", key) : fmt::format("'{:.80}' in [{}]", key, section.path);
 }
@@ -54,15 +54,15 @@ bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7
 constexpr std::size_t max_size = 1 << 16;
 constexpr std::size_t max_depth = 16;
 
-/// Text that is not for the parser, and why.
+/// The place of text that must not reach the parser, and the reason.
 struct Misfit {
   toml::source_position where;
   std::string reason;
 };
 
-/// The first place of a text that toml++ 3.3 answers with a failed assertion, undefined behaviour or a stack overflow
-/// instead of a parse_error: a character that TOML has only in strings and comments, a string of several lines, quotes,
-/// brackets or '=' where TOML has none, or deep nesting.
+/// Finds the first place of a text at which toml++ 3.3 would have a failed assertion, undefined behaviour or a stack
+/// overflow instead of a parse_error: a character that TOML allows only in strings and comments, a string of several
+/// lines, quotes, brackets or '=' in wrong places, or deep nesting.
 class Screen {
  public:
   explicit Screen(std::string_view text) : rest_(text) {}
@@ -128,7 +128,7 @@ class Screen {
     rest_.remove_prefix(bytes);
   }
 
-  /// To the closing quote, or to the end of the line.
+  /// Skips to the closing quote, or to the end of the line.
   void skip_string(char quote) {
     std::size_t end = 1;
     while (end < rest_.size() && rest_[end] != quote && rest_[end] != '\n') {
@@ -140,19 +140,19 @@ class Screen {
 
   std::string_view rest_;
   toml::source_position here_{1, 1};
-  std::string open_;       ///< brackets
-  bool assigned_ = false;  ///< the key that was read last has its '='
-  std::size_t dots_ = 0;   ///< of the key that is being read
+  std::string open_;       ///< open brackets
+  bool assigned_ = false;  ///< the last key already has its '='
+  std::size_t dots_ = 0;   ///< dots of the key that is being read
 };
 
-/// Words of a run file that are no quantities.
+/// A key whose value is text, not a number.
 struct WordKey {
   std::string_view section, key;
 };
 constexpr WordKey name_key{"ball", "name"}, body_key{"ball", "body"}, law_key{"contact", "law"},
     param_key{"contact", "param"};
 
-/// What the numbers are known to, and how their errors go together.
+/// The sections of standard deviations and of correlations.
 constexpr std::string_view spreads_path = "uncertainty", correlation_key = "correlation",
                            correlation_path = "uncertainty.correlation";
 
@@ -234,7 +234,7 @@ class Reader {
   }
 
   [[noreturn]] void fail(toml::source_position where, std::string_view message) const {
-    std::string shown(message);  // it may quote the file
+    std::string shown(message);  // the message may quote control characters of the file
     std::ranges::replace_if(shown, is_control, '?');
     throw RunFileError(fmt::format("{}: {}", place(where), shown));
   }
@@ -251,7 +251,7 @@ class Reader {
     }
   }
 
-  /// The table of a path, which is empty if it is not there; of those before, one is its parent.
+  /// Returns the table of a path, empty if it is missing; its parent is one of the sections `before`.
   Section section(const std::vector<Section>& before, std::string_view path) const {
     const std::size_t dot = path.rfind('.');
     const std::string_view of = dot == std::string_view::npos ? "" : path.substr(0, dot);
@@ -264,7 +264,7 @@ class Reader {
     return {std::string(path), node->as_table(), node->source().begin};
   }
 
-  /// Rejects a key that no quantity, no word and no section has.
+  /// Throws for a key that is no quantity, text or section.
   void require_known_keys(const Section& section, const std::vector<Section>& sections) const {
     std::vector<std::string> names;
     for (const WordKey& word : {name_key, body_key, law_key, param_key}) {
@@ -299,7 +299,7 @@ class Reader {
     return text;
   }
 
-  /// [contact.param] as the text of a law has it.
+  /// Returns [contact.param] in the form of a law's text.
   std::string parameters_of(const Section& contact) const {
     const toml::node* node = contact.table->get(param_key.key);
     if (node == nullptr) return "";
@@ -364,7 +364,7 @@ class Reader {
     return value;
   }
 
-  /// Of a vector, the numbers of an array.
+  /// Returns the numbers of a vector, an array in the file.
   std::vector<double> numbers(const toml::node& node, const Section& section, const Quantity& quantity) const {
     const std::size_t count = quantity.count();
     if (count == 1) return {number(node, section, quantity)};

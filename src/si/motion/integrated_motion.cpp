@@ -1,10 +1,10 @@
-// Notation: V, omega velocities of ball and centre, c = (Vx - R omega_y, Vy + R omega_x) that of the contact point,
-// (2.1), v = |c|, e = c/v, alpha the angle from that of the start to it. Friction is the force -f N Phi e at the contact point, the moment
-// -f N eps Psi sign(omega_z) about the vertical:
+// Notation: V and omega are the velocities of the centre and of the ball, c = (Vx - R omega_y, Vy + R omega_x) that of
+// the contact point, (2.1). v = |c|, e = c/v, and alpha is the angle from e at the start to e. Friction is the force -f
+// N Phi e at the contact point, and the moment -f N eps Psi sign(omega_z) about the vertical:
 //   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J_z omega_z' = M                  (2.5)
-// with R^2/J = (chi - 1)/m, J_z = m R^2/gamma: of a ball J = J_z = (2/5) m R^2, of a body that lies flat 1/J is 0.
-// Units of the integration: speed scale for R omega, time scale T for t, their product for the position, the slip
-// length without spin for the slip length.
+// with R^2/J = (chi - 1)/m and J_z = m R^2/gamma. For a ball J = J_z = (2/5) m R^2; for a body that lies flat 1/J is 0.
+// Units of the integration: a speed scale for R omega, a time scale T for t, their product for the position, and for
+// the slip length the slip length without spin.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,8 +32,8 @@ using Eigen::Vector3d;
 
 // ln(v/scale), alpha, ln(R|omega_z|/scale), R omega_x/scale, R omega_y/scale, x, y, slip length, spin angle R/length
 using Values = std::array<double, 9>;
-// Not Fehlberg 7(8): its error estimate compares the two ends of a step and vanishes for a quadrature, which the
-// position and the horizontal spin are.
+// Fehlberg 7(8) is unsuitable: its error estimate compares the two ends of a step and vanishes for a quadrature, and
+// the position and the horizontal spin are quadratures.
 using CashKarp = odeint::runge_kutta_cash_karp54<Values>;
 
 constexpr double tolerance = 1e-14;
@@ -43,18 +43,18 @@ constexpr long step_limit = 1'000'000;
 struct Ballistics {
   const reduction::Law& law;
   double R;
-  // Per unit of mass, which cancels and need not be known.
+  // Values per unit of mass, because the mass cancels and may be unknown.
   double tilting;  ///< m R^2/J
   double J_z;
   double normal_friction;  ///< f N/m
   double eps;
   double turn;     ///< sign of omega_z
-  Vector2d along;  ///< e at the start, from which alpha counts
+  Vector2d along;  ///< e at the start, from which alpha is measured
   double speed_scale;
   double time_scale;
   double slip_scale;
 
-  /// 1/kg, of the contact point: its acceleration over the force.
+  /// Returns the acceleration of the contact point divided by the force, times the mass.
   double mobility() const { return 1 + tilting; }
   double slip(const Values& x) const { return speed_scale * std::exp(x[0]); }
   double spin(const Values& x) const { return speed_scale * std::exp(x[2]) / R; }  // |omega_z|
@@ -65,7 +65,7 @@ struct Ballistics {
     return {speed_scale / R * x[3], speed_scale / R * x[4], turn * spin(x)};
   }
 
-  /// (2.1), solved for the velocity of the centre.
+  /// Returns the velocity of the centre, by (2.1).
   Vector2d velocity(const Values& x) const {
     const Vector2d rolling = speed_scale * Vector2d(x[4], -x[3]);
     return slip(x) * direction(x) + rolling;
@@ -98,22 +98,22 @@ struct Ballistics {
   }
 
   double slip_time_left(double v) const { return v / (normal_friction * mobility()); }
-  /// ln k, k = v/(eps |omega_z|).
+  /// Returns ln k, k = v/(eps |omega_z|).
   double log_ratio(const Values& x) const { return x[0] - x[2] + std::log(R / eps); }
 
   double spin_time_left(double omega) const { return omega * J_z / (normal_friction * eps * law.pivoting_moment()); }
 };
 
-/// The rest of a motion from where one of the two frictions is all there is. Its decline is linear in time.
+/// The rest of a motion under one of the two frictions alone. The speed falls linearly in time.
 class Tail {
  public:
-  /// @param start  s
+  /// @param start  time of `from`, s
   Tail(const Ballistics& ball, const Values& from, double start) : ball_(ball), from_(from), start_(start) {
     const double sliding = ball.slip_time_left(ball.slip(from));
     const double pivoting = ball.spin_time_left(ball.spin(from));
     slides_ = sliding > pivoting;
     left_ = std::max(sliding, pivoting);
-    // The other speed follows with the slope of its logarithm against that of the first.
+    // ln of the other speed is linear in ln of the first.
     if (slides_) {
       constexpr double fast = 0x1p100;
       const double moment = fast * ball.law(reduction::Slip{fast, 1}).moment;  // k Psi at infinity
@@ -126,14 +126,14 @@ class Tail {
 
   double stop() const { return start_ + left_; }
 
-  /// The state at a time in [start, infinity), in s.
+  /// Returns the state at a time in [start, infinity), in s.
   Values at_time(double t) const {
     const double share = t < stop() && left_ > 0 ? std::min((stop() - t) / left_, 1.0) : 0.0;
     const double passed = std::min(t, stop()) - start_;
-    const double mean = (1 + share) / 2 * passed;  // time at the first speed for the same way
+    const double mean = (1 + share) / 2 * passed;  // time in which the first speed would go the same way
     const double v = slides_ ? ball_.slip(from_) : 0;
     const double omega = slides_ ? 0 : ball_.spin(from_);
-    const double part = ball_.tilting / ball_.mobility();  // to rotation
+    const double part = ball_.tilting / ball_.mobility();  // part of the lost slip that becomes rotation
     const Vector2d e = ball_.direction(from_);
     const double length = ball_.speed_scale * ball_.time_scale;
     Values x = from_;
@@ -159,7 +159,7 @@ class Tail {
   bool slides_;
 };
 
-/// Whether the rest is a Tail to better than rounding: one friction does nothing more, or next to no time is left.
+/// Returns true if the rest is a Tail to better than rounding: one friction is negligible, or the time left is.
 bool in_tail(const Ballistics& ball, const Values& x, double t) {
   const double v = ball.slip(x);
   const double omega = ball.spin(x);
@@ -168,7 +168,7 @@ bool in_tail(const Ballistics& ball, const Values& x, double t) {
   return v <= 1e-17 * ball.eps * omega || pivoting <= 1e-18 * sliding || sliding + pivoting <= 1e-14 * t;
 }
 
-/// The length of the step from `before` that ends at k = 1, and its end.
+/// Returns the length of the step from `before` to k = 1, and the state there.
 double step_to_kink(const Ballistics& ball, const Values& before, double t, double longest, Values& end) {
   CashKarp base;
   const auto passes = [&](double length) {
@@ -183,7 +183,7 @@ double step_to_kink(const Ballistics& ball, const Values& before, double t, doub
 MotionPoint point_of(const Ballistics& ball, const Ball& body, const Values& x, double t) {
   const double length = ball.speed_scale * ball.time_scale;
   MotionPoint point{t, {x[5] * length, x[6] * length}, ball.velocity(x), ball.angular_velocity(x), ball.slip(x), 0};
-  point.angular_velocity.z() += 0.0;  // no -0
+  point.angular_velocity.z() += 0.0;  // avoids -0
   point.energy = kinetic_energy(body, {point.velocity, point.angular_velocity});
   return point;
 }
@@ -195,24 +195,23 @@ std::vector<Eigen::Index> increasing(const Eigen::ArrayXd& times) {
   return order;
 }
 
-/// The result of an integration.
+/// The result of an integration: states, times and lengths until the stop.
 struct Integration {
   MotionColumns points;
   double stop_time = 0;    ///< s
-  double slip_length = 0;  ///< m, until the stop
-  double spin_angle = 0;   ///< rad about the vertical, until the stop
+  double slip_length = 0;  ///< m
+  double spin_angle = 0;   ///< angle about the vertical, rad
   long steps = 0;
 };
 
-/// The equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law, with its position, integrated
-/// in SI: a route of its own, that knows neither the reduction nor the first integrals.
+/// Integrates the equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law, with its
+/// position, in SI units. It is independent of the reduction and of the first integrals.
 ///
-/// Force and torque act on the Cartesian velocities; the step is made in omega_x, omega_y, the position and, in place
-/// of the velocity of the contact point and of omega_z, in ln v, the direction of v and ln |omega_z|, as Zh98 does
-/// before (2.6): these cannot step through the stop. Once one friction is all there is, the tail is closed with its
-/// exact limit; beyond the stop the ball rolls.
+/// The variables are omega_x, omega_y and the position; ln v and the direction of v instead of the velocity of the
+/// contact point; and ln |omega_z|, as Zh98 before (2.6). Logarithms cannot step through the stop. Once one friction is
+/// negligible, the exact limit replaces further steps. Beyond the stop the ball rolls.
 ///
-/// @param times  s, >= 0, in any order
+/// @param times  times, s, >= 0, in any order
 Integration integrate(const Experiment& experiment, const reduction::Law& law, const Eigen::ArrayXd& times) {
   for (double t : times) {
     if (t >= 0 && std::isfinite(t)) continue;
@@ -288,7 +287,7 @@ Integration integrate(const Experiment& experiment, const reduction::Law& law, c
     }
     step = cut && t >= wanted ? std::max(step, trial) : trial;
     if (ball.log_ratio(before) > 0 && ball.log_ratio(x) < 0) {
-      // Laws have a kink at k = 1: a step ends there.
+      // Laws have a kink at k = 1, so a step ends there.
       taken = step_to_kink(ball, before, t_before, taken, x);
       t = t_before + taken;
     }
@@ -296,7 +295,7 @@ Integration integrate(const Experiment& experiment, const reduction::Law& law, c
   }
   const Tail tail(ball, x, t * T);
   for (; next != order.end(); ++next) {
-    // Reached within the last step by rounding, not before it.
+    // By rounding a time may lie just before the last step's end.
     const double at = std::max(times[*next], t * T);
     motion.points.set(*next, point_of(ball, experiment.ball, tail.at_time(at), times[*next]));
   }

@@ -27,7 +27,7 @@ double require_speed(const char* function, double speed) {
   throw std::domain_error(fmt::format("Motion::{}: speed >= 0 is required, got {}", function, speed));
 }
 
-/// The time at which what falls until `last` has fallen to a value above 0.
+/// Returns the time at which a value that falls until `last` reaches `to` > 0.
 double time_of_fall(const std::function<double(double)>& value, double to, double last) {
   return value(0) <= to ? 0 : reduction::root_between([&](double t) { return value(t) - to; }, 0, last);
 }
@@ -175,7 +175,7 @@ EnergyBalance Motion::energy_balance() const {
   const double chi = ball.body.inertia.chi, resisting = contact.rolling_friction * pressing(environment);
   const double rolling = resisting == 0 ? 0 : chi / (chi - 1) * ball.mass * resisting * solution_->rolled();
   const double gained = ball.mass * pull(environment).dot(last.position) + 0.0;
-  // Spin has lost what it had.
+  // Sliding has lost the rest of the energy.
   return {first, first + gained - pivoting - rolling - last.energy, pivoting, rolling, gained, last.energy};
 }
 

@@ -46,7 +46,7 @@ Velocities final_motion(const Experiment& experiment) {
   }
   const Eigen::Vector2d rolling =
       velocities_of(experiment.start).velocity - slip_velocity_at_start(experiment) * (1 / chi);
-  return {rolling, {(0 - rolling.y()) / R, rolling.x() / R, 0}};  // 0 - y: no -0
+  return {rolling, {(0 - rolling.y()) / R, rolling.x() / R, 0}};  // 0 - y avoids -0
 }
 
 MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, double slip_length, double spin) {
@@ -61,7 +61,7 @@ MotionPoint motion_by_slip(const Experiment& experiment, double t, double slip, 
   MotionPoint point;
   point.t = t;
   const Velocities final = final_motion(experiment);
-  const auto way = [t](double speed) { return speed == 0 ? 0 : speed * t; };  // also for ever
+  const auto way = [t](double speed) { return speed == 0 ? 0 : speed * t; };  // a speed of 0 stays 0 at infinite times
   point.position = final.velocity.unaryExpr(way) + slip_length * (1 / chi) * along;
   point.velocity = slip == 0 ? final.velocity : start.velocity - lost * (1 / chi) * along;
   point.angular_velocity = {start.angular_velocity.x() - rolling * along.y(),

@@ -1,5 +1,5 @@
-// Notation (reduction/README.md, (R56)): phi the angle from the pull to the velocity, z = tan(phi/2) = z_0 exp(-fall),
-// p = a/A, V = B (y^(p-1) + z_0^2 y^(p+1)) with y = z/z_0.
+// Notation (reduction/README.md, (R56)): phi is the angle from the pull to the velocity, z = tan(phi/2) = z_0
+// exp(-fall), p = a/A, V = B (y^(p-1) + z_0^2 y^(p+1)) with y = z/z_0.
 #include "pure_rolling.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The integral of y^power from exp(-fall) to 1.
+/// Returns the integral of y^power from exp(-fall) to 1.
 double power_integral(double power, double fall) {
   const double n = power + 1;
   return n == 0 ? fall : -std::expm1(-n * fall) / n;
@@ -93,7 +93,7 @@ PureRolling::Here PureRolling::after(double seconds) const {
     const bool on = seconds < whole;
     Here here{on ? Vector2d((first_.speed - first_.slowing * rolled) * along_) : Vector2d(0, 0), way * along_, way};
     if (on && first_.speed > 0) return here;
-    // It rests, or rolls down from there.
+    // From there the ball rests, or rolls down.
     const Stretch back{0, std::min(resisting_ - pull_, 0.0)};
     const double since = first_.speed > 0 ? seconds - whole : seconds;
     here.velocity = -back.slowing * since * down_;

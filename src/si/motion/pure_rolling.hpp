@@ -4,32 +4,33 @@
 
 namespace contensou::si {
 
-/// Rolling without slip on a plane with a constant pull, V' = A - a V/|V| (reduction/README.md, (R56)): down a slope A is
-/// (1 - 1/chi) g sin(alpha), and a = u_r g cos(alpha).
+/// Rolling without slip on a plane with a constant pull, V' = A - a V/|V| (reduction/README.md, (R56)). On a slope A is
+/// (1 - 1/chi) g sin(alpha), downwards, and a is u_r g cos(alpha).
 class PureRolling {
  public:
-  /// @param velocity   m/s
+  /// @param velocity   velocity at the start, m/s
   /// @param pull       A, m/s^2
   /// @param resisting  a, m/s^2, >= 0
   PureRolling(const Eigen::Vector2d& velocity, const Eigen::Vector2d& pull, double resisting);
 
-  /// What has come of it.
+  /// The velocity in m/s, the displacement from the start in m and the length of the path in m at one time.
   struct Here {
-    Eigen::Vector2d velocity, way;  ///< m/s; m from the start
-    double path;                    ///< m
+    Eigen::Vector2d velocity, way;
+    double path;
   };
   Here after(double seconds) const;
 
-  /// s until it rests for good; infinity where it never does.
+  /// Returns the time until the ball rests for good, s; infinity if it never does.
   double rest_time() const;
 
-  /// Returns the s until it needs more friction than there is, |share + a V/|V|| > most (R56); infinity where it never does.
-  /// @param most   m/s^2, f N/m
-  /// @param share  m/s^2, along the pull: what friction bears of it, A/(chi - 1)
+  /// Returns the time, s, until rolling needs more friction than there is, |share + a V/|V|| > most (R56); infinity if
+  /// it never does.
+  /// @param most   largest friction, f N/m, m/s^2
+  /// @param share  part of the pull that friction bears, A/(chi - 1), m/s^2
   double slides_after(double most, double share) const;
 
  private:
-  /// A straight stretch at a constant deceleration.
+  /// A straight part of the path at a constant deceleration.
   struct Stretch {
     double speed, slowing;  ///< m/s, m/s^2
     double lasts() const;
@@ -39,7 +40,7 @@ class PureRolling {
   double turned_time(double fall) const;
   Here turned(double fall) const;
 
-  Eigen::Vector2d along_, down_;  ///< of the velocity, of the pull
+  Eigen::Vector2d along_, down_;  ///< directions of the velocity and of the pull
   double pull_, resisting_;
   bool straight_;
   Stretch first_;

@@ -1,6 +1,6 @@
-// Notation: c slip, W rolling velocity R (omega_y, -omega_x), V = c + W that of the centre, w = eps |omega_z|,
-// k = |c|/w, e = c/|c|, a = u_r g, d the pull of a slope; on one g stands for g cos(alpha). Friction, rolling resistance and
-// the pull give (reduction/README.md, (R53), (R54))
+// Notation: c is the slip, W = R (omega_y, -omega_x) the rolling velocity, V = c + W that of the centre, w = eps
+// |omega_z|, k = |c|/w, e = c/|c|, a = u_r g, and d the pull of a slope. On a slope g means g cos(alpha). By friction,
+// rolling resistance and pull (reduction/README.md, (R53), (R54))
 //   V' = -f g Phi e + d,   W' = (chi - 1) f g Phi e - chi a W/|W|,   c' = V' - W'
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ using reduction::Law;
 using reduction::Orbit;
 using reduction::ReducedSystem;
 
-/// One instant, with what has passed since the start.
+/// A state, with the lengths and angles since the start.
 struct State {
   Vector2d slip, rolling;
   double spin;  ///< rad/s
@@ -43,7 +43,7 @@ struct State {
 
   Vector2d velocity() const { return slip + rolling; }
 
-  /// It has gone so far, in m, and rolled so far.
+  /// Adds a displacement along a direction, with the path and the rolled length, in m.
   void advance(double way, double rolled_way, const Vector2d& along) {
     position += way * along;
     path += way;
@@ -51,7 +51,7 @@ struct State {
   }
 };
 
-/// So many seconds after what no longer slides nor spins was as it is in `from`.
+/// Returns the state `seconds` after `from`, for a ball that neither slides nor spins.
 State rolled_on(const State& from, double seconds, const PureRolling& rolling) {
   const PureRolling::Here here = rolling.after(seconds);
   State now = from;
@@ -64,7 +64,7 @@ State rolled_on(const State& from, double seconds, const PureRolling& rolling) {
   return now;
 }
 
-/// What does not change.
+/// The constants of a motion.
 struct Given {
   Given(const Experiment& given, const Law& of_law)
       : lies_flat(given.ball.body.lies_flat()),
@@ -78,31 +78,32 @@ struct Given {
         down(pull(given.environment)),
         tau_per_second(1 / seconds(given, 1)) {}
 
-  /// Phi up to which rolling resistance keeps a ball that does not turn from turning: of a body that lies flat any.
+  /// Returns the Phi up to which rolling resistance holds a ball that does not turn; infinity for a body that lies
+  /// flat.
   double holding() const {
     return lies_flat ? std::numeric_limits<double>::infinity() : inertia.chi * drive / (inertia.chi - 1);
   }
 
-  /// Whether friction turns a ball that does not turn.
+  /// Returns true if friction turns a ball that does not turn.
   bool turns(double slip, double spin) const {
     if (holding() == 0) return true;
     const double k_force = slip > 0 ? law({slip, patch * std::abs(spin)}).force : 0;
     return k_force > holding();
   }
 
-  /// What follows when it neither slides nor spins.
+  /// Returns the rolling that follows once slip and spin have ended.
   PureRolling rolling_on(const State& from) const {
     const Vector2d rolls = (1 - 1 / inertia.chi) * down;
     return {from.rolling, rolls, lies_flat ? 0 : resisting};
   }
 
-  /// s for which friction keeps it from sliding then.
+  /// Returns the time, s, for which friction keeps this rolling from sliding.
   double rolls_for(const PureRolling& rolling) const {
     return rolling.slides_after(sliding, down.norm() / inertia.chi);
   }
 
-  /// The direction of a slip v that is slow beside rolling. From c' = chi (N - f g e), N = d/chi + a W/|W|, it follows that
-  /// of N = |N| n, late by v n'/(chi |N|).
+  /// Returns the direction of a slip v that is slow compared with rolling. By c' = chi (N - f g e), N = d/chi + a
+  /// W/|W|, it is the direction n of N, with the delay v n'/(chi |N|).
   Vector2d following(double v, const Vector2d& rolling) const {
     const Vector2d heading = rolling.normalized(), needed = down / inertia.chi + resisting * heading;
     const Vector2d n = needed.normalized();
@@ -119,11 +120,11 @@ struct Given {
   double drive;      ///< u_r/f
   double sliding;    ///< f g
   double resisting;  ///< u_r g
-  Vector2d down;     ///< m/s^2, the pull
+  Vector2d down;     ///< pull of the slope, m/s^2
   double tau_per_second;
 };
 
-/// A motion by its states.
+/// A motion given by its state at any time.
 class Resisted : public Motion::Solution {
  public:
   Resisted(const Experiment& of, Given given) : Solution(of), body_(std::move(given)) {}
@@ -168,15 +169,16 @@ class Resisted : public Motion::Solution {
 
  protected:
   Given body_;
-  std::vector<double> knots_;  ///< s, increasing, to the stop; between two of them slip has one maximum at most
+  /// Times to the stop, s, increasing; between two of them the slip has at most one maximum.
+  std::vector<double> knots_;
   double stop_ = 0, rest_ = 0;
 };
 
-/// A drive of 1 or more, under which sliding alone does not end.
+/// Thrown for a drive of 1 or more, under which sliding does not end.
 struct DrivenOut {};
 
-/// A ball that slides the way it rolls, straight down if there is a slope, in pieces: while it turns, while resistance
-/// holds it, and when it slides no more.
+/// The motion of a ball that slides in the direction of rolling, and straight down a slope. Its pieces are: the ball
+/// turns, resistance holds it, it slides no more.
 class Straight final : public Resisted {
  public:
   Straight(const Experiment& of, Given given, const State& start, const Vector2d& along, SharedFlows& flows)
@@ -193,7 +195,7 @@ class Straight final : public Resisted {
       pieces_.push_back({t, here, {t * body_.tau_per_second, turning, driven, speeds, driven.orbit(speeds)}});
       const Piece& piece = pieces_.back();
       const double stop = t + seconds(experiment, piece.of.orbit.stop_time());
-      // What begins to turn goes on to (R55).
+      // After a ball has begun to turn, it does not stop turning (R55).
       const bool goes_on = turning && pieces_.size() > 1;
       const std::optional<double> changes = goes_on   ? std::nullopt
                                             : turning ? ceases_to_turn(piece, stop)
@@ -261,7 +263,8 @@ class Straight final : public Resisted {
     ReducedPiece of;
   };
 
-  /// @throws DrivenOut
+  /// Returns the flow of a piece.
+  /// @throws DrivenOut  for a drive of 1 or more
   Flow flow(bool turning, SharedFlows& flows) const {
     const reduction::Inertia inertia{.chi = turning ? body_.inertia.chi : 1, .gamma = body_.inertia.gamma};
     const Drives drives = drives_along(experiment, along_, inertia.chi);
@@ -273,7 +276,7 @@ class Straight final : public Resisted {
     });
   }
 
-  /// s at which a piece passes the k at which friction is what resistance holds.
+  /// Returns the time, s, at which a piece passes the k whose friction resistance can just hold.
   std::optional<double> passes_holding(const Piece& piece) const {
     const double force = body_.holding();
     if (!(force > 0 && force < 1) || piece.of.orbit.on_axis()) return std::nullopt;
@@ -287,11 +290,11 @@ class Straight final : public Resisted {
     return piece.t + seconds(experiment, piece.of.orbit.at_log_ratio(ln_k).tau);
   }
 
-  /// s at which rolling ends before slip and spin do.
+  /// Returns the time, s, at which the ball ceases to turn before slip and spin end.
   std::optional<double> ceases_to_turn(const Piece& piece, double stop) const {
     if (body_.resisting == 0) return std::nullopt;
     const auto turning = [&](double t) { return state(t).rolling.dot(along_); };
-    // Between these it does nothing but grow, or fall.
+    // Within each of these intervals the turning only grows or only falls.
     constexpr double first = 1e-9;
     double from = piece.start.rolling.norm() > 0 ? piece.t : piece.t + first * (stop - piece.t);
     for (const double to : {passes_holding(piece).value_or(from), stop}) {
@@ -301,7 +304,7 @@ class Straight final : public Resisted {
     return std::nullopt;
   }
 
-  /// s at which friction begins to turn what resistance held.
+  /// Returns the time, s, at which friction begins to turn a ball that resistance held.
   std::optional<double> begins_to_turn(const Piece& piece) const {
     const auto t = passes_holding(piece);
     return t && piece.of.orbit.start_log_ratio() < piece.of.orbit.chart().log_terminal_ratio() ? t : std::nullopt;
@@ -319,10 +322,11 @@ class Straight final : public Resisted {
   std::optional<double> creep_ratio_;
 };
 
-/// c, W, w, x, slip length, turned, path, rolled; speeds over that of the start, lengths over it times a second.
+/// c, W, w, position, slip length, turned, path, rolled. Speeds are divided by that of the start, lengths by it times a
+/// second.
 using Progress = std::array<double, 11>;
 
-/// Any ball.
+/// The motion of any ball, integrated in steps.
 class Integrated final : public Resisted {
  public:
   Integrated(const Experiment& of, Given given, const State& start)
@@ -347,7 +351,7 @@ class Integrated final : public Resisted {
     double t;
     Progress x;
     bool held = false, rolls = false;
-    bool follows = false;  ///< c is (v, 0), its direction Given::following
+    bool follows = false;  ///< the slip is (v, 0), in the direction Given::following
   };
 
   Vector2d slip_of(const Progress& x, const Step& step) const {
@@ -360,7 +364,7 @@ class Integrated final : public Resisted {
     const Vector2d slip = slip_of(x, step), rolling(x[2], x[3]);
     const double v = slip.norm(), rim = std::max(x[4], 0.0), turning = rolling.norm();
     const auto [phi, psi] = v > 0 || rim > 0 ? body_.law({v, rim}) : reduction::Resistance{1, 0};
-    // Friction keeps the direction of a slip that begins at 0: rounding may make it negative.
+    // Friction keeps the direction of a slip that begins at 0. By rounding v may be negative.
     const Vector2d e = step.follows ? body_.following(v, rolling) : v > 0 ? Vector2d(slip / v) : Vector2d(0, 0);
     const Vector2d heading = turning > 0 ? Vector2d(rolling / turning) : e;
     const double chi = body_.inertia.chi;
@@ -393,7 +397,7 @@ class Integrated final : public Resisted {
     knots_.push_back(step.t);
   }
 
-  /// s after which v + w is 0 at the rate at which they fall now; infinity where they grow.
+  /// Returns the time, s, after which v + w would be 0 at its present rate; infinity if it grows.
   double time_to_stop(const Step& step) const {
     Progress rate;
     equations(step.x, rate, step);
@@ -404,8 +408,8 @@ class Integrated final : public Resisted {
     return falls > 0 && v + rim > 0 ? (v + rim) / falls : std::numeric_limits<double>::infinity();
   }
 
-  /// The motion so few seconds later that friction keeps its size and direction. If resistance holds the ball from then
-  /// on, slip takes over the last of the rolling.
+  /// Returns the state a short time later, during which friction is constant. If resistance holds the ball from then
+  /// on, the last rolling becomes slip.
   Step passed(Step now, double seconds, bool held) const {
     Progress& x = now.x;
     x = progress_of(state_of(now));
@@ -419,7 +423,7 @@ class Integrated final : public Resisted {
     return now;
   }
 
-  /// s until resistance has stopped so slow a rolling that friction keeps its size and direction, (R56) with A for it.
+  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant, (R56) with friction as A.
   double time_to_hold(Step step) const {
     const Vector2d rolling(step.x[2], step.x[3]);
     if (rolling.norm() == 0) return 0;
@@ -445,11 +449,11 @@ class Integrated final : public Resisted {
   }
 
   void run(const State& start) {
-    // A held ball creeps so slowly that the slip's last digits decide when it rests.
+    // A held ball creeps so slowly that the last digits of its slip determine the time of rest.
     constexpr double tolerance = 1e-13, slip_tolerance = 1e-15;
-    constexpr double nothing = 1e-9;  // of the speeds at the start
-    constexpr double soon = 1e-6;     // of the time in which friction takes them
-    constexpr double slow = 3e-4;     // of the speed of rolling
+    constexpr double nothing = 1e-9;  // part of the speeds at the start
+    constexpr double soon = 1e-6;     // part of the time in which friction ends them
+    constexpr double slow = 3e-4;     // part of the rolling speed
     constexpr long step_limit = 2'000'000;
     Step now{0, progress_of(start)};
     Progress& x = now.x;
@@ -463,7 +467,7 @@ class Integrated final : public Resisted {
         x = progress_of(state_of(now));
         now.follows = false;
       }
-      // The torque of friction turns a ball that stands, or resistance holds it.
+      // The torque of friction turns a ball that does not turn, or resistance holds it.
       const bool moved = body_.turns(v, x[4] / body_.patch);
       if (now.held && moved) now.held = false;
       if (!now.held && !moved && turning <= nothing * size) {
@@ -485,7 +489,7 @@ class Integrated final : public Resisted {
           rest_ = stop_ + rolling.rest_time();
           break;
         }
-        // Then it slides, first so slowly that the slip's own equation is stiff.
+        // Then the ball slides, at first so slowly that the equation of the slip is stiff.
         if (rolls > 0 || !now.follows)
           now = {.t = now.t + rolls, .x = progress_of(rolled_on(here, rolls, rolling)), .follows = true};
       }
@@ -500,7 +504,7 @@ class Integrated final : public Resisted {
           throw std::runtime_error("Motion: the step size fell to nothing: the friction law is not a number");
       }
       step = std::max(trial, now.t - before.t);
-      // Where friction begins to turn it a step ends.
+      // A step ends where friction begins to turn the ball.
       constexpr double short_enough = 1e-7;
       const bool turns_now = now.held && body_.turns(std::hypot(x[0], x[1]), x[4] / body_.patch);
       if (turns_now && now.t - before.t > short_enough * size / body_.sliding) {
@@ -524,7 +528,7 @@ class Integrated final : public Resisted {
 SolvedMotion resisted_motion(const Experiment& experiment, const Law& law, SharedFlows& flows, bool in_steps) {
   require_experiment(experiment);
   require_stop(experiment);
-  require_finite_motion(experiment, 0);  // their squares
+  require_finite_motion(experiment, 0);  // squares of lengths and speeds
   const auto [velocity, angular_velocity] = velocities_of(experiment.start);
   const Vector2d slip = slip_at_start(experiment) > 0 ? slip_velocity_at_start(experiment) : Vector2d(0, 0);
   const bool flat = experiment.ball.body.lies_flat();
@@ -537,7 +541,7 @@ SolvedMotion resisted_motion(const Experiment& experiment, const Law& law, Share
     try {
       return std::make_shared<Straight>(experiment, given, start, along, flows);
     } catch (const DrivenOut&) {
-      // It speeds up for a while.
+      // The motion speeds up for a while, so it has no pieces.
     }
   }
   return std::make_shared<Integrated>(experiment, given, start);

@@ -11,10 +11,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The uncoupled model. From the instant when it rolls, a ball with rolling friction rolls without slip along a straight
-/// line, slows down at a = u_r g and rests. Where friction f g is less than a, it cannot: it slows down at f g, its turning at
-/// chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin about the vertical is that of the motion
-/// without rolling friction.
+/// The motion of the uncoupled model. When a ball with rolling friction rolls, it rolls without slip along a straight
+/// line, slows down at a = u_r g and rests. If the friction f g is less than a, it cannot roll: it slows down at f g,
+/// its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin about the vertical is
+/// that without rolling friction.
 class Uncoupled final : public Motion::Solution {
  public:
   Uncoupled(const Experiment& of, const reduction::Law& law, double rolling_below) : Solution(of) {
@@ -49,7 +49,7 @@ class Uncoupled final : public Motion::Solution {
   double slip_time(double speed) const override {
     if (on_slope_) return on_slope_->slip_time(speed);
     if (!rolls_) return free_slip_time(speed);
-    // The slip grows until the ball turns no more, and then is its speed.
+    // The slip grows until the ball turns no more. Then it is the speed of the ball.
     const double most = speed_ * (1 - slowing_ / turning_);
     return most > speed ? rest_time() - speed / slowing_ : rolls_->t;
   }
@@ -85,7 +85,7 @@ class Uncoupled final : public Motion::Solution {
 
   double spin(double t) const { return t < spin_end_ ? spin_at_start(experiment) * (1 - t / spin_end_) : 0; }
 
-  /// Without rolling friction, on a level plane.
+  /// Returns the state without rolling friction on a level plane.
   MotionPoint free(double t) const {
     const double v0 = slip_at_start(experiment);
     const bool slides = t < slip_end_;
@@ -98,12 +98,12 @@ class Uncoupled final : public Motion::Solution {
   double way() const { return speed_ * speed_ / (2 * slowing_); }
   Vector2d direction() const { return speed_ > 0 ? Vector2d(rolls_->velocity / speed_) : Vector2d(0, 0); }
 
-  /// Returns the instant with rolling friction, from the one without.
+  /// Returns the state with rolling friction, from the state without.
   MotionPoint slowed(MotionPoint point) const {
     const double whole = speed_ / slowing_, braked = std::min(point.t - rolls_->t, whole);
     const double speed = braked < whole ? speed_ - slowing_ * braked : 0;
     const double rolling = turning_ == slowing_ ? speed : std::max(0.0, speed_ - turning_ * braked);
-    const Vector2d still = Vector2d::Zero();  // added so that no -0 is left
+    const Vector2d still = Vector2d::Zero();  // adding 0 avoids -0
     const Vector2d rim = rolling * direction() + still;
     point.position = rolls_->position + (speed_ + speed) / 2 * braked * direction();
     point.velocity = speed * direction() + still;
@@ -113,11 +113,11 @@ class Uncoupled final : public Motion::Solution {
     return point;
   }
 
-  double slip_end_, spin_end_;        ///< s, where nothing resists
-  SolvedMotion on_slope_;             ///< of the ball without spin
-  std::optional<MotionPoint> rolls_;  ///< with rolling friction: from here on it acts
-  double speed_ = 0;                  ///< then
-  double slowing_ = 0, turning_ = 0;  ///< m/s^2, of the centre, of R omega
+  double slip_end_, spin_end_;        ///< times without resistance, s
+  SolvedMotion on_slope_;             ///< motion of the ball without spin
+  std::optional<MotionPoint> rolls_;  ///< state from which rolling friction acts
+  double speed_ = 0;                  ///< speed in that state
+  double slowing_ = 0, turning_ = 0;  ///< decelerations of the centre and of R omega, m/s^2
 };
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace contensou::si {
 
 namespace {
 
-/// A motion that nothing drives, from the similarity solution: slip and spin are one orbit of the reduced system, and each
-/// instant is found by itself, by one root.
+/// A motion without a drive, from the similarity solution. Slip and spin are one orbit of the reduced system, and each
+/// state is one root.
 class OneOrbit final : public Motion::Solution {
  public:
   OneOrbit(const Experiment& of, reduction::Flow flow)
@@ -37,7 +37,7 @@ class OneOrbit final : public Motion::Solution {
   std::vector<ReducedPiece> pieces() const override { return {{0, true, flow_, reduced_start(experiment), orbit_}}; }
 
   double path_length(double t) const override {
-    // V is a linear function of the slip (motion_by_slip); where |V| is least, it may have a kink.
+    // V is a linear function of the slip (motion_by_slip). Where |V| is least, the speed may have a kink.
     const double v0 = slip_at_start(experiment);
     const double spin = spin_at_start(experiment);
     const auto velocity = [&](double v) { return motion_by_slip(experiment, 0, v, 0, spin).velocity; };
@@ -47,7 +47,7 @@ class OneOrbit final : public Motion::Solution {
     const double slowest = change.squaredNorm() > 0 ? -last.dot(change) / change.squaredNorm() * v0 : 0;
     constexpr double straight = 1e-12;
     if (std::abs(last.x() * change.y() - last.y() * change.x()) <= straight * last.norm() * change.norm()) {
-      // Forth, and perhaps back from where it stands for an instant.
+      // The centre moves forth, and perhaps back from the place where it stands for an instant.
       const Eigen::Vector2d there = at(slowest > 0 && slowest < v0 ? std::min(slip_time(slowest), t) : 0).position;
       return there.norm() + (at(t).position - there).norm();
     }
@@ -61,7 +61,7 @@ class OneOrbit final : public Motion::Solution {
   reduction::Flow flow_;
   reduction::Orbit orbit_;
   double stop_;
-  double scale_;  ///< tau per s
+  double scale_;  ///< tau per second
 };
 
 }  // namespace
