@@ -1,5 +1,5 @@
-// What the page asks of the library, as functions of JavaScript. What the library rejects is thrown as an Error with its
-// words. Columns are Float64Array.
+// The functions of the library that the page calls, in JavaScript. An error of the library becomes an Error with its
+// message. Columns are Float64Array.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +44,7 @@ using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
-/// What the name of a law begins with that is a table of the reader's: rho/pressure of each row, semicolons between them.
+/// Prefix of a law's name that contains a table of the reader: rho/pressure of each row, with semicolons between.
 constexpr std::string_view table_of_pressure = "table:";
 
 Law law_of(const std::string& name) {
@@ -86,19 +86,19 @@ std::vector<State> states_of(const val& points) {
   return states;
 }
 
-/// A state of the motion from one start that lies in the window: the start itself, or where it comes in.
+/// Returns a state in the window on the motion from one start: the start, or the entry into the window.
 State inside(const Flow& flow, State start, const portraits::Window& window) {
   const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= window.u && state.v <= window.v; };
   if (is_inside(start)) return start;
   const Orbit orbit = flow.orbit(start);
   const auto comes_in = [&](double time) { return is_inside(orbit.at_time(time)); };
   const auto point = orbit.at_time(reduction::last_where(comes_in, orbit.stop_time(), 0));
-  // Next to an axis a speed may underflow; the orbit is not the axis.
+  // Next to an axis a speed may underflow, but the orbit must not become the axis.
   constexpr double least = std::numeric_limits<double>::min();
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
 }
 
-/// The question of portrait_request.js, of a flow.
+/// Returns the program's description of a portrait for a request of portrait_request.js.
 answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   std::optional<si::Experiment> experiment;
@@ -117,11 +117,11 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   const auto chosen = static_cast<std::size_t>(asked["chosen"].as<int>());
   if (chosen < orbits.size()) question.start = experiment ? si::reduced_start(*experiment) : orbits[chosen];
   for (std::size_t i = 0; i < orbits.size(); ++i) {
-    // The axes are drawn anyway.
+    // Axes are always drawn.
     if (i == chosen || orbits[i].u == 0 || orbits[i].v == 0) continue;
     request.through.push_back(request.window ? inside(question.flow, orbits[i], *request.window) : orbits[i]);
   }
-  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // else as many as the program draws unasked
+  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // else the program's default number
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
   const auto field = asked["field"].as<std::string>();
   using Field = portraits::PortraitStyle::Field;
@@ -130,21 +130,21 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   return question;
 }
 
-/// The plane that the page shows. A plane that was rejected leaves the last good one in place.
+/// The plane that the page shows. If a new plane is rejected, the last valid one stays.
 class Plane {
  public:
-  /// Changes law, patch, body and the drive of a slope or of rolling friction: what k tends to, and what that means.
+  /// Sets the law, patch, body and the drive of a slope or of rolling friction. Returns the limit of k and its meaning.
   val choose(const std::string& law, double mu, double chi, double gamma, double drive) {
     flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}, drive));
     level_.emplace(drive == 0 ? *flow_ : ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
-    // Of the motions that slide and pivot at one speed, if it depends on the start.
+    // If the limit depends on the start, take motions with equal sliding and pivoting speeds.
     const auto end = flow().terminal().end_of(1);
     return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
   }
 
-  /// What the program draws when asked so of the plane's system; but the orbits that were asked for come by themselves,
-  /// for the page to draw: their motions from start to stop, and in each panel the line and where its arrow is.
-  /// @param behind  whether what lies behind them is drawn, too; else it is as it was drawn last, in the same window
+  /// Draws the portrait that the program draws for a request. The requested orbits are left to the page: the result
+  /// contains their motions from start to stop, and for each panel the line and the place of its arrow.
+  /// @param behind  true to draw everything behind these orbits again; false if it is unchanged, in the same window
   val portrait(const val& asked, bool behind) {
     answers::PortraitSpec question = question_of(asked, flow());
     question.request.drawn_only = true;
@@ -172,7 +172,7 @@ class Plane {
     return result;
   }
 
-  /// The file that the program writes when asked so of the plane's system, ending in tex or json.
+  /// Returns the file that the program writes for a request, with the ending tex or json.
   std::string portrait_file(const val& asked, const std::string& ending) const {
     const answers::PortraitSpec question = question_of(asked, flow());
     const portraits::PhasePortrait portrait = question.portrait();
@@ -180,23 +180,23 @@ class Plane {
                            : portraits::to_json(portrait, question.source());
   }
 
-  /// The stop time of one start.
+  /// Returns the stop time of one start.
   double stop(double u, double v) const { return flow().orbit({.u = u, .v = v}).stop_time(); }
 
-  /// The stop time of one start by another law, for which mu may be another.
+  /// Returns the stop time of one start under another law, with its own mu.
   double stop_by(const std::string& law, double mu, double u, double v) const {
     const Flow other(ReducedSystem(law_of(law), mu, system().inertia(), system().drive()));
     return other.orbit({.u = u, .v = v}).stop_time();
   }
 
-  /// The motion from one start to its stop: dense while it slides, and in equal times.
+  /// Returns the motion from one start to its stop, at dense times while it slides and at equal times.
   val motion(double u, double v) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const double stop = orbit.stop_time();
     constexpr int count = 120;
     std::vector<double> times;
     for (int i = 0; i <= count; ++i) times.push_back(stop * i / count);
-    // Sliding may be over long before the stop: also in steps of the time that sliding alone takes.
+    // Sliding may end long before the stop, so steps of the time of pure sliding are added.
     const double sliding = std::min(stop, 2 * system().sliding_limit(v));
     for (int i = 1; i < count; ++i) times.push_back(sliding * i / count);
     std::ranges::sort(times);
@@ -205,7 +205,8 @@ class Plane {
     return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
   }
 
-  /// One instant of the motion from one start, the friction there as a fraction of f N, and where it is in each panel.
+  /// Returns one state of the motion from a start, the friction there as a fraction of f N, and its place in each
+  /// panel.
   val instant(double u, double v, double tau) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const auto point = orbit.at_time(tau);
@@ -218,13 +219,13 @@ class Plane {
                   places(now, state({u, v}, orbit.stop_time())));
   }
 
-  /// Where a state is in each panel: x and y in turn.
+  /// Returns the place of a state in each panel: x and y in turn.
   val place(double u, double v) const {
     const Instant at = state({u, v}, 1);
     return column(places(at, at));
   }
 
-  /// The state at a point of a panel; null where there is none.
+  /// Returns the state at a point of a panel; null if there is none.
   val at(int panel, double x, double y) const {
     const auto& map = drawn_.maps.at(static_cast<std::size_t>(panel));
     const auto there = map.state ? map.state({x, y}) : std::nullopt;
@@ -232,9 +233,10 @@ class Plane {
                                                                        : val::null();
   }
 
-  /// When a body has ceased to slide, s, the path of its centre until then, m, and by how many degrees it has turned: a
-  /// ball when its slip has fallen to `least`, m/s, what lies flat when it stops. And when slip and spin have ended, s.
-  /// @param fields  as those of ride
+  /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, and its change of
+  /// direction in degrees; also the time at which slip and spin end. A ball ceases to slide when its slip falls to
+  /// `least` m/s, a body that lies flat when it stops.
+  /// @param fields  as in ride
   val slide(const val& fields, double rolling_friction, double least) const {
     const si::Motion motion = motion_of(fields, rolling_friction);
     const bool flat = system().inertia().chi == 1;
@@ -248,9 +250,9 @@ class Plane {
                   turned * 180 / std::numbers::pi, "stop", motion.stop_time());
   }
 
-  /// The motion over the table until `end`, in s, as columns in times that are dense at its beginning: those of `contensou
-  /// roll`. And {t, x, y} of where it rests, with rolling friction or on a slope, if it does.
-  /// @param fields  a ball whose patch the plane knows better
+  /// Returns the motion over the table until `end` in s, in the columns of `contensou roll`, at times that are dense at
+  /// the beginning. With rolling friction or on a slope it contains {t, x, y} of the place of rest, if the ball rests.
+  /// @param fields  a ball; its patch is that of the plane
   val ride(const val& fields, double rolling_friction, double end) const {
     const si::Motion moves = motion_of(fields, rolling_friction);
     constexpr Eigen::Index pieces = 160;
@@ -264,7 +266,7 @@ class Plane {
     return result;
   }
 
-  /// The lines in each panel of all states that stop after that time, u > 0 and u < 0.
+  /// Returns the lines in each panel of all states with one stop time, for u > 0 and u < 0.
   val isochrone(double tau) const {
     std::vector<State> states;
     const auto add = [&](State direction) {
@@ -272,7 +274,7 @@ class Plane {
       states.push_back({scale * direction.u, scale * direction.v});
     };
     add({.u = 1, .v = 0});
-    // Even in angle where both speeds take the same time to stop, and down to small k.
+    // The angles are equal in a plane in which both speeds take the same time to stop, and there are some at small k.
     for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
     const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
     constexpr int pieces = 96;
@@ -294,7 +296,7 @@ class Plane {
     return list(drawn_.maps, lines);
   }
 
-  /// The table of checks of one start.
+  /// Returns the table of checks of one start.
   val checks(double u, double v) const {
     return list(reduction::verify(flow(), State{.u = u, .v = v}), [](const reduction::Check& check) {
       return object("name", check.name, "measured", check.measured, "allowed", check.allowed, "passed", check.passed());
@@ -304,14 +306,14 @@ class Plane {
  private:
   using Instant = portraits::PortraitOrbit::Instant;
 
-  /// Of the law and body that were chosen.
+  /// Returns the flow of the chosen law and body.
   const Flow& flow() const {
     if (!flow_) throw std::domain_error("no law and body were chosen yet");
     return *flow_;
   }
   const ReducedSystem& system() const { return flow().system(); }
 
-  /// The motion of a ball with the plane's body.
+  /// Returns the motion of a ball with the plane's body.
   si::Motion motion_of(const val& fields, double rolling_friction) const {
     si::Experiment experiment = experiment_of(fields);
     experiment.ball.body.inertia = system().inertia();
@@ -332,7 +334,9 @@ class Plane {
     return result;
   }
 
-  /// @param drawn  the portrait's orbit through the start, if there is one: it may begin before, or in the window
+  /// Returns a requested orbit, as portrait describes it.
+  /// @param drawn  the portrait's orbit through the start, if there is one; it may begin before the start, or in the
+  ///               window
   val own_orbit(State start, const portraits::PortraitOrbit* drawn, const portraits::Window& window) const {
     const Orbit orbit = flow().orbit(start);
     const double stop = orbit.stop_time();
@@ -354,7 +358,7 @@ class Plane {
     const auto in_panel = [&](const portraits::PanelMap& map) {
       const portraits::Panel& axes = drawn_.figure.panels[panel++];
       const auto line = drawn ? portraits::visible(axes, {map.line(rows)}) : std::vector<portraits::Polyline>();
-      constexpr double shortest = 0.06;  // of a side
+      constexpr double shortest = 0.06;  // a fraction of a side
       const auto length = [&](const portraits::Polyline& part) { return portraits::paper_length(axes, part); };
       const auto longest = std::ranges::max_element(line, {}, length);
       std::vector<double> arrow;
@@ -369,11 +373,11 @@ class Plane {
     return own;
   }
 
-  std::optional<Flow> flow_, level_;  ///< the latter without a drive
+  std::optional<Flow> flow_, level_;  ///< level_: without a drive
   portraits::MappedFigure drawn_;     ///< the last portrait
 };
 
-/// {name, meaning} of each law, and of each family also what its number is: {letter, example}.
+/// Returns {name, meaning} of each law; for a family also {letter, example} of its number.
 val laws() {
   val all = list(reduction::names_of_laws(), [](std::string_view name) {
     return object("name", name, "meaning", reduction::meaning_of_law(name));
@@ -385,13 +389,13 @@ val laws() {
   return all;
 }
 
-/// The name of the law that is called so, as the library writes it.
+/// Returns the library's name of a law.
 std::string law_name(const std::string& called) {
   const Law law = law_of(called);
   return called.starts_with(table_of_pressure) ? called : law.name();
 }
 
-/// {name, chi, gamma} of each body, and `mu` of one that decides it.
+/// Returns {name, chi, gamma} of each body, and `mu` if the body fixes it.
 val bodies() {
   return list(si::bodies(), [](const si::Body& body) {
     val value = object("name", body.name, "chi", body.inertia.chi, "gamma", body.inertia.gamma);
@@ -400,13 +404,13 @@ val bodies() {
   });
 }
 
-/// Tells why a mu is refused for the body of that name; empty if it is allowed.
+/// Returns the reason why a body cannot have a mu; empty if it can.
 std::string complaint(const std::string& body, double mu) {
   return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }
 
-/// {name, layered: whether isochrones and a field are drawn in it, moments: whether its points are moments and not
-/// states}. Not of the view of beta: there a click is no moment.
+/// Returns {name, layered: true with isochrones and a field, moments: true if points are times and not states} of each
+/// view. The view of beta is left out, because a click there has no time.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
   std::erase(shown, portraits::View::regularised);
@@ -432,7 +436,8 @@ val catalogue() {
   });
 }
 
-/// Why the plane has no such motion: rolling friction that turns the slip, or that keeps the ball from turning at first.
+/// Returns the reason why the plane has no such motion; empty if it has. Rolling friction may turn the slip, or keep
+/// the ball from turning at first.
 std::string without_rolling_friction(const si::Experiment& experiment, const Law& law) {
   const double u_r = experiment.contact.rolling_friction;
   const State start = si::reduced_start(experiment);
@@ -446,14 +451,14 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// What the plane needs to know of a ball; its drive is that of a slope and of rolling friction, which `without` says why it
-/// leaves out.
+/// Returns the plane's data of a ball. The drive is that of a slope and of rolling friction; `without` is the reason if
+/// it is left out.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));
   if (!without.empty()) experiment.contact.rolling_friction = 0;
   const double radius = si::patch_radius_of(experiment, law_of(law));
-  // The one is proportional to the other.
+  // The patch radius is proportional to the deceleration.
   const double per_deceleration = si::patch_radius_of_deceleration(
       experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
       law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);

@@ -4,7 +4,7 @@
 
 namespace contensou::page {
 
-/// The page that was built with the program, one HTML file; empty if none was (CONTENSOU_PAGE).
+/// Returns the page, one HTML file, that was built into the program; empty without CONTENSOU_PAGE.
 std::string_view embedded_page();
 
 }  // namespace contensou::page

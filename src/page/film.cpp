@@ -1,4 +1,4 @@
-// A film that the reader gives to the page: friction and patch of the ball that is chosen, as `contensou fit` finds them.
+// A film that the reader gives to the page: finds friction and patch of the chosen ball, as `contensou fit` does.
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,10 +17,10 @@ namespace contensou::page {
 
 namespace {
 
-/// What the best law has found: {report, notes on columns that are not read, law, friction, patch, slip, spin, velocityX
-/// and velocityY of the centre, along the slip and across it, measured: {t, and of each observable of the film its column and,
-/// with _fitted, that of the fitted motion}, and the figure of `contensou fit`}.
-/// @param laws  between commas
+/// Returns the fit of the best law: {report, notes on columns that are not read, law, friction, patch, slip, spin,
+/// velocityX and velocityY of the centre, along and across the slip, measured: {t; for each observable of the film its
+/// column, and with _fitted the column of the fitted motion}, figure of `contensou fit`}.
+/// @param laws  names with commas between them
 val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
   si::Experiment experiment = experiment_of(ball);
   experiment.ball.name = ball["title"].as<std::string>();

@@ -87,7 +87,7 @@ Axis axis_of(const val& axis) {
   return {text_of(axis["name"]), axis["low"].as<double>(), axis["high"].as<double>(), false, ticks_of(axis["ticks"])};
 }
 
-/// What the layout depends on.
+/// Returns the parts of a figure on which the layout depends.
 portraits::Figure outline_of(const val& figure) {
   portraits::Figure outline{.title = {}, .subtitle = text_of(figure["title"]), .panels = {}};
   outline.max_columns = figure["columns"].as<int>();
@@ -108,10 +108,10 @@ portraits::Figure outline_of(const val& figure) {
   return outline;
 }
 
-/// Millimetres of a pixel: the library lets a panel of 50 mm stand beside others.
+/// Returns mm per pixel: the library's narrowest panel is 50 mm wide.
 double scale_of(const val& figure) { return 50 / figure["narrowest"].as<double>(); }
 
-constexpr double narrowest = 230;  // pixels that a panel needs beside others
+constexpr double narrowest = 230;  // width of the narrowest panel, pixels
 
 }  // namespace
 

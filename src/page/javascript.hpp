@@ -1,4 +1,4 @@
-// Values of the library as values of JavaScript, and back.
+// Conversion of the library's values to JavaScript and back.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ namespace contensou::page {
 
 using emscripten::val;
 
-/// What a call answers; what it throws, as an Error with its message, without which an exception of C++ would reach JavaScript.
-/// A fault of ours has the name Fault; the page completes its message with what was asked.
+/// Returns the result of a call. An exception becomes an Error with its message, because JavaScript cannot read
+/// exceptions of C++. An error of the library itself has the name Fault; the page adds the request to its message.
 template <class Call>
 auto answer(Call call) {
   std::string problem;
@@ -38,7 +38,7 @@ auto answer(Call call) {
   error.throw_();
 }
 
-/// A function, or a method, that answers so.
+/// A function, or a method, that calls another one through `answer`.
 template <auto function>
 inline constexpr auto answering = nullptr;
 
@@ -55,23 +55,23 @@ inline constexpr auto answering<method> = +[](const Class& self, Given... given)
   return answer([&] { return (self.*method)(given...); });
 };
 
-/// Laws are kept: some of them begin with a table.
+/// Returns the law of that name. Laws are cached, because some need a table.
 /// @throws std::domain_error  if there is no such law
 reduction::Law law_of(const std::string& name);
 
-/// What the fields describe: its body, and quantities (si/quantity.hpp) by their names, in SI units.
+/// Returns the experiment of the fields: a body, and quantities (si/quantity.hpp) by their names, in SI units.
 si::Experiment experiment_of(const val& fields);
 
-/// Float64Array.
+/// Returns numbers as a Float64Array.
 template <class Numbers>
 val column(const Numbers& values) {
   return val(emscripten::typed_memory_view(static_cast<std::size_t>(values.size()), values.data())).call<val>("slice");
 }
 
-/// Of lines one after the other, NaN between them: x0, y0, x1, y1, ...
+/// Returns lines one after the other, with NaN between them: x0, y0, x1, y1, ...
 val column(const std::vector<portraits::Polyline>& lines);
 
-/// An array of what the function makes of each entry.
+/// Returns an array of the function's value of each entry.
 template <class Range, class Function>
 val list(const Range& range, Function value) {
   val result = val::array();
@@ -80,7 +80,7 @@ val list(const Range& range, Function value) {
   return result;
 }
 
-/// The runs of a text: {words, italic, level} of each.
+/// Returns the runs of a text: {words, italic, level} of each.
 val text_value(const portraits::Text& text);
 
 inline void set_fields(val&) {}
@@ -98,7 +98,8 @@ void set_fields(val& object, const char* key, const Value& value, const Rest&...
   set_fields(object, rest...);
 }
 
-/// An object from keys and values in turn; texts of figures, strings, numbers, columns and values of JavaScript.
+/// Returns an object of keys and values in turn. Values are texts of figures, strings, numbers, columns or values of
+/// JavaScript.
 template <class... KeysAndValues>
 val object(const KeysAndValues&... keys_and_values) {
   val result = val::object();
@@ -106,15 +107,15 @@ val object(const KeysAndValues&... keys_and_values) {
   return result;
 }
 
-/// The fields of figure.hpp by their names, colours as in a style sheet; lines only where they are seen, as columns.
+/// Returns the fields of figure.hpp by their names; colours as in CSS, and the visible parts of lines as columns.
 val figure_value(const portraits::Figure& figure);
 
-/// How many rows of panels stand in a figure of figure_value's fields, that many pixels wide.
+/// Returns the number of rows of panels in a figure (figure_value) of a width in pixels.
 int rows_of(const val& figure, double width);
 
-/// Where everything goes in a figure of figure_value's fields, in pixels: {texts: {x, y, text, size, align, turned, bold},
-/// panels: {box, x, y: the ticks}, legend: {legend, x, y, width}, colours: boxes, from the bottom up}.
-/// @param letter  the size of letters, pixels
+/// Returns the layout of a figure (figure_value) in pixels: {texts: {x, y, text, size, align, turned, bold}, panels:
+/// {box, x, y: ticks}, legend: {legend, x, y, width}, colours: boxes from the bottom up}.
+/// @param letter  size of letters, pixels
 val layout_value(const val& figure, double width, double height, double letter);
 
 }  // namespace contensou::page

@@ -1,8 +1,8 @@
-// Forced into every file that is compiled for the page: what keeps the page small, and what the C++ library of Debian
-// 12's emscripten (LLVM 14) lacks of C++20 and this library uses.
+// Included in every file that is compiled for the page. It keeps the page small, and adds the parts of C++20 that this
+// library needs and the C++ library of Debian 12's emscripten (LLVM 14) lacks.
 #pragma once
 
-// Nothing of streams and locales, a tenth of the page, nor of long doubles, which WebAssembly computes in software.
+// Leave out streams and locales, a tenth of the page, and long doubles, which WebAssembly computes in software.
 #define FMT_HEADER_ONLY
 #define FMT_STATIC_THOUSANDS_SEPARATOR ','
 #define FMT_USE_FLOAT 0
@@ -19,7 +19,7 @@
 
 #include "platform/charconv/from_chars.hpp"
 
-/// A number in a message of Boost's, which would write it to a stream.
+/// Returns a number in a message of Boost, which would use a stream.
 template <>
 inline std::string boost::math::policies::detail::prec_format(const double& value) {
   return fmt::format("{}", value);
@@ -37,7 +37,7 @@ constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
 }
 
-/// The algorithms of std::ranges are modelled on those of range-v3.
+/// The algorithms of std::ranges are those of range-v3, which they are modelled on.
 namespace ranges {
 using namespace ::ranges;
 }

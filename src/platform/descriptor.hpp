@@ -2,31 +2,32 @@
 
 #include <cstdint>
 
-/// What is done with the descriptors of files in a way of each system's own. A function that fails returns -1 and sets
-/// errno. No program that is started inherits them.
+/// Functions for file descriptors that each system implements. A function that fails returns -1 and sets errno.
+/// Programs that this one starts do not inherit the descriptors.
 namespace contensou::platform {
 
 int open_to_read(const char* path);
 int open_to_write(const char* path);
 int duplicate(int file);
 
-/// Creates and opens a file that nobody else can read.
-/// @param name  its path, which ends in XXXXXX: they become what makes it the only one, before the file exists
+/// Creates and opens a file that no other user can read.
+/// @param name  path that ends in XXXXXX; unique characters replace them before the file exists
 int create_unfinished(char* name);
 
-/// Removes a file, also one that is open. In a signal handler, too.
+/// Removes a file, even if it is open. It may be called in a signal handler.
 void remove_file(const char* path);
 
-/// Gives a file another name, in place of the file that has it.
+/// Renames a file, replacing the file of the new name.
 int replace_file(const char* path, const char* target);
 
-/// Whether a read of what is there, or of its end, does not have to wait.
+/// Returns true if a read, also at the end of the file, does not wait.
 bool is_ready(int file);
 
-/// Makes sure of the room on the disk, where the file system can.
+/// Reserves room on the disk, if the file system supports it.
 int reserve(int file, std::uintmax_t bytes);
 
-/// @param mode  as of stat(); where a system or a file system knows no permissions it has no effect
+/// Sets the permissions of a file.
+/// @param mode  as in stat(); without effect on a system without permissions
 void set_permissions(int file, unsigned mode);
 
 }  // namespace contensou::platform

@@ -4,7 +4,8 @@
 
 namespace contensou::platform {
 
-/// A file that cannot be read or written, or a gnuplot that is missing or failed; the message names it and the reason.
+/// Thrown if a file cannot be read or written, or gnuplot is missing or failed; the message contains its name and the
+/// reason.
 struct FileFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -9,20 +9,20 @@ namespace contensou::platform {
 class InputFile {
  public:
   /// @param path  "-" is standard input
-  /// @param name  what messages call it
-  /// @throws std::system_error  for every function: if it cannot be read
+  /// @param name  name of the file in messages
+  /// @throws std::system_error  if the file cannot be read; so do the other functions
   InputFile(const std::string& path, std::string name);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Its bytes; NaN for a pipe or a device.
+  /// Returns the number of bytes; NaN for a pipe or a device.
   double size() const;
 
-  /// Appends what one read gives, so many bytes at most; false at the end.
+  /// Appends the bytes of one read, at most `most`; returns false at the end of the file.
   bool read(std::string& buffer, std::size_t most);
 
-  /// Whether read does not have to wait.
+  /// Returns true if read does not wait.
   bool ready() const;
 
  private:

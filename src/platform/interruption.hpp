@@ -4,13 +4,13 @@
 
 namespace contensou::platform {
 
-/// From now on what ends the program from outside (a signal, or Ctrl-C and the console's end in Windows) first removes
-/// the unfinished file and says so, and then ends the program as it does by itself (130 to a shell after Ctrl-C), also
-/// where the program is process 1 of a container. What is ignored, as SIGHUP under nohup, stays ignored. A limit on file
-/// sizes becomes an error of write().
+/// Handles the signals that end the program, and in Windows Ctrl-C and the end of the console. The handler removes the
+/// unfinished file, prints a message, and ends the program in the usual way: with status 130 in a shell after Ctrl-C,
+/// also as process 1 of a container. Ignored signals, such as SIGHUP under nohup, stay ignored. Exceeding a limit on
+/// file sizes becomes an error of write().
 void handle_ending_signals();
 
-/// Makes what ends the program wait while it lives.
+/// Delays the signals that end the program as long as an object of this class exists.
 class BlockedSignals {
  public:
   BlockedSignals();

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr mode_t writable = S_IWUSR | S_IWGRP | S_IWOTH;
 
-/// Where a link leads, also if nothing is there yet; a path that is no link is itself.
+/// Returns the target of a link, even if it does not exist; any other path unchanged.
 fs::path followed(fs::path path) {
   std::error_code error;
   while (fs::is_symlink(path, error)) {
@@ -37,7 +37,7 @@ fs::path followed(fs::path path) {
   return path;
 }
 
-/// The permissions of a new file.
+/// Returns the permissions of a new file.
 mode_t standard_mode() {
   const auto mask = ::umask(0);
   ::umask(mask);
@@ -55,7 +55,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     if (file_ < 0) fail(errno);
     return;
   }
-  // A file that may not be written to is not replaced, even where its folder would allow it; nor by root.
+  // A file without permission to write is not replaced, even if its folder allows it, and not by root.
   if (is_there && ((there.st_mode & writable) == 0 || ::access(path_.c_str(), W_OK) != 0)) fail(EACCES);
   mode_ = is_there ? there.st_mode : standard_mode();
   target_ = text_of(followed(path_of(path_)));

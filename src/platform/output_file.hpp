@@ -6,37 +6,37 @@
 
 namespace contensou::platform {
 
-/// Where results go, piece by piece. A file appears whole or not at all: it is written under another name in the same
-/// folder, then renamed; links stay and lead to the new file, which has the permissions of the old one. Standard
-/// output, devices and pipes are written to directly.
+/// A file for results. It appears whole or not at all: it is written under another name in the same folder, then
+/// renamed. Links stay and lead to the new file, which has the permissions of the old one. Standard output, devices and
+/// pipes are written directly.
 class OutputFile {
  public:
   /// @param path  "-" is standard output
-  /// @throws FileFailure  for every function: naming the file and the reason; nothing is left behind
+  /// @throws FileFailure  with the name of the file and the reason, as do the other functions; no file is left behind
   explicit OutputFile(std::string path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Makes sure of the room on the disk, where the file system can.
+  /// Reserves room on the disk, if the file system supports it.
   void reserve(std::uintmax_t bytes);
 
   void write(std::string_view content);
 
-  /// The file is there from now on, and standard error says so.
+  /// Puts the file in its place, and prints that on standard error.
   void finish();
 
  private:
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_;      ///< the file that links lead to, so that it is replaced and they stay
-  std::string unfinished_;  ///< its name until it is renamed; empty: written to directly
+  std::string target_;      ///< file to which links lead, so that this file is replaced and the links stay
+  std::string unfinished_;  ///< name until the file is renamed; empty if it is written directly
   unsigned mode_ = 0;       ///< permissions
   int file_ = -1;
 };
 
-/// Writes all of it as an OutputFile.
+/// Writes a file as OutputFile does.
 void write_output(const std::string& path, std::string_view content);
 
 }  // namespace contensou::platform

@@ -4,12 +4,12 @@ namespace contensou::platform {
 
 enum class Stream { output, error };
 
-/// Whether a person reads what is written there.
+/// Returns true if a stream is a terminal.
 bool is_terminal(Stream stream);
 
-/// To be called before any file is opened. The number of a closed standard stream must not become that of a file, which
-/// messages would be written into: what stands in for it cannot be read or written. In Windows bytes go in and out as they
-/// are, and the console is told that they are UTF-8.
+/// Prepares the standard streams; it must be called before any file is opened. A closed standard stream is replaced by
+/// a descriptor that can be neither read nor written, so that no file gets its number, to which messages are written.
+/// In Windows it sets streams to binary and the console to UTF-8.
 void prepare_standard_streams();
 
 }  // namespace contensou::platform

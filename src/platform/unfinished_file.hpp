@@ -4,19 +4,19 @@
 
 namespace contensou::platform {
 
-/// Creates and opens the unfinished file, which nobody else can read. There is one at a time.
+/// Creates and opens the unfinished file, which no other user can read. There is at most one.
 ///
-/// @param folder  where it is to be
-/// @param target  the path that it will have when it is finished, as the user knows it
-/// @param path    is set to its path
+/// @param folder  folder of the file
+/// @param target  path of the finished file, as the user wrote it
+/// @param path    receives the path of the unfinished file
 /// @return  its descriptor, or -1 with errno
 int open_unfinished(const std::string& folder, const std::string& target, std::string& path);
 
-/// The unfinished file is renamed or removed.
+/// Must be called when the unfinished file is renamed or removed.
 void forget_unfinished();
 
 /// Removes the unfinished file. Async-signal-safe.
-/// @return  what is to be said of it; none: there is none
+/// @return  message about the file; null if there is none
 const char* remove_unfinished();
 
 }  // namespace contensou::platform

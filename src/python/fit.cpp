@@ -12,7 +12,7 @@ namespace contensou::python {
 
 namespace {
 
-/// A law that a signal can stop: a search, which has one thread, asks it again and again.
+/// A law that a signal can stop. A search in one thread calls it again and again.
 class InterruptibleLaw {
  public:
   explicit InterruptibleLaw(std::shared_ptr<const reduction::Law> law) : law_(std::move(law)) {}

@@ -51,7 +51,7 @@ double stop_time_of(const PlanarOrbit& orbit) {
   return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity;
 }
 
-/// A number at each of the points; NaN where there is none.
+/// Returns a number at each of the points; NaN for an error.
 template <class Function>
 py::array_t<double> at_points(const Numbers& u, const Numbers& v, Function function) {
   py::array_t<double> result = like(u);

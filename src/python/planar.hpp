@@ -12,12 +12,12 @@
 
 namespace contensou::python {
 
-/// Not an exception of C++, which the library would take for a point without value.
+/// A signal during a call of a field. It is no std::exception, which the library would take for a point without value.
 struct Interrupted {
   py::error_already_set error;
 };
 
-/// What calls a field of Python's, which a signal such as Ctrl-C may end.
+/// Calls a function that uses a field of Python, which a signal such as Ctrl-C may end.
 template <class Function>
 auto interruptible(Function compute) {
   try {
@@ -27,7 +27,7 @@ auto interruptible(Function compute) {
   }
 }
 
-/// A planar system, the symmetries that it has, and its motions where one of them is a scaling.
+/// A planar system, its symmetries, and its motions if one of them is a scaling.
 class Planar {
  public:
   Planar(reduction::SmoothField given, const Eigen::Vector2d& around) : field(std::move(given)) {

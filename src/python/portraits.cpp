@@ -25,7 +25,7 @@ struct Portrait {
   std::function<std::string()> json;
 };
 
-/// Two columns.
+/// Returns points as an array of two columns.
 py::array_t<double> array_of(const std::vector<Point>& points) {
   static_assert(sizeof(Point) == 2 * sizeof(double));
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
@@ -42,7 +42,7 @@ py::list list_of(const Range& range, Function value) {
   return list;
 }
 
-/// Runs, each (words, italic, level).
+/// Returns the runs of a text, each (words, italic, level).
 py::tuple text_of(const portraits::Text& text) {
   return list_of(text.runs(),
                  [](const portraits::Run& run) { return py::make_tuple(run.words, run.italic, run.level); });
@@ -119,7 +119,7 @@ using Sides = std::pair<double, double>;
 /// (U, V), or both ends of each side.
 using AskedWindow = std::variant<Sides, std::pair<Sides, Sides>>;
 
-/// So many, or those of these times.
+/// A number of isochrones, or their times.
 using AskedIsochrones = std::variant<int, std::vector<double>>;
 
 template <class Request>
@@ -135,7 +135,7 @@ void ask_isochrones(Request& request, const std::optional<AskedIsochrones>& aske
 
 using Size = std::pair<std::optional<double>, std::optional<double>>;
 
-/// What portraits of all systems have.
+/// Returns the style that portraits of all systems share.
 PortraitStyle style_of(const std::string& arrows, bool axes, const std::string& colour, const std::string& style,
                        const Size& size) {
   using Arrows = PortraitStyle::Arrows;
@@ -155,7 +155,8 @@ Figure titled(Figure figure, const std::optional<std::string>& title, const Size
   return size.second ? figure : portraits::trimmed(std::move(figure));
 }
 
-/// @param flows  one or more, of planes to be compared; the rest is of all
+/// Returns a portrait.
+/// @param flows  one or more, of planes to compare; the other arguments apply to all
 Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optional<si::Experiment>& experiment,
                      const std::optional<Sides>& start, const std::optional<std::string>& view,
                      const std::optional<AskedWindow>& window, std::optional<int> orbits,

@@ -44,7 +44,7 @@ class FunctionLaw {
   const std::string& name() const { return name_; }
   const std::vector<double>& kinks() const { return kinks_; }
 
-  /// @throws py::error_already_set  what the function raises, with its own type and traceback
+  /// @throws py::error_already_set  the exception of the function, with its type and traceback
   Resistance operator()(Slip slip) const {
     const py::gil_scoped_acquire acquired;
     const py::object answer = (*function_)(slip.sliding, slip.pivoting);
@@ -96,7 +96,7 @@ Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
   return reduction::ReducedSystem(law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia, drive);
 }
 
-/// Into `out`, contiguous and as many as there are starts. What is no start becomes NaN.
+/// Writes the stop times to `out`, which is contiguous with an entry for each start; NaN for an invalid start.
 void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_t<double>& out, unsigned threads) {
   const auto count = static_cast<std::size_t>(out.size());
   const double* const us = u.data();
@@ -106,7 +106,8 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
-/// tau and its derivatives by u, v, mu, chi, gamma and drive, a row each: NaN for what is no start, derivatives at rest, too.
+/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, a row each. They are NaN for an invalid start,
+/// derivatives also at rest.
 py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, const Numbers& v) {
   const py::ssize_t count = u.size();
   py::array_t<double> result({py::ssize_t{7}, count});
@@ -127,7 +128,7 @@ py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, cons
   return result;
 }
 
-/// As stop_times, each start with a mu of its own. The flow is of one of them.
+/// Computes stop times like stop_times, with a mu for each start. The flow is that of any mu.
 void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, const Numbers& v,
                        py::array_t<double>& out) {
   const auto count = static_cast<std::size_t>(out.size());

@@ -36,7 +36,7 @@ using reduction::Law;
 
 using Pair = std::array<double, 2>;
 
-/// An entry of the array that a motion gives.
+/// An entry of the array of a motion's states.
 struct Instant {
   double t, x, y, vx, vy, wx, wy, wz, slip, energy;
 };
@@ -46,7 +46,7 @@ Instant instant_of(const si::MotionPoint& point) {
   return {t, position.x(), position.y(), velocity.x(), velocity.y(), w.x(), w.y(), w.z(), slip, energy};
 }
 
-/// What a caller gave, for a message: of an array its shape.
+/// Returns the caller's value for a message; an array as its shape.
 std::string words_of(const py::handle& value) {
   if (py::hasattr(value, "shape")) return "an array of shape " + py::repr(value.attr("shape")).cast<std::string>();
   constexpr std::size_t most = 60;
@@ -54,8 +54,9 @@ std::string words_of(const py::handle& value) {
   return words.size() > most ? words.substr(0, most) + "..." : words;
 }
 
-/// Does the work of so many rows on some threads.
-/// @throws std::domain_error, std::runtime_error  of the first row that fails, which it names; whatever else it throws
+/// Calls `work` for each of `count` rows on some threads.
+/// @throws std::domain_error, std::runtime_error  of the first row that fails, with its number; any other exception
+///         unchanged
 template <class Work>
 void for_rows(py::ssize_t count, unsigned threads, const Work& work) {
   std::atomic<py::ssize_t> next = 0;
@@ -94,12 +95,12 @@ void for_rows(py::ssize_t count, unsigned threads, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// A row of starts: vx, vy, wx, wy, wz.
+/// Returns the start in a row: vx, vy, wx, wy, wz.
 si::Velocities start_of(const double* row) { return {{row[0], row[1]}, {row[2], row[3], row[4]}}; }
 
 constexpr py::ssize_t columns_of_start = 5;
 
-/// The events of a motion, in the order of Python's fields; a rest that never comes is infinite.
+/// Writes the events of a motion in the order of Python's fields; a rest that never comes is infinite.
 void write_events(const si::Motion& motion, double rolling_below, double* row) {
   const si::Events events = motion.finite().events(rolling_below);
   for (const si::Event& event :
@@ -113,8 +114,8 @@ constexpr py::ssize_t columns_of_events = 13;
 
 constexpr const char *uncertainty_field = "uncertainty", *correlation_field = "correlation";
 
-/// Of a dict its names and numbers.
-/// @param what  it is, for a message
+/// Calls `take` for each name and number of a dict.
+/// @param what  name of the dict, for a message
 template <class Take>
 void for_numbers(const py::handle& dict, const std::string& what, const Take& take) {
   if (!py::isinstance<py::dict>(dict))
@@ -140,7 +141,7 @@ double number_in(const py::handle& value, const std::string& what) {
   }
 }
 
-/// As a run file has it.
+/// Returns text in the form of a run file.
 std::string line_in(const py::handle& value, const std::string& what) {
   if (!py::isinstance<py::str>(value))
     throw py::type_error(fmt::format("{}: text is needed; got {}", what, words_of(value)));
@@ -150,7 +151,7 @@ std::string line_in(const py::handle& value, const std::string& what) {
       fmt::format("{}: one line of text without control characters is needed; got {}", what, words_of(value)));
 }
 
-/// The field uncertainty of a Ball: as the table of a run file.
+/// Reads the field uncertainty of a Ball, which has the form of the table of a run file.
 void add_spreads(si::Description& described, const py::handle& field) {
   for_numbers(field, uncertainty_field, [&](const si::Component& of, const py::handle& value, const std::string& what) {
     described.add_spread(of, number_in(value, what), {"", what, ""});
@@ -181,7 +182,7 @@ py::dict dict_of(const si::Spreads& spreads) {
   return result;
 }
 
-/// What the fields of a Ball of Python say, by their names; None says nothing.
+/// Returns the description of a ball by the fields of Python's Ball; None is left out.
 si::Description described_by(const py::dict& fields) {
   si::Description described;
   for (const auto& [key, value] : fields) {
@@ -232,7 +233,7 @@ py::dict fields_of(const si::Description& described) {
 
 namespace {
 
-/// The fields of a Ball of Python that it has without being told.
+/// Returns all fields of Python's Ball, with the defaults.
 py::dict fields_of_ball(const si::Description& described) {
   py::dict fields = fields_of(described);
   fields["law"] = si::law_of(si::experiment_of(described));
@@ -343,7 +344,7 @@ void bind_si(py::module_& module) {
         return result;
       });
   module.def("struck_starts", [](const si::Experiment& experiment, const Numbers& strikes) {
-    constexpr py::ssize_t columns = 5;  // speed, right, above, degrees, mass
+    constexpr py::ssize_t columns = 5;  // columns: speed, right, above, degrees, mass
     const py::ssize_t rows = strikes.size() / columns;
     py::array_t<double> result({rows, columns_of_start});
     const double* from = strikes.data();

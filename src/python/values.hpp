@@ -21,17 +21,17 @@ namespace contensou::python {
 
 namespace py = pybind11;
 
-/// While it computes, the library holds no lock of Python's: a law of Python's takes it for each call.
+/// Releases Python's lock while the library computes. A law in Python takes it for each call.
 using Released = py::call_guard<py::gil_scoped_release>;
 
-/// Numbers of any shape, one after the other.
+/// Numbers of any shape, in C order.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Lets a signal such as Ctrl-C end a long computation that holds no lock of Python's: asked often, it looks for one ten times
-/// a second.
+/// Ends a long computation without Python's lock on a signal such as Ctrl-C. It may be called often, and looks for
+/// signals ten times a second.
 class Interruption {
  public:
-  /// @throws py::error_already_set  KeyboardInterrupt, or what else a handler of Python's raises
+  /// @throws py::error_already_set  KeyboardInterrupt, or another exception of a handler in Python
   void check() {
     if (++asked_ % 64 != 0) return;
     const auto now = std::chrono::steady_clock::now();
@@ -46,7 +46,7 @@ class Interruption {
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 
-/// An array of the shape of `given`, each entry what the function makes of that number.
+/// Returns an array of the shape of `given` with the function's value of each number.
 template <class Value, class Function>
 py::array_t<Value> mapped(const Numbers& given, Function function) {
   py::array_t<Value> result(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
@@ -62,8 +62,8 @@ py::array_t<Value> mapped(const Numbers& given, Function function) {
   return result;
 }
 
-/// The value that a name stands for.
-/// @param kinds  what the names are of, such as "laws"
+/// Returns the value of a name.
+/// @param kinds  plural of the kind of names, such as "laws"
 /// @throws std::domain_error  listing the names, if it is none of them
 template <class Value>
 Value one_of(std::string_view kind, std::string_view kinds, const std::vector<std::pair<std::string, Value>>& choices,
@@ -78,7 +78,7 @@ Value one_of(std::string_view kind, std::string_view kinds, const std::vector<st
       fmt::format("no such {} '{}'{}; {}: {}", kind, typed, suggestion(typed, names), kinds, fmt::join(names, ", ")));
 }
 
-/// The fields of a Ball of Python.
+/// Returns the fields of Python's Ball.
 py::dict fields_of(const si::Description& described);
 
 void bind_reduction(py::module_& module);

@@ -10,7 +10,7 @@ namespace contensou {
 
 namespace {
 
-/// Damerau-Levenshtein distance (optimal string alignment).
+/// Returns the Damerau-Levenshtein distance (optimal string alignment).
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});

@@ -6,11 +6,11 @@
 
 namespace contensou {
 
-/// The name that was probably meant: the one that the fewest edits (insert, delete, replace, swap neighbours) lead to.
-/// Empty if even that one needs edits for more than half of its letters.
+/// Returns the name that the fewest edits (insert, delete, replace, swap neighbours) lead to. Empty if it needs edits
+/// of more than half of its letters.
 std::string nearest_name(std::string_view typed, std::span<const std::string> names);
 
-/// The same as the end of a message: " (did you mean 'NAME'?)", or nothing.
+/// Returns that name as the end of a message, " (did you mean 'NAME'?)"; empty if there is none.
 std::string suggestion(std::string_view typed, std::span<const std::string> names);
 
 }  // namespace contensou

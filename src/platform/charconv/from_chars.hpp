@@ -1,5 +1,5 @@
-// std::from_chars of a double, which libc++ has from LLVM 20 on: forced into every file where it is missing, on macOS and in
-// the page.
+// std::from_chars for doubles, which libc++ has from LLVM 20 on. The build includes this header in every file if it is
+// missing, on macOS and for the page.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace std {
 
-/// As the standard's, by strtod in the locale of C. Numbers of base 16 end at their x.
+/// Reads a number as std::from_chars does, by strtod in the locale C. A number of base 16 ends at its x.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   const string text(first, find_if(first, last, [](char letter) { return letter == 'x' || letter == 'X'; }));

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#ifndef O_PATH  // Linux's: neither for reading nor for writing
+#ifndef O_PATH  // which only Linux has, and which allows neither reading nor writing
 #define O_PATH O_RDONLY
 #endif
 

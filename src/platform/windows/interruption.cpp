@@ -11,10 +11,10 @@ namespace contensou::platform {
 
 namespace {
 
-/// Held while what ends the program has to wait: paper's files, and in it each of them.
+/// Locked while the end of the program must wait: by `paper` for all its files, and within it for each file.
 std::recursive_mutex wait;
 
-/// In a thread of its own. The next handler, the system's, ends the program.
+/// Removes the unfinished file, in a thread of its own. The next handler, that of the system, ends the program.
 BOOL WINAPI end_program(DWORD) {
   const std::lock_guard lock(wait);
   if (const char* message = remove_unfinished()) {
