@@ -28,8 +28,7 @@ IsochroneTimes asked_times(std::vector<double> times, double unit);
 /// allow. Without a number it returns about the usual number, by the roundest steps.
 IsochroneTimes even_times(double last, double unit, std::optional<int> asked, int usual);
 
-/// Returns the parts of isochrones that lie in the rectangle, by increasing time. Along each, v/u turns from u > 0 to u
-/// < 0.
+/// Returns the parts of isochrones in the rectangle, by increasing time. Along each, v/u turns from u > 0 to u < 0.
 ///
 /// By tau*(c u, c v) = c tau*(u, v) one isochrone is computed, as a function of the direction v/u, and the others are
 /// its copies. Points are close enough for straight lines between them, and end on the border to the last digits.

@@ -102,8 +102,7 @@ void refine(Track& track, double from, const std::vector<double>& places, At at,
   }
 }
 
-/// Returns the last number from `from` on in the direction of a step at which a condition holds, before it fails for
-/// good.
+/// Returns the last number from `from` on in the direction of a step before a condition fails for good.
 template <class Holds>
 double last_along(Holds holds, double from, double step) {
   for (; holds(from + step); step *= 1.5) from += step;
@@ -140,8 +139,7 @@ class OrbitTracer {
   /// Returns the orbit through a point, from its entry into the window.
   PortraitOrbit orbit_through(State point) const { return orbit(entry(point)); }
 
-  /// Returns orbits of both signs of u. They start on the right half of the border, at equal distances across the flow
-  /// on paper.
+  /// Returns orbits of both signs of u. They start on the right half of the border, equally far apart across the flow.
   std::vector<PortraitOrbit> orbits(int count) const {
     std::vector<PortraitOrbit> result;
     std::optional<PortraitOrbit> curve;

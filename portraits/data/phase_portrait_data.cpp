@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns v/(mu |u|) from its logarithm, which does not underflow. Eigen's exp is never below 5.6e-309, so it is not
-/// used.
+/// Returns v/(mu |u|) from its logarithm, which does not underflow. Eigen's exp is unsuitable: it is never below
+/// 5.6e-309.
 std::vector<double> ratios(const PortraitOrbit& orbit) {
   return list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
 }

@@ -10,8 +10,7 @@
 namespace contensou::portraits {
 
 /// Places through which a further orbit of a picture may go. Each lies in a sector, which orbits do not leave. The next
-/// orbit goes through the middle of the widest gap. @tparam Sector  type with == @tparam State   state that belongs to
-/// a place
+/// orbit goes through the middle of the widest gap. Sectors are compared; a State belongs to each place.
 template <class Sector, class State>
 class WidestGaps {
  public:

@@ -143,8 +143,7 @@ class Writer {
         axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
-  /// The coordinates along an axis: the data, or on a logarithmic axis their powers of ten, in a unit that TeX's fixed
-  /// point can represent.
+  /// The data of an axis, or on a logarithmic axis their powers of ten, in a unit that TeX's fixed point can represent.
   struct Coordinates {
     Axis axis;
     double origin = 0, unit = 1;  ///< in data

@@ -17,8 +17,8 @@ struct ProgramRun {
   bool succeeded() const { return end == End::exited && number == 0; }
 };
 
-/// Runs a program found on PATH, in the locale C.UTF-8. The program ends when this one does. It uses no shell and no
-/// file on a disk.
+/// Runs a program found on PATH, in the locale C.UTF-8. The program ends when this one does. No shell or file on a disk
+/// is used.
 /// @param command  name and arguments
 /// @param input    standard input of the program
 /// @param seconds  time limit

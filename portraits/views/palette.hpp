@@ -42,8 +42,7 @@ struct TimeBands {
 /// @param step        step of the isochrones; 0: none
 TimeBands bands_of(double longest, std::vector<double> isochrones, double step, double unit, const Palette& palette);
 
-/// Returns bands of equal ratio from the shortest time to the longest, in tau, with edges at round multiples of the
-/// unit.
+/// Returns bands of equal ratio from the shortest time to the longest, in tau, with edges at multiples of the unit.
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette);
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption);

@@ -12,8 +12,7 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Compares rooms so that among places with equal room the first wins, independent of the last digits. Portraits have
-/// two equal halves.
+/// Compares rooms so that the first of equal ones wins, whatever the last digits: portraits have two equal halves.
 bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
 
 /// The place for a label of a size with most room. Room is the distance, in half widths or half heights, from the

@@ -74,8 +74,7 @@ void PanelLayers::add_points(const std::vector<Point>& points) {
   }
 }
 
-/// Returns heads at equal times left, halfway between isochrones, and at least one on an orbit, where it is most
-/// visible.
+/// Returns heads at equal times left, halfway between isochrones, and at least one on an orbit.
 std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orbit) {
   const Polyline& line = orbit.line;
   const std::vector<double>& times = orbit.left;

@@ -42,8 +42,7 @@ inline constexpr double upstream_of_copies = 14;
 /// Returns ln k of the invariant rays, increasing.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
-/// Returns the state of an orbit at a given ln k, interpolated between rows; the last state before the stop if the
-/// orbit does not reach it.
+/// Returns the interpolated state of an orbit at a ln k; the last state before the stop if the orbit does not reach it.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
 /// A panel with its map.

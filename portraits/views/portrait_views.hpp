@@ -24,17 +24,15 @@ std::vector<MappedPanel> time_view(const Drawing& drawing);
 std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
-/// Calls `add` for each motion of the views of motions: from five ratios at the start, for each law, and the requested
-/// ones.
+/// Calls `add` for each motion of the views of motions: from five start_ratios, for each law, and the requested ones.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
                                                                   Stroke stroke, const Text& legend)>& add);
 
-/// Returns these ratios, increasing: about the one at which pure sliding and pure pivoting take the same time, and
-/// half-decades on both sides.
+/// Returns ratios by half-decades about the one at which pure sliding and pure pivoting take the same time.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
 
-/// Returns the panel of (u, ln k), in which the approach of orbits to the origin is visible even for a contact of order
-/// 10^5 with an axis.
+/// Returns the panel of (u, ln k), which shows how orbits enter the origin even for a contact of order 10^5 with an
+/// axis.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
 /// A view with its name for users and its layout on a page.

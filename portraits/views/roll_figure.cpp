@@ -114,8 +114,7 @@ Panel path_panel(const RollPicture& picture) {
 }
 
 /// Widens the axes of the path, the first panel, to the shape of that panel on the page. The path is to scale unless it
-/// is so flat that most of the panel would be empty. Then one side is stretched a round number of times, and a text
-/// says so.
+/// is so flat that most of the panel would be empty. Then one side is stretched a round number of times.
 void fill_panel(Figure& figure) {
   constexpr double flattest = 0.2, wanted = 0.75;
   const Box box = lay_out(figure).panels.front().box;
@@ -217,8 +216,8 @@ Panel speed_panel(const RollPicture& picture) {
   return panel;
 }
 
-/// Returns the part of a panel that a frame of a film shows. A GIF has no dashes, and only the colours of its first
-/// frame.
+/// Returns the part of a panel that a film's frame shows. A GIF has no dashes, and the colours of its first frame
+/// alone.
 Panel until(const Panel& whole, std::size_t frame) {
   Panel panel = whole;
   panel.marks.clear();

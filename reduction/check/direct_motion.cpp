@@ -29,8 +29,8 @@ using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
 /// Largest change of x in one step next to a kink, as a fraction of x, where x = ln k - ln k of the kink. A law may
-/// have a term x ln|x| there. Fehlberg's error estimate does not see it, because only the stages at the two ends of a
-/// step enter.
+/// have a term x ln|x| there. Fehlberg's error estimate does not see it: only the stages at the two ends of a step
+/// enter.
 constexpr double fraction_of_distance = 0.5;
 /// Distance |x| below which x^2 is negligible and steps need not shrink any more.
 constexpr double nearest_kink = 1e-8;
@@ -60,8 +60,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  // beta grows without bound towards the stop. ln(1 + beta/beta_unit) starts at 0 and has the size of the other
-  // variables.
+  // beta grows without bound. ln(1 + beta/beta_unit) starts at 0 and has the size of the other variables.
   const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
   const double beta_unit = 1 / speed;
   DirectEquations equations{system, beta_unit};

@@ -2,8 +2,7 @@
 
 namespace contensou::reduction {
 
-/// Returns ln w along an orbit of the exact (Hertz) law for 0 < k <= 1, where it is elementary, up to a constant:
-/// README (R12).
+/// Returns ln w along an orbit of the exact law for 0 < k <= 1, where it is elementary, up to a constant: README (R12).
 ///
 /// It is independent of SimilarityCurve::ln_w. Differences between two k agree.
 ///

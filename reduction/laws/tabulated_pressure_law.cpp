@@ -59,8 +59,8 @@ class FunctionTable {
   }
 
   Values operator()(double y) const {
-    // The exponent and the first bits of the mantissa are the number of the panel. The other bits go from -1 to 1
-    // across it.
+    // The exponent and the first bits of the mantissa are the number of the panel. The others go from -1 to 1 across
+    // it.
     constexpr int fraction_bits = 52;
     constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
     constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);
@@ -181,8 +181,7 @@ struct Ring {
 using Rule = std::vector<Ring>;
 constexpr int rule_order = 10;
 
-/// The part of the patch between two rows, where the pressure is linear in s. The pressure is relative to the whole
-/// load.
+/// The part of the patch between two rows, where the pressure, divided by the whole load, is linear in s.
 struct Piece {
   double inner, outer;  ///< radii
   double inner_pressure, outer_pressure;

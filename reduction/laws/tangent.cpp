@@ -7,8 +7,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Returns the tangent by second-order differences in the ratio of the smaller speed to the larger, central or, beside
-/// 0, one-sided.
+/// Returns the tangent by second-order differences in the ratio of the smaller speed to the larger, one-sided beside 0.
 Tangent by_differences(const Law& law, Slip slip) {
   constexpr double step = 6e-6;  // rounding and the third derivative give about the same error
   const bool pivots = slip.sliding <= slip.pivoting;

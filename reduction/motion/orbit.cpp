@@ -38,8 +38,8 @@ double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
 /// Returns the root of an increasing function of xi in [low, high] by Newton's method, with bisection if a step leaves
-/// the interval. The function changes by a factor over a unit of xi. So after a step below small_step the error, its
-/// square, is negligible.
+/// the interval. The function changes by a factor over a unit of xi. So the error after a step below small_step, its
+/// square, is nothing.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);
@@ -206,8 +206,7 @@ OrbitPoint Orbit::rest(double tau) const {
 }
 
 OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
-  // The one speed falls linearly. On either axis dtau = weight dbeta, and the weight is proportional to this speed
-  // squared.
+  // The one speed falls linearly. On either axis dtau = weight dbeta, with a weight proportional to its square.
   if (fraction_left == 0) return rest(tau);
   const double rate = system_.scaled_time_rate();
   const double spent = (1 - fraction_left) / fraction_left;
@@ -259,8 +258,7 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
-/// Takes the speeds from the time left. Beside an invariant ray they fall while k hardly changes, and xi does not
-/// determine them.
+/// Takes the speeds from the time left. Beside a ray they fall while k hardly changes, and xi does not determine them.
 OrbitPoint Orbit::point_with_left(double tau, double xi, double left) const {
   return point(tau, xi, progress(xi, left));
 }

@@ -14,8 +14,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Returns dD/dk at a zero k of D = Phi - rho - r k Psi, k neither 0 nor infinity, by differences in ln k, because a
-/// law has no derivative.
+/// Returns dD/dk at a zero k of D = Phi - rho - r k Psi, k neither 0 nor infinity, by differences in ln k.
 double excess_slope(const Law& law, double r, double k) {
   const double ln_k = std::log(k);
   const auto excess = [&](double x) {
@@ -95,8 +94,7 @@ PhasePlane phase_plane(const Flow& flow) {
     }
   };
 
-  // README (R16), (R17). The orders of contact are ratios of rates, in which mu, which may underflow in the rates,
-  // cancels.
+  // README (R16), (R17). mu may underflow in the rates, but cancels in their ratios, the orders of contact.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
   const double fall_pivoting = pivoting_rate * law.pivoting_moment() * mu * mu * weight(0);

@@ -29,8 +29,7 @@ class StopTimeTable {
   /// Returns the largest relative error found by the test in panels that are used.
   double worst_error() const;
 
-  /// Returns the share of panels that are not used: 0 if every panel is within 4 eps, 1 if the flow computes every
-  /// start.
+  /// Returns the share of unused panels: 0 if every panel is within 4 eps, 1 if the flow computes every start.
   double refused() const;
 
   /// Returns the stop time of one start.

@@ -6,8 +6,7 @@
 
 namespace contensou::reduction {
 
-/// The type in which tables are computed: long double, or double where long double is software of 128 bits
-/// (WebAssembly).
+/// The type in which tables are computed: long double, or double where that is software of 128 bits (WebAssembly).
 #ifdef __wasm__
 using Wide = double;
 #else

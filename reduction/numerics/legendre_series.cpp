@@ -13,8 +13,7 @@ namespace {
 using GaussRule = boost::math::quadrature::gauss<long double, LegendreSeries::order>;
 
 /// The Gauss points, the matrix from samples to coefficients (discrete orthogonality of the Gauss rule) and its
-/// inverse. They are computed in long double, because errors of the matrix add up at the ends of the interval, where
-/// all P_j are 1.
+/// inverse. They are computed in long double, because errors of the matrix add up at the ends, where all P_j are 1.
 struct Transform {
   static constexpr int order = LegendreSeries::order;
   LegendreSeries::Samples points;

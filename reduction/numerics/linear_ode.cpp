@@ -55,8 +55,7 @@ Samples slope_by_factor(const Samples& rate, const Samples& source) {
 
 /// Returns z' at the points for d z' + h z = g, z(-1) = 0.
 Samples slope_by_collocation(const Samples& advection, const Samples& rate, const Samples& source) {
-  // z is the integral of z', so (d + h A) z' = g with the matrix A of integration. The divisor scales the rows where d
-  // vanishes.
+  // z is the integral of z', so (d + h A) z' = g with the matrix A of integration. `unit` scales rows with d = 0.
   const Samples unit = advection + rate.abs() * (LegendreSeries::points() + 1);
   Matrix system = (rate / unit).matrix().asDiagonal() * integration();
   system.diagonal().array() += advection / unit;
@@ -66,8 +65,8 @@ Samples slope_by_collocation(const Samples& advection, const Samples& rate, cons
 }  // namespace
 
 LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, const Samples& source, double start) {
-  // Solve for z = y - start. Noise that h and g share cancels in g/h and so in y, and the rounding of the series is
-  // relative to the change of y.
+  // Solve for z = y - start. Noise that h and g share cancels in g/h and so in y, and the series is rounded relative to
+  // z.
   const Samples change = source - rate * start;
   LegendreSeries y;
   if (forgets_start(advection, rate)) {

@@ -14,8 +14,7 @@ namespace contensou::reduction {
 /// @return           y
 ///
 /// For moderate h/d the method is the integrating factor. For large h/d the factor is no polynomial, but y is, and the
-/// method is collocation: one linear system for y' at the points, or for y without the start if the start is forgotten
-/// at once.
+/// method is collocation: one linear system for y' at the points, or for y if the start is forgotten at once.
 LegendreSeries solve_linear_ode(const LegendreSeries::Samples& advection, const LegendreSeries::Samples& rate,
                                 const LegendreSeries::Samples& source, double start);
 

@@ -18,8 +18,7 @@ inline constexpr double max_ln_k = 44;
 /// Returns min_ln_k, or a smaller value with a drive.
 double lowest_ln_k(const Law& law, double r, double drive);
 
-/// Limits of the halving of panels, here and in QuadratureCurve. A law with more noise than the tolerance would be
-/// halved for ever.
+/// Limits of the halving of panels, here and in QuadratureCurve. With a noisy law panels would be halved for ever.
 inline constexpr double panel_tolerance = 1e-15;
 inline constexpr int max_depth = 40;
 inline constexpr std::size_t max_panels = 50'000;
@@ -81,7 +80,7 @@ class RegularSolution {
 };
 
 /// Returns true if a curve with a drive reaches k = 0, where m, n and o grow like 1/k. The functions below then return
-/// their products with k/(1 + k).
+/// k/(1 + k) times these.
 bool reaches_rest(const TerminalChart& chart, double drive);
 
 /// Solves the equation of m with any right side: that of m itself, or of its derivatives by r and rho, README (R58).

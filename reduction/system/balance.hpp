@@ -6,8 +6,7 @@
 
 namespace contensou::reduction {
 
-/// Returns true if 1 - Phi determines the friction that a drive leaves better than Phi does. From rho = 1/2 on 1 - rho
-/// is exact.
+/// Returns true if the friction that a drive leaves follows best from 1 - Phi. From rho = 1/2 on 1 - rho is exact.
 inline bool by_deficit(const Law& law, double drive) { return drive >= 0.5 && law.states_force_deficit(); }
 
 /// Returns F = Phi - rho.
@@ -16,8 +15,7 @@ inline double net_force(const Law& law, Slip slip, double sliding, double drive)
   return by_deficit(law, drive) ? (1 - drive) - law.force_deficit(slip) : sliding - drive;
 }
 
-/// D = Phi - rho - r k Psi of README (R2) and (R49) as a difference of two numbers without rounding loss. k falls where
-/// D > 0.
+/// D = Phi - rho - r k Psi of README (R2) and (R49) as a difference of two accurate numbers. k falls where D > 0.
 struct Balance {
   double slows;            ///< Phi, or 1 - rho
   double speeds;           ///< rho + r k Psi, or (1 - Phi) + r k Psi

@@ -205,8 +205,7 @@ class Plane {
     return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
   }
 
-  /// Returns one state of the motion from a start, the friction there as a fraction of f N, and its place in each
-  /// panel.
+  /// Returns a state of the motion from a start, its friction as a fraction of f N, and its place in each panel.
   val instant(double u, double v, double tau) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const auto point = orbit.at_time(tau);
@@ -335,8 +334,7 @@ class Plane {
   }
 
   /// Returns a requested orbit, as portrait describes it.
-  /// @param drawn  the portrait's orbit through the start, if there is one; it may begin before the start, or in the
-  ///               window
+  /// @param drawn  the portrait's orbit through the start, if there is one; it may begin earlier, or in the window
   val own_orbit(State start, const portraits::PortraitOrbit* drawn, const portraits::Window& window) const {
     const Orbit orbit = flow().orbit(start);
     const double stop = orbit.stop_time();
@@ -451,8 +449,8 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// Returns the plane's data of a ball. The drive is that of a slope and of rolling friction; `without` is the reason if
-/// it is left out.
+/// Returns the plane's data of a ball. Its drive is of slope and rolling friction; `without` is the reason if it is
+/// left out.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));

@@ -98,8 +98,7 @@ void set_fields(val& object, const char* key, const Value& value, const Rest&...
   set_fields(object, rest...);
 }
 
-/// Returns an object of keys and values in turn. Values are texts of figures, strings, numbers, columns or values of
-/// JavaScript.
+/// Returns an object of keys and values in turn. Values are texts, strings, numbers, columns or values of JavaScript.
 template <class... KeysAndValues>
 val object(const KeysAndValues&... keys_and_values) {
   val result = val::object();

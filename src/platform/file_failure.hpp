@@ -4,8 +4,7 @@
 
 namespace contensou::platform {
 
-/// Thrown if a file cannot be read or written, or gnuplot is missing or failed; the message contains its name and the
-/// reason.
+/// Thrown if a file cannot be read or written, or gnuplot is missing or failed; the message contains name and reason.
 struct FileFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

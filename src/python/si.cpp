@@ -55,8 +55,7 @@ std::string words_of(const py::handle& value) {
 }
 
 /// Calls `work` for each of `count` rows on some threads.
-/// @throws std::domain_error, std::runtime_error  of the first row that fails, with its number; any other exception
-///         unchanged
+/// @throws std::domain_error, std::runtime_error  of the first row that fails, with its number; others unchanged
 template <class Work>
 void for_rows(py::ssize_t count, unsigned threads, const Work& work) {
   std::atomic<py::ssize_t> next = 0;

@@ -21,8 +21,7 @@
 //
 // Ellipse, Phi^2 + Psi^2 <= 1. The velocity is normal to the ellipse at this point: the law elliptic:1.
 //
-// Box, Phi <= 1, Psi <= 1. It is the corner for all v and w: the slip lasts S(v0), the spin P(u0), the limits of that
-// law.
+// Box, Phi <= 1, Psi <= 1. It is the corner for all v and w: the slip lasts S(v0), the spin P(u0) of that law.
 //
 // Pyramid, Phi + Psi <= 1. A linear function is largest at a corner: (1, 0) for k > 1, where the ball slides and its
 // spin is constant, and (0, 1) for k < 1, where it spins and its slip is constant. Each moves k to 1. There every point

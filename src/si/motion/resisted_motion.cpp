@@ -78,8 +78,7 @@ struct Given {
         down(pull(given.environment)),
         tau_per_second(1 / seconds(given, 1)) {}
 
-  /// Returns the Phi up to which rolling resistance holds a ball that does not turn; infinity for a body that lies
-  /// flat.
+  /// Returns the Phi up to which resistance holds a ball that does not turn; infinity for a body that lies flat.
   double holding() const {
     return lies_flat ? std::numeric_limits<double>::infinity() : inertia.chi * drive / (inertia.chi - 1);
   }
@@ -322,8 +321,7 @@ class Straight final : public Resisted {
   std::optional<double> creep_ratio_;
 };
 
-/// c, W, w, position, slip length, turned, path, rolled. Speeds are divided by that of the start, lengths by it times a
-/// second.
+/// c, W, w, position, slip length, turned, path, rolled. Speeds are divided by that at the start, lengths likewise.
 using Progress = std::array<double, 11>;
 
 /// The motion of any ball, integrated in steps.

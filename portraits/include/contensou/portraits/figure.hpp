@@ -95,8 +95,7 @@ struct ColourMap {
   std::vector<Colour> palette;  ///< two or more, from low to high
 };
 
-/// A system of axes with its contents, drawn in the order colours, regions, lines, arrows, marks, labels. Only labels
-/// may lie beyond the axes.
+/// A system of axes with its contents, in the order in which they are drawn below. Only labels may lie beyond the axes.
 struct Panel {
   Text title;
   Axis x;

@@ -37,8 +37,7 @@ std::string_view name(View view);
 std::string_view axes(View view);
 std::optional<View> find_view(std::string_view name);
 
-/// Returns true if the view shows the window itself. Such views have isochrones and a field, and v may have a
-/// SpeedScale.
+/// Returns true if the view shows the window. Such views have isochrones and a field, and v may have a SpeedScale.
 constexpr bool shows_window(View view) { return view == View::uv || view == View::patch || view == View::pair; }
 
 /// Returns true if points of the view are times of motions, not states. Such views have no colours of time.
@@ -77,8 +76,7 @@ struct Isochrone {
 ///
 /// The phase plane shows every motion of a body that slides at the speed v and pivots at the speed u (reduction::Flow)
 /// as an orbit in the half-plane v >= 0. All orbits end at the origin, the stop. The data are the orbits, the
-/// isochrones (states with one stop time) and the singular points (reduction::PhasePlane). u, v and the time tau have
-/// one unit.
+/// isochrones (states with one stop time) and the singular points (reduction::PhasePlane). u, v and tau have one unit.
 ///
 ///     const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
 ///     const PhasePortrait portrait = phase_portrait(flow, {});  // the default view and window
@@ -138,8 +136,7 @@ PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest&
 
 /// Computes portraits for a comparison, with one window, one kind of v axis and isochrones of the same times. Without a
 /// window, the view patch has one rim speed instead of one window. If the stop times in the windows' corners differ
-/// much, times are from a series 1, 2, 5, 10: each plane has the requested number of them, by default 3, below its last
-/// time.
+/// much, times are from a series 1, 2, 5, 10: each plane has the requested number, by default 3, below its last time.
 ///
 /// @param flows  one or more
 /// @throws std::domain_error  as phase_portrait

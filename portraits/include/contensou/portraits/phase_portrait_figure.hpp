@@ -41,8 +41,7 @@ std::string law_names(const PhasePortrait& portrait);
 struct PanelMap {
   using Instant = PortraitOrbit::Instant;
 
-  /// Returns the point of a state on an orbit. The beginning `start` of the orbit gives the side of u = 0 of a state at
-  /// rest.
+  /// Returns the point of a state on an orbit. Its beginning `start` gives the side of u = 0 at rest.
   std::function<Point(const Instant& at, const Instant& start)> place;
   /// Returns the state at a point, without its time left; empty if there is none. The function is null if points are
   /// times; in the view of time, x is the fraction of the stop time that has passed.
@@ -54,8 +53,7 @@ struct PanelMap {
 /// Draws the portrait in its view. All numbers come from the portrait.
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, PortraitStyle style = {});
 
-/// Draws portraits that are compared (phase_portraits), each in its own panel under its name, with one scale of
-/// colours.
+/// Draws portraits that are compared (phase_portraits), each in a panel with its name, with one scale of colours.
 /// @param captions  one for each portrait; title and subtitle are those of the first
 /// @throws std::domain_error  for more than 6 portraits, and in a view of several panels
 Figure draw_together(const std::vector<PhasePortrait>& portraits, std::vector<PortraitCaption> captions,

@@ -12,8 +12,7 @@ namespace contensou::portraits {
 
 /// Draws the symmetry of (2.6) in three panels: the plane (u, v), in which it magnifies the orbit of the start; the
 /// strip of ln k and p = ln v, in which it shifts the orbit, so that all orbits are one curve; and the copies divided
-/// by their starts, which are one line. Copies are 1/8 to 8 times as large. Each has the same colour in all panels, in
-/// the order of size.
+/// by their starts, which are one line. Copies are 1/8 to 8 times as large. Each has one colour in all panels, by size.
 ///
 /// @throws std::domain_error  for a start on an axis or an invariant ray, which the symmetry maps onto itself
 Figure reduction_figure(const reduction::Flow& flow, reduction::State start, const AskedSize& size = {});

@@ -36,15 +36,14 @@ struct TooFarApart : std::domain_error {
 /// @throws std::domain_error  if Phi or Psi fails; the message names the function and k
 void require_monotone(const Law& law);
 
-/// Returns the least stop time with the given distance (that of pure sliding) or with the given angle (that of pure
-/// pivoting), README (R60).
+/// Returns the least stop time with a given distance (pure sliding) or a given angle (pure pivoting), README (R60).
 /// @param aim  its tau is ignored; if distance and turned are both given, distance counts
 /// @throws std::domain_error  for a flow with a drive; unless two demands are given, finite and not negative
 double least_time(const Flow& flow, const Aim& aim);
 
 /// Finds the one start with u, v >= 0 that fulfils the two demands; README (R59), (R60): a root in ln k, then a scale.
 /// @return empty if no start does: if and only if the stop time demanded is below least_time
-/// @throws std::domain_error  unless two demands are given, finite and not negative; for a flow with a drive; as
+/// @throws std::domain_error  unless two demands are given, finite and >= 0; for a flow with a drive; as
 ///                            require_monotone
 /// @throws TooFarApart        if the best start misses a demand by more than 1e-6, relative
 ///

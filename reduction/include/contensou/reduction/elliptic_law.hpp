@@ -36,8 +36,7 @@ class EllipticLaw {
   /// Returns no k, because both functions are smooth.
   static std::vector<double> kinks() { return {}; }
 
-  /// Returns force and moment.
-  /// @throws std::domain_error  for a slip that require_slip rejects
+  /// Returns force and moment. Throws as require_slip.
   Resistance operator()(Slip slip) const;
 
   /// Returns 1 - Psi/Psi(0), without cancellation for k << 1.

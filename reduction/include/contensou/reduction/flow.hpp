@@ -86,12 +86,11 @@ class Flow {
   /// Returns ln |u| - ln w(k), the first integral of (2.6) and (2.7).
   ///
   /// It is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to it. Its
-  /// additive constant changes across an invariant ray. For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a
-  /// constant (README (R8)).
+  /// constant changes across an invariant ray. For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a constant
+  /// (README (R8)).
   ///
   /// @param ln_v  natural logarithm of v; v itself underflows near the stop
-  /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; also on an invariant ray (k within 4 eps
-  ///                            of it)
+  /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; on an invariant ray (k within 4 eps)
   ///
   /// Accuracy  absolute, a few eps of |ln u| and of |ln w|.
   double log_first_integral(double u, double ln_v) const;
@@ -112,13 +111,11 @@ class Flow {
   ///
   /// Accuracy  the table adds at most 4 eps to the error of stop_time.
   /// Cost      3 ns for each of many starts (AVX2; 6 ns without).
-  /// Bits      independent of the division of many starts into arrays and threads, if each call passes the same
-  ///           `whole`.
+  /// Bits      the same for any division of many starts into arrays and threads, if `whole` is the same.
   void stop_times(std::span<const double> u0, std::span<const double> v0, std::span<double> tau, unsigned threads = 1,
                   std::size_t whole = 0) const;
 
-  /// Returns the share of the polynomials that failed their test. Starts that fall on these are computed one by one,
-  /// which is slow.
+  /// Returns the share of the polynomials that failed their test. Their starts are computed one by one, which is slow.
   /// @param whole  total number of starts; for fewer than many_starts the result is 0
   double refused(std::size_t whole) const;
 

@@ -49,8 +49,7 @@ struct SlidingBounds {
   double max;
 };
 
-/// Any friction law as one value, the type that the rest of the library computes with. Copies are cheap, because they
-/// share one function.
+/// Any friction law as one value, the type that the library computes with. Copies are cheap: they share one function.
 ///
 ///     const Law exact = HertzLaw{};
 ///     exact({.sliding = 1, .pivoting = 2}).force;  // Phi at k = 1/2
@@ -59,8 +58,7 @@ struct SlidingBounds {
 class Law {
  public:
   /// Copies and tests a law.
-  /// @throws std::domain_error  if the law breaks a requirement of FrictionLaw; the message contains the slip and the
-  ///                            values
+  /// @throws std::domain_error  if the law breaks a requirement of FrictionLaw; the message contains the values
   template <class L>
   requires(!std::same_as<L, Law> && FrictionLaw<L>) Law(L law) {  // NOLINT(google-explicit-constructor): a law is a Law
     auto function = std::make_shared<FunctionOf<L>>(std::move(law));

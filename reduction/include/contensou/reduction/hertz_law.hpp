@@ -6,8 +6,7 @@
 
 namespace contensou::reduction {
 
-/// Friction of a circular patch under Hertz's pressure that slides and pivots at once: Coulomb's law, integrated
-/// exactly.
+/// Coulomb friction of a circular patch under Hertz's pressure that slides and pivots at once, integrated exactly.
 ///
 /// Source    Zh98 (1.3), (1.5) for k < 1.25, with atan2 for the angle just above k = 1. Beyond, the 2F1 series in
 ///           1/k^2, because (1.5) as printed loses all digits by k = 1e4 (it cancels like k^4).
@@ -17,8 +16,7 @@ struct HertzLaw {
   static constexpr std::string_view name = "exact";
   static constexpr SlidingBounds sliding_bounds{0, 1};
 
-  /// Returns force and moment.
-  /// @throws std::domain_error  for a slip that require_slip rejects
+  /// Returns force and moment. Throws as require_slip.
   Resistance operator()(Slip slip) const;
 
   /// Returns 1 - Psi/Psi(0), without cancellation for k <= 1.

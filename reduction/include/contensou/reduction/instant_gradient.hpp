@@ -22,10 +22,9 @@ struct InstantGradient {
 };
 
 /// Returns the state at the time tau, slip length and angle with their gradients, README (R61). They are algebraic in
-/// the state and in the field at both ends. From the stop on the speeds are 0, and slip length and angle are those of
-/// the whole motion.
-/// @throws std::domain_error  if start is not a state; on an axis, where the derivative across it is not known; as
-///                            Orbit::instant
+/// the state and in the field at both ends. From the stop on the speeds are 0, and the lengths those of the whole
+/// motion.
+/// @throws std::domain_error  if start is not a state, or lies on an axis; as Orbit::instant
 ///
 /// Accuracy  u by_u and v by_v: 1e-13 of the largest part of the same kind, times the larger term of D divided by D;
 ///           next to a ray and on it 1e-9, as the mean of both sides (for a law that is smooth there).

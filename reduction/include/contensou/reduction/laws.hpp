@@ -8,8 +8,7 @@
 
 namespace contensou::reduction {
 
-/// Returns the two laws of Zh98: the exact one under Hertz's pressure, (1.3) and (1.5), and its Pade form, (1.4) and
-/// (1.6).
+/// Returns the two laws of Zh98: the exact one, (1.3) and (1.5), and its Pade form, (1.4) and (1.6).
 const std::vector<Law>& paper_laws();
 
 /// Returns the names of all named laws, those of the paper first.

@@ -58,8 +58,7 @@ class Orbit {
   /// @throws std::domain_error  unless 0 <= time_left <= stop_time()
   OrbitPoint at_time_left(double time_left) const;
 
-  /// Returns the state at a coordinate xi of the curve (SimilarityCurve). xi falls from start_coordinate() to
-  /// -infinity.
+  /// Returns the state at a coordinate xi of the curve; xi falls from start_coordinate() to -infinity.
   /// @throws std::domain_error  on an axis, or if xi is above the start's
   OrbitPoint at_coordinate(double xi) const;
 
@@ -95,8 +94,7 @@ class Orbit {
   /// Accuracy  1e-10 of the integral of the absolute value.
   double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;
 
-  /// Returns true if the start lies on u = 0 or v = 0 and k stays constant. With a drive k does not stay constant on v
-  /// = 0.
+  /// Returns true if the start lies on u = 0 or v = 0 and k stays constant. With a drive it changes on v = 0.
   bool on_axis() const { return u0_ == 0 || (v0_ == 0 && system_.drive() == 0); }
 
   /// Returns ln k at the start; +infinity for u0 = 0; for v0 = 0 -infinity, or with a drive least_log_ratio.

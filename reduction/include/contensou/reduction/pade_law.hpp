@@ -6,8 +6,7 @@
 
 namespace contensou::reduction {
 
-/// The rational approximation to the law under Hertz's pressure that Zh98 solves: Phi = 3 pi k/(8 + 3 pi k), Psi = 3
-/// pi/(16 + 15 pi k).
+/// The rational approximation to HertzLaw that Zh98 solves: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
 ///
 /// It keeps Phi(0), Phi'(0), Phi(infinity), Psi(0) and lim k Psi. It misses the slope of Psi at k = 0 (-1.735 instead
 /// of 0) and that of Phi in 1/k at infinity (-0.849 instead of 0). Between, it is below the exact law by up to 39 %
@@ -20,8 +19,7 @@ struct PadeLaw {
   static constexpr std::string_view name = "pade";
   static constexpr SlidingBounds sliding_bounds{1, 2.5};
 
-  /// Returns force and moment.
-  /// @throws std::domain_error  for a slip that require_slip rejects
+  /// Returns force and moment. Throws as require_slip.
   Resistance operator()(Slip slip) const;
 
   /// Returns 1 - Psi/Psi(0) = 15 pi k/(16 + 15 pi k).

@@ -10,8 +10,7 @@
 
 namespace contensou::reduction {
 
-/// A direction of the field that does not turn. The half-line along it, from the origin to infinity, consists of
-/// orbits.
+/// A constant direction of the field. The half-line along it, from the origin to infinity, consists of orbits.
 enum class InvariantDirection {
   pivoting,  ///< the axis v = 0, q = v/|u| = 0
   ray,       ///< an invariant ray, v = mu k |u|
@@ -60,8 +59,7 @@ struct EndTangent {
   double contact_order;
 };
 
-/// The singular points of the phase plane of (2.7), at the origin and at infinity: the beginnings and ends of all
-/// orbits.
+/// The singular points of the phase plane of (2.7), at which all orbits begin and end.
 struct PhasePlane {
   TerminalRatios terminal;
   double mu_low, mu_high;  ///< r_low and r_high as patch ratios mu of this body; with a drive mu_low has no meaning

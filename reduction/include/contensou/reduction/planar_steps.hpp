@@ -6,9 +6,8 @@ namespace contensou::reduction {
 
 /// Returns a system whose orbits are integrated by Dormand-Prince 5(4), without reduction, for any planar field.
 ///
-/// Each step keeps the error below 1e-12 of the distance from the origin; an orbit has at most 10 000 steps. The error
-/// estimate of this method sees jumps of the field, unlike that of Fehlberg 7(8). Tests compare the quadratures with
-/// it.
+/// Each step keeps the error below 1e-12 of the distance from the origin; an orbit has at most 10 000 steps. Its error
+/// estimate sees jumps of the field, unlike that of Fehlberg 7(8). Tests compare the quadratures with it.
 ///
 /// @return a system with an empty form, undecided ends, and neither factor nor first integral
 PlanarReduction by_steps(PlanarField field);

@@ -32,15 +32,13 @@ class PressureLaw {
   static PressureLaw ring();
   static PressureLaw paraboloid();
 
-  /// Returns "uniform", "punch", "ring", "paraboloid", or "pressure:P" with the shortest P that reads back to the same
-  /// double.
+  /// Returns "uniform", "punch", "ring", "paraboloid", or "pressure:P" with the shortest P for the double.
   const std::string& name() const { return name_; }
 
   /// Returns the exponent p; -1 for the ring.
   double p() const { return p_; }
 
-  /// Returns force and moment.
-  /// @throws std::domain_error  for a slip that require_slip rejects
+  /// Returns force and moment. Throws as require_slip.
   Resistance operator()(Slip slip) const;
 
   /// Returns 1 - Psi/Psi(0), without cancellation for k << 1.

@@ -13,8 +13,7 @@ namespace contensou::reduction {
 /// found at their first use: n, o and b like m, ln w and c in xi by (R26). The range is cut into panels. On each panel
 /// the coefficients are sampled at Gauss points (Boost.Math) and the equations are solved as Legendre series. Panels
 /// meet at the law's kinks and are halved until the series have converged. They reach from k = 4e-18 to 1e19, where the
-/// limits are exact to the last bit. Towards an invariant ray they end where Phi - r k Psi, which vanishes there, has
-/// lost its last digit.
+/// limits are exact to the last bit. Towards a ray they end where Phi - r k Psi has lost its last digit.
 ///
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, also on and beside rays
 ///           (tests/reference/rays.csv); the other functions 1e-13, and less next to a ray.
@@ -24,11 +23,11 @@ class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
   /// @param chart     chart between two neighbours among 0, the invariant rays and infinity, ending at the limit of k
-  ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), and so for every ball under
-  ///                  the exact law or Pade
+  ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), as for every ball under the
+  ///                  laws of Zh98
   /// @param drive     rho of ReducedSystem
-  /// @throws std::domain_error  unless r > 0 and Phi - rho - r k Psi has the sign that moves k towards the chart's end,
-  ///                            for all k between
+  /// @throws std::domain_error  unless r > 0 and Phi - rho - r k Psi has the sign of the chart's direction for all k
+  ///                            between
   QuadratureCurve(const Law& law, double r, const TerminalChart& chart = TerminalChart::to_zero(), double drive = 0);
 
   double ln_w(double xi) const override;

@@ -49,24 +49,21 @@ class ReducedSystem {
   /// Returns rho.
   double drive() const { return drive_; }
 
-  /// Smallest drive. Below it the ray of the drive leaves the range of doubles, and the drive changes no digit of a
-  /// motion.
+  /// Smallest drive. A smaller one changes no digit of a motion, and its ray leaves the range of doubles.
   static constexpr double least_drive = 1e-100;
 
-  /// Returns r = gamma mu^2/chi, on which alone, beside rho, the shape of the motion depends (README (R1)); at least
-  /// the smallest normal double.
+  /// Returns r = gamma mu^2/chi, which with rho determines the shape of a motion (README (R1)); at least the smallest
+  /// normal double.
   double r() const { return r_; }
 
-  /// Returns ds/dtau of the scaled time s = chi f g t (README (R1)), in which dv/ds = rho - Phi, dw/ds = -r Psi, w = mu
-  /// |u|.
+  /// Returns ds/dtau of the scaled time s = chi f g t (README (R1)): dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.
   double scaled_time_rate() const { return scaled_time_rate_; }
 
   /// Returns d(u, v)/dtau, the right side of (2.6).
   /// @throws std::domain_error  at u = v = 0, where (2.6) has no value, and for v < 0
   Rate field(State state) const;
 
-  /// Returns dtau/dbeta = (16 mu |u| + 15 pi v)(8 mu |u| + 3 pi v), the weight of (2.8), which is the same for every
-  /// law.
+  /// Returns dtau/dbeta = (16 mu |u| + 15 pi v)(8 mu |u| + 3 pi v), the weight of (2.8) for every law.
   double regularising_weight(State state) const;
 
   /// Returns d(u, v)/dbeta, the field times the weight: (2.7) for the Pade law; 0 at u = v = 0.
@@ -81,8 +78,7 @@ class ReducedSystem {
   /// v/7). With a drive the stop time is S/(1 - rho).
   double sliding_limit(double v) const;
 
-  /// Returns P = 3 pi |u|/(2 gamma mu Psi(0)), the stop time of a body that pivots without sliding (ball: 16 |u|/(5
-  /// mu)).
+  /// Returns P = 3 pi |u|/(2 gamma mu Psi(0)), the stop time of pivoting without sliding (ball: 16 |u|/(5 mu)).
   double pivoting_limit(double u) const;
 
   /// Returns bounds of the stop time from the law's SlidingBounds and max(S, P) (README (R6), with a drive (R52)),

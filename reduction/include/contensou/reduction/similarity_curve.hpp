@@ -11,8 +11,8 @@ namespace contensou::reduction {
 /// The scaling symmetry leaves nothing else to compute. Orbits, stop times, the state at a given time and the
 /// regularised time follow from these functions by exponentials and sums (Orbit). w is mu |u|, s the scaled time of
 /// README (R1). m, n and c are bounded for all r; so is b except for its value 1/(128 r Psi(0)) at k = 0. With a drive
-/// rho, m, n and o grow like 1/k as k -> 0, and their products with v stay finite. xi may be any finite number, because
-/// v underflows long before ln v.
+/// rho, m, n and o grow like 1/k as k -> 0, and their products with v stay finite. xi may be any finite number: v
+/// underflows long before ln v.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;
@@ -23,8 +23,7 @@ class SimilarityCurve {
   /// Returns m, the coefficient of the time left, P + m S (README (R4)); 1/(1 - rho) in the limit of pure sliding.
   virtual double sliding_coefficient(double xi) const = 0;
 
-  /// Returns n, the coefficient of the slip length left (the integral of v ds), v (v/(2 (1 - rho)) + n w) (README
-  /// (R13), (R50)).
+  /// Returns n, the coefficient of the slip length left, v (v/(2 (1 - rho)) + n w) (README (R13), (R50)).
   virtual double slip_length_coefficient(double xi) const = 0;
 
   /// Returns o, the coefficient of the angle left (the integral of w ds), w (w/(2 r Psi(0)) + o v) (README (R31)).

@@ -21,8 +21,8 @@ struct CoefficientExpansion {
 /// @param ln_k  any finite number
 /// @throws std::domain_error  if ln_k is not finite
 ///
-/// Accuracy  first 1e-13 relative, second 1e-12 of the largest |second| over all k (2e-3 to 0.3, by law), for a law
-///           whose only kink is at k = 1.
+/// Accuracy  first 1e-13 relative, second 1e-12 of its largest size over all k (2e-3 to 0.3), for a law with no kink
+///           but k = 1.
 /// Cost      up to 3000 calls of the law.
 CoefficientExpansion coefficient_expansion(const Law& law, double ln_k);
 
@@ -54,8 +54,7 @@ struct StopEstimate {
 ///
 /// On the axes all of them are exact.
 ///
-/// @throws std::domain_error  if start is not a state, with a drive, or for r >= Phi'(0)/Psi(0), for which k does not
-///                            tend to 0
+/// @throws std::domain_error  if start is not a state, with a drive, or unless r < Phi'(0)/Psi(0) (k -> 0)
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
 
 /// The motion from one start for small mu, to leading order, for any law (README (R47)). r = gamma mu^2/chi must be far
@@ -65,9 +64,8 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
 /// the time left, and v falls as a power of the time left. The motion stops at the estimate E1.
 ///
 /// Accuracy  at one k0, and at fixed fractions of the layer or of the stop time, the relative error of u is O(mu^4),
-///           and that of v (the error of ln v) O(mu^2). As k0 -> infinity each has a factor ln^2 mu. The start is
-///           exact, and except for rounding the axes are. Any r is accepted; near r_low and above, the errors are as
-///           large as the speeds.
+///           and that of v (the error of ln v) O(mu^2). As k0 -> infinity each has a factor ln^2 mu. The start and,
+///           except for rounding, the axes are exact. Near r_low and above, the errors are as large as the speeds.
 class SmallMuMotion {
  public:
   struct Speeds {

@@ -16,8 +16,8 @@ namespace contensou::reduction {
 ///
 /// Source    README (R32) to (R34): a sum over thin rings, weighted by the pressure.
 /// Accuracy  12 eps for every table, however steep, and every k for which Phi and Psi do not underflow. A table of n
-///           rows approximates a smooth pressure to about 1/n^2, and to 1/n^(3/2) if the pressure falls like a square
-///           root at the edge.
+///           rows approximates a smooth pressure to about 1/n^2, and to 1/n^(3/2) if it falls like a square root at the
+///           edge.
 /// Cost      2 to 10 us a slip for 10 to 10 000 rows, because rows far from rho = k are grouped.
 class TabulatedPressureLaw {
  public:
@@ -27,8 +27,7 @@ class TabulatedPressureLaw {
   /// @param rho       distance from the centre divided by eps: from 0 to 1, not decreasing; a step has two rows
   /// @param pressure  pressure at each rho, in any unit: finite, >= 0, not all 0
   /// @throws std::domain_error   naming the row (from 1) that breaks these rules
-  /// @throws std::runtime_error  if the loaded part of the table is so small that it has no influence at any k of the
-  ///                             library
+  /// @throws std::runtime_error  if the loaded part of the table is too small to act at any k of the library
   TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure);
 
   const std::string& name() const { return name_; }
@@ -43,8 +42,7 @@ class TabulatedPressureLaw {
   /// Returns the k = rho of the steps and of the sharpest bends of the pressure, increasing; at most 32.
   const std::vector<double>& kinks() const { return kinks_; }
 
-  /// Returns force and moment.
-  /// @throws std::domain_error  for a slip that require_slip rejects
+  /// Returns force and moment. Throws as require_slip.
   Resistance operator()(Slip slip) const;
 
   /// Returns 1 - Psi/Psi(0), without cancellation for k << 1.

@@ -28,9 +28,9 @@ struct Tangent {
 Tangent tangent(const HertzLaw& law, Slip slip);
 Tangent tangent(const EllipticLaw& law, Slip slip);
 
-/// Returns a function that computes the tangent of a law: in closed form if there is one for its type, else by central
-/// differences. Differences are within 1e-9 of the slopes of a smooth law and finite at its kinks. Calls allocate and
-/// throw only if the law does.
+/// Returns the tangent of a law as a function: in closed form if its type has one, else by central differences.
+/// Differences are within 1e-9 of the slopes of a smooth law and finite at its kinks. Calls allocate or throw only if
+/// the law does.
 std::function<Tangent(Slip)> tangent_of(const Law& law);
 
 /// Returns a bound of the error of tangent_of's slopes: 0 for rounding alone, else the error of differences.

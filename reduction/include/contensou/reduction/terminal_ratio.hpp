@@ -66,8 +66,7 @@ struct TerminalRatios {
 /// Finds every k with Phi(k) = rho + r k Psi(k), at which d ln k/ds vanishes.
 ///
 /// @param r      gamma mu^2/chi, > 0
-/// @param drive  rho of ReducedSystem; if it is not 0, k = 0 is not invariant and starts there tend to the limit of
-///               their neighbours
+/// @param drive  rho of ReducedSystem; if it is not 0, k = 0 is not invariant but has the limit of its neighbours
 /// @throws std::domain_error   if r is not positive and finite
 /// @throws std::runtime_error  if a drive next to 1 leaves so little of friction that a ray next to infinity can be
 ///                             neither found nor excluded, under a law that does not state its force_deficit
@@ -77,8 +76,8 @@ struct TerminalRatios {
 ///           has no more than one extremum there.
 TerminalRatios terminal_ratios(const Law& law, double r, double drive = 0);
 
-/// Returns the ln k of a motion that has just begun to creep under a drive. Motions from here and from v = 0 are equal
-/// to the last bit.
+/// Returns the ln k of a motion that has just begun to creep under a drive. Motions from there and from v = 0 are
+/// equal.
 double least_log_ratio(const Law& law, double r, double drive);
 
 }  // namespace contensou::reduction

@@ -8,8 +8,8 @@
 
 namespace contensou::si {
 
-/// Demands on a motion: two of distance, turns and time, until slip and spin end. With rolling friction they count
-/// until nothing moves any more.
+/// Demands on a motion: two of distance, turns and time, until slip and spin end. With rolling friction, until nothing
+/// moves.
 struct Goal {
   std::optional<double> distance;  ///< path of the centre, m
   std::optional<double> turns;     ///< turns about the vertical, of either sign
@@ -41,8 +41,8 @@ struct RollingGoal {
 /// later, and the place grows with the slip, from 0 without limit.
 ///
 /// Accuracy  1e-9 of the place, since Motion::rolls has 1e-12 of the stop time; less if the slip at the start is just
-///           above rolling_slip and the spin lasts long. For a steel ball with 1e4 rad/s that rolls on at 10 m/s after
-///           1 cm it is 1.5e-8.
+///           above rolling_slip and the spin lasts long. A steel ball with 1e4 rad/s that rolls on at 10 m/s after 1 cm
+///           has 1.5e-8.
 ///
 /// @param flow  flow of undriven_system(experiment, law)
 /// @throws std::domain_error  if a demand is out of its range, for a body that lies flat, for rolling friction or a
@@ -51,8 +51,7 @@ struct RollingGoal {
 Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& flow, const RollingGoal& goal);
 
 /// Returns the level stroke of a standard cue that gives a ball this start along x, so that struck(ball, stroke) is the
-/// start. Empty for a body that lies flat, for a centre that does not move forwards, and if the tip would slip off the
-/// ball.
+/// start. Empty for a body that lies flat, without forward velocity, and if the tip would slip off.
 std::optional<CueStrike> level_strike(const Ball& ball, const Velocities& start);
 
 }  // namespace contensou::si

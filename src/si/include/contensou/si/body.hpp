@@ -22,8 +22,7 @@ struct Body {
   bool lies_flat() const { return inertia.chi == 1; }
 
   /// Returns the body with the moment of inertia factor m R^2: for a ball about any axis, for a body that lies flat
-  /// about the vertical. R is the largest radius with mass, so at most all mass lies on the sphere or rim of this
-  /// radius.
+  /// about the vertical. R is the largest radius with mass, which bounds the factor.
   /// @throws std::domain_error  unless 0 < factor <= 2/3, or 0 < factor <= 1 for a body that lies flat
   Body with_factor(double of_m_R2) const;
 

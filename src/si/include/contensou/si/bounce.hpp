@@ -38,8 +38,7 @@ struct Rebound {
 };
 
 /// Returns the experiment in which (1 + e) v_n replaces the time: its time in s is the impulse divided by the mass in
-/// m/s. Its patch is constant. With Hertz's moduli it is the mean over the impulse (hertz_impact_patch_radius), else
-/// the patch at rest.
+/// m/s. Its patch is constant: with Hertz's moduli hertz_impact_patch_radius, else the patch at rest.
 /// @throws std::domain_error  unless v_n > 0 and 0 <= e <= 1; as require_experiment and patch_radius_of
 Experiment pressed_in(const Impact& impact, const Experiment& experiment, const reduction::Law& law);
 
@@ -50,8 +49,8 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
 /// is constant, does not roll and does not yield sideways. Gravity is negligible during the impact.
 ///
 /// @param experiment     its start is the motion at the first contact
-/// @param rolling_below  slip below which the ball rolls, m/s, >= 0; a spinning ball does not reach 0 before its spin
-///                       ends
+/// @param rolling_below  slip below which the ball rolls, m/s, >= 0; a spinning ball reaches 0 only at the end of its
+///                       spin
 /// @throws std::domain_error  as pressed_in and Motion::reduced
 Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                double rolling_below = rolling_slip);

@@ -19,8 +19,7 @@ enum class Cone {
 
 std::string_view name(Cone cone);
 
-/// Share of the slip or spin at the start at which FadeTimes count it as ended, because an engine's never ends to the
-/// last digit.
+/// Share of the slip or spin at the start at which FadeTimes count it as ended; an engine's never ends completely.
 inline constexpr double faded = 1e-3;
 
 /// Times and lengths until slip and spin end.

@@ -11,8 +11,7 @@
 
 namespace contensou::si {
 
-/// The name of a number of an event, such as {"rolls_after", "t", "s"}. For a number without an event, such as "path",
-/// `of` is empty.
+/// The name of a number of an event, such as {"rolls_after", "t", "s"}. Without an event, as in "path", `of` is empty.
 struct EventNumber {
   std::string_view event, of, unit;
 };
@@ -20,8 +19,8 @@ struct EventNumber {
 /// The numbers of the events of a ball's motion, as functions of the numbers that give the experiment.
 ///
 /// The numbers are time and place of the beginning of rolling (for a body that lies flat, of rest), time and place of
-/// the end of the spin, with rolling friction or on a slope those of rest if it rests; slip length, turns and path (as
-/// Events); and the stop time.
+/// the end of the spin, with rolling friction or on a slope those of rest if it rests; slip length, turns, path and
+/// stop time.
 class EventNumbers {
  public:
   /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment

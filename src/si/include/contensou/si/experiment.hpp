@@ -16,8 +16,7 @@
 
 namespace contensou::si {
 
-/// The mass of a ball whose mass is not given. It is NaN, so that every energy computed from it is NaN. The motion
-/// needs no mass.
+/// The mass of a ball whose mass is not given. Every energy computed from it is NaN. The motion needs no mass.
 inline constexpr double unknown_mass = std::numeric_limits<double>::quiet_NaN();
 
 /// A ball, or a body that lies flat.
@@ -49,8 +48,7 @@ struct SpinDeceleration {
 /// The patch is the whole face of a body that lies flat.
 struct WholeFace {};
 
-/// The source of the patch radius. The contact stores it, so that the radius follows changes of R, mass, friction or
-/// gravity.
+/// The source of the patch radius. The radius so follows changes of R, mass, friction or gravity.
 using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, WholeFace>;
 
 /// The patch where ball and plane touch, and its friction.
@@ -79,8 +77,8 @@ using Start = std::variant<SlipAndSpin, Velocities>;
 
 /// The forces between ball and plane other than friction.
 struct Environment {
-  /// Load divided by mass, m/s^2, on which alone the motion on a horizontal plane depends. A ball pressed on the plane
-  /// by N newtons has N/mass.
+  /// Load divided by mass, m/s^2, on which alone the motion on a horizontal plane depends; N/mass for a ball pressed on
+  /// it by N newtons.
   double gravity = 9.80665;
   std::optional<double> load{};  ///< load in N, if given; gravity is then load/mass
   double slope = 0;              ///< angle of the plane in degrees, above -90 and below 90; it rises along x
@@ -107,8 +105,8 @@ struct GivenQuantity {
   std::vector<double> values;
 };
 
-/// Returns the values that give an experiment, in the order of quantities(). Standard values other than gravity's are
-/// left out.
+/// Returns the values that give an experiment, in the order of quantities(). Defaults other than gravity's are left
+/// out.
 std::vector<GivenQuantity> given_by(Experiment experiment);
 
 /// Returns the source of a patch in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or

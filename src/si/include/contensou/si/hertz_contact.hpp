@@ -19,8 +19,7 @@ struct HertzModuli {
 /// Returns E* in Pa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 double effective_modulus(const HertzModuli& moduli);
 
-/// Returns the patch radius (m) of a ball pressed on a plane or a sphere: eps = (3 N R'/(4 E*))^(1/3), 1/R' = 1/R +
-/// 1/R_c.
+/// Returns the patch radius (m) of a ball on a plane or a sphere: eps = (3 N R'/(4 E*))^(1/3), 1/R' = 1/R + 1/R_c.
 ///
 /// @param load    N, in newtons
 /// @param radius  R, m

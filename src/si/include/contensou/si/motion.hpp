@@ -83,8 +83,7 @@ class Motion {
   ///                             for a changing load with rolling friction or on a slope
   /// @throws std::runtime_error  if an integration does not reach the stop
   ///
-  /// Accuracy  1e-12 of the scales of the motion, compared with in_steps, for mu from 1e-3 to 1; under a changing load
-  ///           1e-10.
+  /// Accuracy  1e-12 of the scales of the motion against in_steps, for mu from 1e-3 to 1; under a changing load 1e-10.
   static Motion reduced(const Experiment& experiment, const reduction::Law& law,
                         const std::optional<LoadHistory>& history = {});
 
@@ -160,8 +159,7 @@ class Motion {
   /// Returns the length that the contact point slides on the body until the stop, m: the integral of slip over time.
   double slip_length() const;
 
-  /// Return the angle in rad, with the sign of the spin, that the body turns about the vertical until the stop, and the
-  /// number of turns.
+  /// Return the angle about the vertical until the stop, in rad and in turns, with the sign of the spin.
   double spin_angle() const;
   double turns() const;
 

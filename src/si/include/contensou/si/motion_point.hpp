@@ -48,8 +48,7 @@ EnergyLoss energy_loss(const Experiment& experiment);
 /// (Zh98 after (2.5)). So the velocity of the centre along the slip falls by v0/chi, for this ball 2 v0/7.
 Velocities final_motion(const Experiment& experiment);
 
-/// Returns the state of the motion from slip, slip length since the start, and spin about the vertical, which determine
-/// it.
+/// Returns the state of the motion, which slip, slip length and spin about the vertical determine.
 ///
 /// The slip keeps its direction e, and so does omega along e. Along e the velocity of the centre falls by 1/chi of the
 /// lost slip, for a homogeneous ball 2/7; R omega across e takes the rest (Zh98 after (2.5)). So V = V0 - (v0 - v)

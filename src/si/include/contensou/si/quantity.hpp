@@ -8,8 +8,7 @@
 
 namespace contensou::si {
 
-/// A number, or vector, of an experiment that a user gives. Each is a key of run files, an option of the program and a
-/// field of Python's Ball.
+/// A number or vector of an experiment: a key of run files, an option of the program and a field of Python's Ball.
 struct Quantity {
   enum class Range { any, not_zero, not_negative, positive, poisson_ratio, tilt };
 

@@ -10,8 +10,7 @@
 
 namespace contensou::si {
 
-/// A function that returns the law that a text names; empty if no law has that name. It throws std::domain_error for
-/// malformed formulas or numbers.
+/// Returns the law that a text names; empty if no law has that name. Throws std::domain_error for a malformed text.
 using FindLaw = std::function<std::optional<reduction::Law>(const std::string& text)>;
 
 /// Reads the text of a run file (TOML) as a description; experiment_of() makes the experiment.

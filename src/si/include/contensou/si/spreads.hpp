@@ -24,8 +24,7 @@ struct Component {
   bool operator==(const Component&) const = default;
 };
 
-/// Returns all such numbers in the order of quantities(). Moduli, and the inertia, which follows from the body, are not
-/// among them.
+/// Returns all such numbers in the order of quantities(). Moduli and the body's inertia are not among them.
 const std::vector<Component>& uncertain_components();
 
 /// Returns the names of these numbers.
@@ -34,8 +33,7 @@ const std::vector<std::string>& uncertain_names();
 /// Returns the number of that name; empty if there is none.
 std::optional<Component> find_component(std::string_view name);
 
-/// Returns a standard deviation from text such as "2 mm" or "5%", in the unit of the number; empty for a plain number
-/// and any other text.
+/// Returns a standard deviation from text such as "2 mm" or "5%", in the number's unit; empty for any other text.
 /// @param unit   unit of the Quantity
 /// @param value  value of which a % is taken
 /// @param value  what a % is of
@@ -72,8 +70,7 @@ Spreads spreads_of(const Eigen::MatrixXd& covariance, const std::vector<Componen
 /// Returns the smallest eigenvalue of a correlation matrix. If it is below 0, no numbers have these correlations.
 double least_eigenvalue(const Eigen::MatrixXd& correlation);
 
-/// Largest size of an eigenvalue that counts as 0. Correlations are written with few digits, and completely correlated
-/// numbers have an eigenvalue 0.
+/// Largest size of an eigenvalue that counts as 0. Correlations have few digits, and complete ones an eigenvalue 0.
 inline constexpr double eigenvalue_rounding = 1e-6;
 
 }  // namespace contensou::si

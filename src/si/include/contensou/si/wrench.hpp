@@ -34,14 +34,13 @@ struct Wrench {
 /// At rest the Jacobian is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, with K = lim k Psi (1/5
 /// for exact). With lengths in units of eps it is below 5 f N/s everywhere under every law. (The law ring has a
 /// logarithm at k = 1, which differences cut off.) For exact and elliptic, whose slopes are in closed form, it is
-/// symmetric to rounding. For other laws it is symmetric to 1e-9 by differences, and to 1e-6 next to the kink of ring
-/// and of similar pressures.
+/// symmetric to rounding. For others it is symmetric to 1e-9 by differences, and to 1e-6 next to the kink of ring and
+/// similar laws.
 ///
 /// A body at rest under a force creeps. Under a tangential load T < f N alone it creeps at
 ///   |v| = s T/sqrt((f N)^2 - T^2),
 /// under a moment Q < f N eps Psi(0) alone at eps |omega| = s/k with Psi(k) = Q/(f N eps), and at s Q/(K f N eps) for
-/// small Q. At speeds above s the change of force and moment by s is of the order of s^2 divided by the square of the
-/// larger speed.
+/// small Q. At speeds above s the effect of s is of the order of s^2 divided by the larger speed squared.
 ///
 /// With one Newton step per time step dt, s should be at least a dt/2, where a is the deceleration by friction alone
 /// (for a ball 7/2 f g). With a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
@@ -53,8 +52,7 @@ class PatchFriction {
   /// Computes the wrench. It does not allocate, and several threads may call it at once.
   /// @param motion  vx, vy of the patch centre over the other body in m/s, omega about the normal in rad/s
   /// @param load    N in newtons; for 0 or less there is no contact, and the wrench is 0
-  /// @throws std::domain_error  if a number is not finite, a speed or a slope overflows, or a member of the patch is
-  ///                            out of its range
+  /// @throws std::domain_error  if a number is not finite, a speed or slope overflows, or the patch is out of range
   Wrench operator()(const Eigen::Vector3d& motion, double load, const Patch& patch) const;
 
   /// Computes the wrench without exceptions.
