@@ -2,15 +2,16 @@
 
     import contensou as ct
     ct.stop_time(u=1, v=1, mu=0.1)              # the paper's time until slip and spin end
-    ct.Flow(mu=0.3).orbit(u=1, v=1).at(tau=2)   # the state at an instant
+    ct.Flow(mu=0.3).orbit(u=1, v=1).at(tau=2)   # the state at a time
     ct.Ball.pool().roll(slip=1, spin=100)       # a real ball, in SI units
     ct.fit(t, slip=v, spin=w, ball=ct.Ball.pool())  # friction and patch radius, from a film
     ct.portrait(mu=1).plot()                    # a phase portrait
     ct.reduce("u' = -v - a*u; v' = u - a*v", u=1, v=1, a=0.1)  # the symmetry of any planar system, and its motion
 
-u = R omega_z is the speed of pivoting, v >= 0 that of sliding, mu the radius of the contact patch over that of the
-body, R; tau = (3 pi/2) f g t is the paper's time. All three are speeds in one unit, any one; a Ball is in SI units.
-Numbers may be arrays of any shapes that broadcast; what is masked in one is NaN. What the library rejects is a ValueError.
+u = R omega_z is the speed of pivoting and v >= 0 that of sliding. mu is the radius of the contact patch divided by R,
+the radius of the body. tau = (3 pi/2) f g t is the paper's time. u, v and tau have one unit, which is arbitrary; a Ball
+is in SI units. Numbers may be arrays of any shapes that broadcast; masked entries become NaN. Errors of the library are
+ValueErrors.
 """
 
 from ._core import __version__

@@ -1,4 +1,4 @@
-"""The reversed question: which start comes to what is asked for."""
+"""The start that fulfils given demands."""
 
 from __future__ import annotations
 
@@ -22,23 +22,27 @@ def aim(
     spin: Optional[float] = None,
     law: Optional[LawLike] = None,
 ) -> dict[str, Any]:
-    """The one start of a ball, or of a body that lies flat, that comes to two of these by the time when slip and spin end:
+    """Finds the one start of a ball, or of a body that lies flat, that fulfils two of these demands when slip and spin
+    have ended:
 
-    distance:  m, of the centre; turns: about the vertical, of either sign; time: s
+    distance:  path of the centre, m
+    turns:     turns about the vertical, of either sign
+    time:      s
 
-    Or, of a ball, the one with a slip forwards that begins to roll at a place, its slip below 1 mm/s:
+    For a ball it also finds the start with forward slip that begins to roll (slip below 1 mm/s) at a place:
 
-    rolls_at:  m from the start; rolling_speed: m/s with which it rolls on in the end, 0 where it stays there
-    spin:      rad/s about the vertical at the start, 0 unless given
+    rolls_at:       distance of the place from the start, m
+    rolling_speed:  speed of the final rolling, m/s; 0 if the ball stays there
+    spin:           spin about the vertical at the start, rad/s, default 0
 
-    The fields of `contensou aim --format json`: velocity and angular_velocity, the start, which roll takes by these names; its
-    slip (m/s) and spin (rad/s), which roll(slip=, spin=) takes of a start by distance, turns and time, as that does not roll
-    yet; and what it comes to: distance, turns, time; of a ball also final_velocity, rolls_after, and strike, the stroke of a
-    cue that starts it, if there is one. The ball's own start does not count.
+    Returns the fields of `contensou aim --format json`. The start is velocity and angular_velocity, arguments of
+    Ball.roll, and also its slip (m/s) and spin (rad/s). Ball.roll takes these two for a start by distance, turns and
+    time, because it does not roll. The result is distance, turns and time; for a ball also final_velocity, rolls_after,
+    and strike, the cue stroke that gives this start, if there is one. The start of `ball` is not used. With rolling
+    friction the demands hold when all motion ends.
 
-    Raises ValueError where no start comes to both, with what is nearest, for a slope, and for distance
-    with time of a ball with rolling friction, of which several starts may come there. Such a ball is asked where it rests, and
-    when all motion ends. TypeError for what is no ball or no number.
+    Raises ValueError, with the nearest possible values, if no start fulfils both demands; for a slope; and for distance
+    with time of a ball with rolling friction, because several starts may fulfil them. Raises TypeError for wrong types.
     """
     ball = a_ball(ball)
 

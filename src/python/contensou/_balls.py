@@ -18,7 +18,7 @@ from ._numbers import needs, number, numbers, target, text, thread_count, whole
 
 
 class Event(NamedTuple):
-    """When something happens, in s after the start, and where the centre is then, in m from the start."""
+    """A time of a motion, in s after the start, and the place of the centre then, in m from the start."""
 
     t: float
     x: float
@@ -27,23 +27,28 @@ class Event(NamedTuple):
 
 @dataclass(frozen=True)
 class Ball:
-    """A ball on a plane, or a body that lies flat on it, in SI units, with a typical start.
+    """A ball on a plane, or a body that lies flat on it, with a typical start. All values are in SI units.
 
-    mass may be None, that is not known. The energies of a motion are then nan. A load, moduli, a stroke and engines need it.
-    Its patch is given by one of patch_radius (m), spin_deceleration (rad/s^2, measured without slip), or Young's moduli
-    (Pa) and Poisson's ratios of ball and plane, with counter_radius (m) where it is no plane: of another ball above 0, of a
-    dish below 0; it changes the patch alone. What presses it on the plane is gravity (m/s^2, 9.80665 if left out), or a
-    load (N). Its start, at rest if left out, is slip (m/s, along x) and spin (rad/s about the vertical), or velocity (x, y)
-    and angular_velocity (x, y, z up). Of a start by velocities slip and spin, and of a load gravity, say what they come to.
-    rolling_friction: rolling without slip, the ball slows down at so much of gravity. slope: degrees by which the plane
-    rises along x, negative where it falls. law is that of every question
-    about the ball that names none: a name, a Law or a function; that of the body if left out.
-    body: ball, hollow-ball; or disc (puck) and ring, which lie flat and turn about the vertical only. Their patch is the
-    whole face, of the body's radius, if none is given. inertia: over m R^2, in place of that of the body's name.
-    uncertainty: what its numbers are known to, as the table of a run file: standard deviations by name, {"friction": 0.01,
-    "patch_radius": 1e-4}, vx, vy, wx, wy, wz of velocities, and how they go together under "correlation":
-    {"patch_radius": {"friction": -0.7}}. A number that `but` replaces is known.
-    `Ball.pool()` and the others are those of `contensou balls`; what is named in the call replaces theirs.
+    mass:              kg; None if not known: energies are then nan. A load, moduli, a stroke and engines need it
+    patch_radius, spin_deceleration, youngs_modulus, poisson_ratio:  one way to give the contact patch: its radius in m;
+                       the rate in rad/s^2 at which a spin without slip falls; or Young's moduli in Pa and Poisson's
+                       ratios of ball and plane. counter_radius in m: of another ball (> 0) or a dish (< 0) below, for
+                       the patch only
+    gravity, load:     m/s^2, 9.80665 by default; or the force in N that presses the ball on the plane
+    slip, spin, velocity, angular_velocity:  the start, by default rest: slip in m/s along x and spin in rad/s about the
+                       vertical, or velocity (x, y) and angular_velocity (x, y, z up). The other fields contain the
+                       result
+    rolling_friction:  u_r: a ball that rolls without slip slows down at u_r g
+    slope:             angle of the plane in degrees; it rises along x, and falls if negative
+    law:               default law of the methods: a name, a Law or a function; by default that of the body
+    body:              ball or hollow-ball; disc (puck) or ring lie flat and turn about the vertical only. Their default
+                       patch is the whole face, as large as the body
+    inertia:           moment of inertia divided by m R^2, instead of that of the named body
+    uncertainty:       standard deviations by name as in a run file, such as {"friction": 0.01, "patch_radius": 1e-4};
+                       vx, vy, wx, wy, wz for velocities; correlations under "correlation": {"patch_radius":
+                       {"friction": -0.7}}. `but` removes those of its numbers
+
+    `Ball.pool()` and the like are the balls of `contensou balls`; arguments of the call replace their values.
     """
 
     mass: Optional[float] = None
@@ -81,7 +86,7 @@ class Ball:
         vars(self).update({**derived, **known, "law": law, "_experiment": core})
 
     def _given(self) -> dict[str, Any]:
-        """The fields that say all."""
+        """Returns the fields that determine the ball."""
         derived = {"gravity"} if self.load is not None else set()
         if self.velocity is not None:
             derived |= {"slip", "spin"}
@@ -102,18 +107,18 @@ class Ball:
         return cls(**_core.changed(known, changes), **law)
 
     def but(self, **changes: Any) -> Ball:
-        """The ball with other fields. What was given in another way goes: a new patch_radius, spin_deceleration or moduli
-        take the place of what it had, a load that of gravity, slip with spin that of velocities."""
+        """Returns the ball with other fields. A field replaces those that give the same value in another way:
+        patch_radius moduli, a load gravity, slip with spin velocities."""
         return self._of(self._given(), changes)
 
     @classmethod
     def read(cls, path: Union[str, PathLike[str]], **changes: Any) -> Ball:
-        """The ball of a run file (TOML), as `contensou balls pool -o mine.toml` writes one."""
+        """Returns the ball of a run file (TOML), such as `contensou balls pool -o mine.toml` writes."""
         return cls._of(_core.parse_run_file(Path(path).read_text(encoding="utf-8"), str(path)), changes)
 
     def write(self, path: Union[str, PathLike[str]]) -> None:
-        """Writes the ball as a run file (TOML), which `read` and `contensou --ball` take: name, cloth, start and law.
-        Raises ValueError for a law that no file can name, one that is a function or a table."""
+        """Writes the ball as a run file (TOML) for `read` and `contensou --ball`: name, contact, start and law.
+        Raises ValueError for a law that is a function or a table, because a file cannot name it."""
         name = law_of(self.law).name
         try:
             known = law_of(name)
@@ -125,7 +130,7 @@ class Ball:
 
     @classmethod
     def named(cls, name: str, /, **changes: Any) -> Ball:
-        """The ball that `contensou balls` lists by that name."""
+        """Returns the ball with a name of `contensou balls`."""
         return cls._of(_core.ball(text("name", name)), changes)
 
     @classmethod
@@ -150,7 +155,7 @@ class Ball:
 
     @classmethod
     def gel(cls, **changes: Any) -> Ball:
-        """A gel ball on a rigid plane, where sliding and spinning are seen to be coupled."""
+        """A gel ball on a rigid plane, whose sliding and spinning are visibly coupled."""
         return cls.named("gel", **changes)
 
     @classmethod
@@ -164,11 +169,11 @@ class Ball:
         return cls.named("puck", **changes)
 
     def mu(self, law: Optional[LawLike] = None) -> float:
-        """Patch radius over radius."""
+        """Returns mu, the patch radius divided by the radius of the ball."""
         return _solved(self, self._law(law)).mu
 
     def _law(self, asked: Optional[LawLike]) -> Law:
-        """The law that was asked for, or the ball's own."""
+        """Returns the given law, or by default the ball's own."""
         return law_of(self.law if asked is None else asked)
 
     def roll(
@@ -189,22 +194,23 @@ class Ball:
         threads: int = 1,
         out: Optional[NDArray[Any]] = None,
     ) -> Any:
-        """The whole motion of the ball, or of the body that lies flat, from its own start or from another one, as a Roll;
-        of N starts at once, where one of these has an axis of N more, as Rolls:
+        """Returns the motion of the ball, or of the body that lies flat, as a Roll. By default it starts as the ball
+        does. If one of the following has an axis of N more, there are N starts, and the result is Rolls.
 
-        velocity, angular_velocity:  of the centre, (x, y) or (x, y, 0) in m/s, and of the ball, (x, y, z) in rad/s, z up
-        slip, spin:                  m/s along x, rad/s about the vertical
-        strike:                      a cue of this speed in m/s strikes the ball at rest, along x; tip is where, to the
-                                     right of and above the centre in radii, (0, 0); elevation of its butt in degrees, 0;
-                                     cue_mass, 0.54 kg
+        velocity, angular_velocity:  of the centre, (x, y) or (x, y, 0), m/s; of the ball, (x, y, z), rad/s, z up
+        slip, spin:  m/s along x; rad/s about the vertical
+        strike, tip, elevation, cue_mass:  a cue strikes the ball at rest along x: its speed, m/s; the place of its tip
+                     to the right of and above the centre in radii, default (0, 0); elevation of its butt in degrees,
+                     default 0; its mass, default 0.54 kg
 
-        law:               that of the ball if left out
-        rolling_below:     the ball rolls once it slips slower, 0.001 m/s; not of a body that lies flat
-        rolling_friction:  u_r: rolling without slip it slows down at u_r g; 0: it rolls on. That of the ball if left out
-        load:              one that changes: instants in s from 0 on, and newtons at each, linear between them and the last
-                           one from then on. The patch does not change with it; friction is all that acts
-        threads, out:      of N starts; an array for their events, of shape (N,) and dtype Rolls.dtype
-        Raises ValueError for what no ball can be or do, naming the row.
+        law:               by default that of the ball
+        rolling_below:     slip below which the ball rolls, default 0.001 m/s; not for a body that lies flat
+        rolling_friction:  u_r: a ball that rolls without slip slows down at u_r g; by default that of the ball
+        load:              a changing load: times in s from 0 on, and newtons at each, linear between them and constant
+                           after the last. The patch is constant; only friction may act
+        threads, out:      for N starts: number of threads; array for their events, shape (N,), dtype Rolls.dtype
+
+        Raises ValueError for values that no ball can have, naming the row.
         """
         given = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin,
                  "strike": strike, "tip": tip, "elevation": elevation, "cue_mass": cue_mass}
@@ -245,7 +251,7 @@ class Ball:
         return Rolls(self, starts, self._law(law), below, friction, thread_count(threads), out)
 
     def _starts(self, given: dict[str, NDArray[np.float64]], count: int) -> NDArray[np.float64]:
-        """Rows vx, vy, wx, wy, wz. What is not given is the ball's own, as `but` has it."""
+        """Returns rows vx, vy, wx, wy, wz. Values that are not given are the ball's own, as in `but`."""
         if {"slip", "spin"} & given.keys() and {"velocity", "angular_velocity"} & given.keys():
             raise ValueError("slip, spin and velocity, angular_velocity exclude each other: keep one kind of start")
         if count == 0:
@@ -265,7 +271,7 @@ class Ball:
         return starts
 
     def _under(self, load: tuple[ArrayLike, ArrayLike], friction: float) -> tuple[Any, Ball]:
-        """A load that changes, as two tuples, and this ball under its nominal one."""
+        """Returns a changing load as two tuples, and this ball under its nominal load."""
         if not isinstance(load, (tuple, list, np.ndarray)) or len(load) != 2:
             raise needs("load", "(instants in s, newtons at each)", load)
         t, newtons = (tuple(np.atleast_1d(numbers("load", each)).tolist()) for each in load)
@@ -286,9 +292,9 @@ class Ball:
         rolling_below: Optional[float] = None,
         rolling_friction: Optional[float] = None,
     ) -> NDArray[np.float64]:
-        """The state of a ball on the table t seconds later, in the convention of pooltool: rows r, v and w, the place of
-        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 of any shape S: (*S, 3, 3);
-        of N balls, (N, 3, 3): (N, *S, 3, 3). A new array."""
+        """Returns the state of a ball t seconds later, in the convention of pooltool: rows r, v and w are the place of
+        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 has any shape S, and the
+        result has shape (*S, 3, 3); for N balls, (N, 3, 3), it has shape (N, *S, 3, 3). It is a new array."""
         rvw = numbers("rvw", rvw)
         if rvw.ndim not in (2, 3) or rvw.shape[-2:] != (3, 3):
             raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) or (N, 3, 3); got shape {rvw.shape}")
@@ -309,24 +315,24 @@ def a_ball(given: Any) -> Ball:
 
 
 def balls() -> dict[str, Ball]:
-    """The built-in balls by their names, as `contensou balls` lists them."""
+    """Returns the built-in balls by their names, in the order of `contensou balls`."""
     return {name: Ball.named(name) for name in _core.balls}
 
 
 _flat = ("disc", "ring")
 
-#: Of what a start is given by the shape of one, and how many numbers each may have.
+#: Arguments that give a start: the shape of one, and its allowed widths.
 _widths: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
     "velocity": ((2,), (2, 3)), "angular_velocity": ((3,), (3,)), "slip": ((), ()), "spin": ((), ()),
     "strike": ((), ()), "tip": ((2,), (2,)), "elevation": ((), ()), "cue_mass": ((), ()),
 }
 
-#: Of a stroke what it is unless it is given, in the order of _core; strike always is.
+#: Default values of a stroke in the order of _core; strike is always given.
 _stroke = {"strike": np.array(np.nan), "tip": np.zeros(2), "elevation": np.array(0.0), "cue_mass": np.array(_core.standard_cue_mass)}
 
 
 def _rows(name: str, given: ArrayLike, one: tuple[int, ...], widths: tuple[int, ...]) -> NDArray[np.float64]:
-    """One of them, or N.
+    """Returns an argument of one start or of N.
     Raises ValueError for another shape, and for a velocity that leaves the plane."""
     array = numbers(name, given)
     if array.ndim not in (len(one), len(one) + 1) or (one and array.shape[-1] not in widths):
@@ -343,7 +349,7 @@ def _rows(name: str, given: ArrayLike, one: tuple[int, ...], widths: tuple[int, 
 
 
 def _count(start: dict[str, NDArray[np.float64]]) -> Optional[int]:
-    """How many starts; None: one."""
+    """Returns the number of starts; None for a single start without that axis."""
     counts = {name: value.shape[0] for name, value in start.items() if value.ndim > len(_widths[name][0])}
     if len(set(counts.values())) > 1:
         raise ValueError(f"as many of each are needed, got {', '.join(f'{count} of {name}' for name, count in counts.items())}")
@@ -355,13 +361,14 @@ def _solved(ball: Ball, law: Law) -> _core.Flow:
     return ball._experiment.undriven_flow(law._core)
 
 
-_Undisturbed = tuple[_core.Experiment, _core.Law, float]  # of no class: there _core is its own
+_Undisturbed = tuple[_core.Experiment, _core.Law, float]  # not a member, because _core is a field of the classes below
 
 
 @dataclass(frozen=True)
 class Roll:
-    """The motion of a ball: called with times t >= 0 in s, of any shape, it gives a structured array of that shape with
-    fields t, x, y, vx, vy, wx, wy, wz, slip, energy (s, m, m/s, rad/s, J). The centre starts at (0, 0). `Ball.roll` makes one."""
+    """The motion of a ball from one start; `Ball.roll` makes it. Called with times t >= 0 in s of any shape, it returns
+    a structured array of that shape with fields t, x, y, vx, vy, wx, wy, wz, slip, energy (s, m, m/s, rad/s, J). The
+    centre starts at (0, 0)."""
 
     ball: Ball
     velocity: tuple[float, float]
@@ -389,9 +396,9 @@ class Roll:
         return self._core.at(numbers("t", t))[()]
 
     def plot(self, axes: Any = None, until: Optional[float] = None) -> Any:
-        """The path on the table, to scale, and the speeds against time, beside the textbook's, dashed, by matplotlib into
-        two axes, or into a new figure. until: s; if left out until a little after it rolls.
-        Gives the axes."""
+        """Plots the path on the table, to scale, and the speeds against time by matplotlib, with the uncoupled model
+        dashed. It draws into two axes, or a new figure, up to `until` in s, by default a little after the ball rolls.
+        Returns the axes."""
         if axes is None:
             from matplotlib import pyplot
 
@@ -421,54 +428,55 @@ class Roll:
 
     @property
     def uncoupled(self) -> Roll:
-        """The textbook's ball, whose sliding and spinning do not know of each other, from the same start."""
+        """The motion under the uncoupled model, in which sliding and spinning are independent, from the same start."""
         return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, self.rolling_friction, True, self.load)
 
     @property
     def rolls_after(self) -> Event:
-        """When its slip has fallen to rolling_below; of a body that lies flat when it rests."""
+        """The time at which the slip has fallen to rolling_below, or a body that lies flat rests, and the place."""
         return Event(*self._core.rolls_after(self.rolling_below))
 
     @property
     def spin_ends(self) -> Event:
-        """When it no longer spins; at the start without spin."""
+        """The time at which the spin ends, and the place; the start for a ball without spin."""
         return Event(*self._core.spin_ends)
 
     @property
     def rest(self) -> Optional[Event]:
-        """When its centre rests, with rolling friction or on a slope; None where it rolls on for ever, and of a body that lies
-        flat on a level plane, whose rest is its rolls_after."""
+        """The time at which the centre comes to rest, with rolling friction or on a slope, and the place; None if it
+        rolls for ever, and for a body that lies flat on a level plane, which rests at rolls_after."""
         rest = self._core.rest
         return None if rest is None else Event(*rest)
 
     @property
     def stop_time(self) -> float:
-        """s until slip and spin end."""
+        """The time until slip and spin end, s."""
         return self._core.stop_time
 
     @cached_property
     def slip_length(self) -> float:
-        """m that the contact point slides."""
+        """The length that the contact point slides, m."""
         return self._core.slip_length
 
     @cached_property
     def turns(self) -> float:
-        """Turns about the vertical until the spin ends."""
+        """The number of turns about the vertical until the spin ends."""
         return self._core.turns
 
     @cached_property
     def path(self) -> float:
-        """m along the path of the centre until it rolls."""
+        """The length of the centre's path until the ball rolls, m."""
         return self._core.path(self.rolling_below)
 
     def uncertainty(self, *own: str, **spreads: Union[str, float]) -> dict[str, Any]:
-        """What the events are known to, where numbers of the ball or of its start are known to a standard deviation each:
-        `roll.uncertainty(slip="1%", spin="2 rad/s", friction=0.01)`, or vx, vy, wx, wy, wz of a start by velocities.
-        `roll.uncertainty("fit")` takes what the ball itself is known to (Ball.uncertainty); what is named beside it replaces it.
+        """Returns the uncertainty of the events from standard deviations of numbers of the ball or of its start:
+        `roll.uncertainty(slip="1%", spin="2 rad/s", friction=0.01)`; vx, vy, wx, wy, wz for a start by velocities.
+        `roll.uncertainty("fit")` takes those of the ball (Ball.uncertainty); further arguments replace them.
 
-        The member uncertainty of `contensou roll --uncertainty --format json`: of each number of an event standard, to first
-        order, shares of it by name, quantiles of 10 000 samples, and first_order_holds, whether these agree.
-        Raises ValueError for what has no spread or is no spread, a load that changes, and the textbook's ball.
+        The result is the member uncertainty of `contensou roll --uncertainty --format json`. For each number of an
+        event it contains the standard deviation to first order, the shares in it by name, quantiles of 10 000 samples,
+        and first_order_holds, True if these agree.
+        Raises ValueError for a number without a value, an invalid deviation, a changing load, and the uncoupled model.
         """
         typed = ",".join([*(text("uncertainty", each) for each in own),
                           *(f"{name}={spread if isinstance(spread, str) else repr(number(name, spread))}" for name, spread in spreads.items())])
@@ -476,10 +484,10 @@ class Roll:
         return found
 
     def gradient(self) -> dict[str, Any]:
-        """How each number of an event changes with each number of the ball and of its start, the others kept, in SI units:
-        `roll.gradient()["rolls_after"]["t"]["friction"]`, the member gradient of `contensou roll --gradient --format json`.
-        A number at which the events have a corner, as a spin of 0, is left out. By differences of fourth order: to 1e-8,
-        less sharp of a motion with rolling friction or on a slope that is integrated in steps.
+        """Returns the derivative of each number of an event by each number of the ball and of its start, in SI units:
+        `roll.gradient()["rolls_after"]["t"]["friction"]`. It is the member gradient of `contensou roll --gradient
+        --format json`. A number at which the events have no derivative, such as a spin of 0, is left out. The error is
+        1e-8, and larger for a motion that is integrated in steps.
         """
         found: dict[str, Any] = json.loads(_core.roll_gradient(*self._undisturbed("gradient")))
         return found
@@ -494,14 +502,15 @@ _place = [("t", "f8"), ("x", "f8"), ("y", "f8")]
 
 
 class Rolls:
-    """The motions of one ball from N starts; `Ball.roll` makes them of arrays. Called with times t >= 0 in s, of any shape
-    S, they give a structured array of shape (N, *S) with the fields of Roll; an index gives one Roll, a slice Rolls.
+    """The motions of one ball from N starts; `Ball.roll` makes them from arrays. Called with times t >= 0 in s of any
+    shape S, they return a structured array of shape (N, *S) with the fields of Roll. An index returns one Roll, a slice
+    Rolls.
 
-    events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), as Roll has them, rest
-             infinite where that is None; slip_length, path (m), turns, stop_time (s). Each is an attribute, too.
+    events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), rest infinite
+             if a Roll has None; slip_length, path (m), turns, stop_time (s). Each is also an attribute
     """
 
-    #: Of events.
+    #: The dtype of events.
     dtype = np.dtype([("rolls_after", _place), ("spin_ends", _place), ("rest", _place), ("slip_length", "f8"), ("turns", "f8"),
                       ("path", "f8"), ("stop_time", "f8")])
 

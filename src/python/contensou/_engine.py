@@ -1,4 +1,4 @@
-"""What to type into physics engines."""
+"""Numbers to type into physics engines."""
 
 from __future__ import annotations
 
@@ -22,20 +22,21 @@ def _told(name: Optional[str], ball: Ball, law: Optional[LawLike]) -> list[dict[
 
 
 def engine(name: str, ball: Ball, *, law: Optional[LawLike] = None) -> dict[str, Any]:
-    """What to type into a physics engine for a ball's torsional friction, and what slip and spin of its start then do: the
-    fields of `contensou engine NAME --format json`, those of the ball and those of the engine in one dict. isaac, unity and
-    unreal are the engine that they stand on.
+    """Returns the numbers to type into a physics engine for a ball's torsional friction, and the resulting slip and
+    spin from its start: the fields of `contensou engine NAME --format json`, those of the ball and of the engine in one
+    dict. isaac, unity and unreal are names of the engines that they use.
 
-    parameters:      {name: {value, unit, formula}}, what to type in; that of the moment is the last
-    needs:           switches without which they do nothing; combination: of the two bodies' numbers
-    settings:        [{setting, cone, moment_arm, t_slip, t_spin, slip_length, turns}], the one nearest to the law first,
-                     then what else is met
-    t_slip, t_spin:  s until 1e-3 of slip and spin is left, under the law
-    slip_length, turns:  m that the contact slides and turns about the vertical until then, under the law
+    parameters:      {name: {value, unit, formula}}, numbers to type in; the last determines the moment
+    needs:           switches that must be on for the numbers to act
+    combination:     combination of the numbers of two bodies
+    settings:        [{setting, cone, moment_arm, t_slip, t_spin, slip_length, turns}], nearest to the law first, then
+                     other common settings
+    t_slip, t_spin:  time in s until 1e-3 of slip and of spin is left, under the law
+    slip_length, turns:  length in m of slip, and turns about the vertical, until the stop, under the law
     """
     return _told(text("name", name), ball, law)[0]
 
 
 def engines(ball: Ball, *, law: Optional[LawLike] = None) -> dict[str, dict[str, Any]]:
-    """`engine` of each engine that is known, by name."""
+    """Returns `engine` for each known engine, by name."""
     return {each["name"]: each for each in _told(None, ball, law)}

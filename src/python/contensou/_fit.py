@@ -15,8 +15,8 @@ from ._numbers import flag, needs, numbers, text
 
 
 class Estimate(NamedTuple):
-    """What a film says of one number: in SI units, with its standard error (inf: not determined, and value is any of many;
-    0: it was given) and the ends of the interval of 95 % confidence."""
+    """The estimate of one number from a film, in SI units, with its standard error and its interval of 95 % confidence.
+    The error is inf for a number that is not determined, and 0 for one that was given."""
 
     value: float
     standard_error: float
@@ -29,8 +29,8 @@ class Estimate(NamedTuple):
 
 
 class RollingFrictionSeen(NamedTuple):
-    """Rolling friction that was not searched, and by which a film would be explained better by far; what the coefficient of
-    sliding friction would be then, and by how much chi^2 less."""
+    """Rolling friction that was not free, but would fit a film far better; sliding friction then, and the decrease of
+    chi^2."""
 
     value: float
     standard_error: float
@@ -39,7 +39,7 @@ class RollingFrictionSeen(NamedTuple):
 
 
 class Combination(NamedTuple):
-    """The one combination of friction and patch_radius that a film determines, in SI units."""
+    """The only combination of friction and patch_radius that a film determines, in SI units."""
 
     name: str
     value: float
@@ -50,24 +50,26 @@ class Combination(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """What a film says of a ball; `fit` makes one.
+    """The result of `fit`.
 
-    ball:         with the fitted contact and start, and with the covariance of all that was found in its uncertainty, where
-                  the film determines them
-    estimates:    of friction, patch_radius, slip, spin, and what places the film: direction, vx, vy, x, y, angle at the start;
-                  with rolling friction also rolling_friction, and rolling (m/s, R omega along the slip) for vx and vy
-    names, correlation_matrix:  of those that were free
-    correlation:  of friction and patch_radius
-    noise:        the standard deviation of each observable, given or estimated
-    reduced_chi2: nan or inf where there are no more values than numbers to be found
-    profiled:     whether the intervals are by profile likelihood
-    misfits:      why this is not the motion of the film, in words; empty where it may be
-    other_spins:  at the start, which explain the film as well, by other whole turns between two pictures or by another motion
-    only:         the one combination of friction and patch_radius that the film determines, where it does no more
-    rolling_friction_seen:  where the film shows rolling friction that the ball has not
-    aic:          Akaike's criterion, to compare laws on the same film: the smaller the better
-    predicted:    what the fitted motion gives, by observable
-    t, observed:  the film: times, and what was seen by observable; of a planned one none
+    ball:          the ball with the fitted contact and start; its uncertainty contains the covariance of all free
+                   numbers that the film determines
+    estimates:     friction, patch_radius, slip, spin, and those that place the film: direction, vx, vy, x, y, angle at
+                   the start; with rolling friction also rolling_friction, and rolling (m/s, R omega along the slip)
+                   instead of vx and vy
+    names, correlation_matrix:  of the free numbers
+    correlation:   correlation of friction and patch_radius
+    noise:         standard deviation of each observable, given or estimated
+    reduced_chi2:  nan or inf if there are no more values than free numbers
+    profiled:      True if the intervals are by profile likelihood
+    misfits:       reasons, in words, why the film does not show this motion; empty if it may
+    other_spins:   spins at the start that fit the film equally well, by other whole turns between two pictures or by
+                   another motion
+    only:          the only combination of friction and patch_radius that the film determines, else None
+    rolling_friction_seen:  rolling friction that the film shows but the ball does not have, else None
+    aic:           Akaike's criterion, to compare laws on the same film; smaller is better
+    predicted:     values of the fitted motion, by observable
+    t, observed:   times and values of the film, by observable; empty for a planned film
     """
 
     ball: Ball
@@ -89,9 +91,9 @@ class Fit:
     observed: dict[str, NDArray[np.float64]]
 
     def plot(self, axes: Any = None) -> Any:
-        """What was seen with the fitted motion, and the residuals below, a column for each observable, by matplotlib into
-        axes of shape (2, number of observables), or into a new figure. A marker's angle stands at its turn.
-        Gives the axes."""
+        """Plots the observed values with the fitted motion, and the residuals below, by matplotlib, a column for each
+        observable. It draws into axes of shape (2, number of observables), or into a new figure. Angles have the whole
+        turns of the fit. Returns the axes."""
         if not self.observed:
             raise ValueError("a planned film has nothing to draw")
         units = {"slip": "m/s", "spin": "rad/s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "angle": "rad"}
@@ -137,7 +139,7 @@ class Fit:
 
     @property
     def rolling_friction(self) -> Estimate:
-        """Of a ball that has it, or where it was searched."""
+        """The estimate of rolling friction. Raises KeyError unless the ball has it or it was free."""
         return self.estimates["rolling_friction"]
 
     @property
@@ -150,14 +152,14 @@ class Fit:
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Equal, NaN with NaN, too."""
+    """Returns True if two values are equal; NaN equals NaN."""
     if isinstance(one, dict):
         return one.keys() == other.keys() and all(_same(each, other[name]) for name, each in one.items())
     return np.array_equal(one, other, equal_nan=True) if isinstance(one, (float, np.ndarray)) else bool(one == other)
 
 
 def _spreads(given: Any, t: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-    """The argument sd, a value for each time."""
+    """Returns the argument sd as a value for each time."""
     if not isinstance(given, dict):
         raise needs("sd", 'a dict by observable, as {"slip": 0.01},', given)
     spreads = {name: numbers(f"sd of {name}", each) for name, each in given.items()}
@@ -168,7 +170,7 @@ def _spreads(given: Any, t: NDArray[np.float64]) -> dict[str, NDArray[np.float64
 
 
 def _names(free: Any) -> Optional[list[str]]:
-    """The argument free; the name of one parameter is a list of it."""
+    """Returns the argument free as a list; a single name becomes a list."""
     if free is None or isinstance(free, str):
         return None if free is None else [free]
     if not isinstance(free, (list, tuple, set, frozenset)):
@@ -192,15 +194,16 @@ def fit(
     free: Optional[Sequence[str]] = None,
     robust: bool = False,
 ) -> Fit:
-    """Friction and patch radius of a ball, with its slip and spin at t[0], from what a film shows at the times t in s, which
-    increase: any of slip (m/s), spin (rad/s about the vertical), place x, y (m) and velocity vx, vy (m/s) of the centre, and
-    the angle turned about the vertical (rad, up to whole turns). NaN, and what is masked, was not measured. src/fit/README.md says how to film it.
+    """Finds friction and patch radius of a ball, with its slip and spin at t[0], from a film with increasing times t in
+    s. The film may show any of slip (m/s), spin (rad/s about the vertical), place x, y (m) and velocity vx, vy (m/s) of
+    the centre, and the angle turned about the vertical (rad, up to whole turns). NaN and masked entries are not
+    measured. src/fit/README.md says how to film.
 
-    ball:    its radius and gravity; the values of what is not free; its law, where none is given
-    free:    what is to be found of friction, patch_radius, rolling_friction, slip and spin; all of them if left out, but for
-             the patch of a body that rests on its whole face, and rolling friction of a ball that has none
-    sd:      standard deviations by observable, numbers or arrays; of others they are estimated, from 10 values or more
-    robust:  Huber's loss: values that are far off count for less
+    ball:    radius, gravity, the values of numbers that are not free, and the default law
+    free:    names among friction, patch_radius, rolling_friction, slip and spin; by default all, except the patch of a
+             body that rests on its whole face, and rolling friction of a ball without it
+    sd:      standard deviations by observable, numbers or arrays; others are estimated, from 10 values or more
+    robust:  True for Huber's loss, by which outliers count less
     """
     t = numbers("t", t)
     given = {"slip": slip, "spin": spin, "x": x, "y": y, "vx": vx, "vy": vy, "angle": angle}
@@ -226,11 +229,11 @@ def fit_plan(
     law: Optional[LawLike] = None,
     free: Optional[Sequence[str]] = None,
 ) -> Fit:
-    """What a film would say of the ball's own motion, before it is made: the standard errors and intervals that it would
-    give (Cramer and Rao's bound), as `contensou fit --plan`.
+    """Returns the fit that a film of the ball's own motion would give: standard errors and intervals by the bound of
+    Cramer and Rao, as `contensou fit --plan`.
 
-    t:   s, of its pictures, from the start of the motion on
-    sd:  standard deviations of what is to be seen of slip, spin, x, y, vx, vy and angle, numbers or arrays
+    t:   times of its pictures, s, from the start of the motion on
+    sd:  standard deviations of slip, spin, x, y, vx, vy or angle, numbers or arrays
     """
     t, ball = numbers("t", t), a_ball(ball)
     spreads = _spreads(sd, t)

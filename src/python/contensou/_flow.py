@@ -17,7 +17,7 @@ from ._reduce import Reduction
 
 
 class Ray(NamedTuple):
-    """A ray v = k mu |u| that motions keep to; the error of k is relative."""
+    """An invariant ray v = k mu |u|; the error of k is relative."""
 
     k: float
     attracts: bool
@@ -37,7 +37,7 @@ class SingularPoint(NamedTuple):
 
 
 class End(NamedTuple):
-    """What k tends to, zero, ray or infinity, for every start with k_from < k < k_to."""
+    """A limit of k, zero, ray or infinity, for every start with k_from < k < k_to."""
 
     limit: str
     k_star: float
@@ -46,7 +46,8 @@ class End(NamedTuple):
 
 
 class Terminal(NamedTuple):
-    """Where k = v/(mu |u|) goes: r = gamma mu^2/chi, the r at which the regime changes, rays and ends by growing k."""
+    """The limits of k = v/(mu |u|): r = gamma mu^2/chi, the r at which the regime changes, rays and ends by increasing
+    k."""
 
     r: float
     r_low: float
@@ -56,13 +57,13 @@ class Terminal(NamedTuple):
 
     @property
     def k_star(self) -> float:
-        """Of the end of the largest sector of starts."""
+        """The limit of the largest sector of starts."""
         return max(self.ends, key=lambda end: math.atan(end.k_to) - math.atan(end.k_from)).k_star
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """The motion from one start to its stop. Any instant is found by itself."""
+    """The motion from one start to its stop. There are no time steps: a state at any time is one root."""
 
     flow: Flow
     u: float
@@ -77,18 +78,19 @@ class Orbit:
 
     @property
     def stop_time(self) -> float:
-        """tau until u = v = 0."""
+        """The time tau until u = v = 0."""
         return self._core.stop_time
 
     @property
     def accuracy(self) -> float:
-        """Relative error of stop_time."""
+        """The relative error of stop_time."""
         return self._core.accuracy
 
     def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
            beta: Optional[ArrayLike] = None) -> Any:
-        """The states at times tau >= 0 after the start, tau_left before the stop, or at regularised times beta >= 0 (2.8):
-        a structured array of their shape with fields tau, u, v, ln_v, k, beta. v underflows near the stop, ln_v does not."""
+        """Returns the states at times tau >= 0 after the start, at times tau_left before the stop, or at regularised
+        times beta >= 0 (2.8), as a structured array of their shape with fields tau, u, v, ln_v, k, beta. Near the stop
+        v underflows, unlike ln_v."""
         if sum(given is not None for given in (tau, tau_left, beta)) != 1:
             raise TypeError("at: one of tau, tau_left and beta is needed")
         if tau is not None:
@@ -98,15 +100,15 @@ class Orbit:
         return self.flow._core.at_beta(number("u", self.u), number("v", self.v), numbers("beta", beta))[()]
 
     def sample(self, count: int = 201) -> NDArray[Any]:
-        """The states at equal times from the start to the stop."""
+        """Returns the states at equidistant times from the start to the stop."""
         if whole("count", count) < 1:
             raise ValueError(f"count: one instant or more is needed, got {count}")
         return self._core.at(np.linspace(0, self.stop_time, count))
 
     def gradient(self, tau: ArrayLike) -> dict[str, dict[str, Any]]:
-        """What the motion has come to at times tau, with exact derivatives by the start and by tau, each with the others kept:
-        u, v, slip_length (the integral of v) and turned (of u), each {value, u, v, tau}. The time at which v has a value
-        changes with the start's u by -g["v"]["u"]/g["v"]["tau"].
+        """Returns u, v, slip_length (the integral of v) and turned (the integral of u) at times tau, with exact partial
+        derivatives by the start and by tau, each as {value, u, v, tau}. The time at which v has a value changes with
+        the start's u by -g["v"]["u"]/g["v"]["tau"].
         Raises ValueError for a start with u or v of 0."""
         times = numbers("tau", tau)
         found = self.flow._core.instant_gradients(number("u", self.u), number("v", self.v), times)
@@ -114,7 +116,7 @@ class Orbit:
                 for i, name in enumerate(("u", "v", "slip_length", "turned"))}
 
     def slip_length(self, tau: ArrayLike) -> Any:
-        """The integral of v over [0, tau], in the unit of speed squared."""
+        """Returns the integral of v over [0, tau], in the unit of speed squared."""
         return self._core.slip_length(numbers("tau", tau))[()]
 
 
@@ -123,14 +125,14 @@ _DERIVATIVES = ("u", "v", "mu", "chi", "gamma", "drive")
 
 @dataclass(frozen=True, init=False)
 class Flow:
-    """All motions of one system: solved once (1 ms), then stop times and states of any start.
+    """All motions of one system. It is solved once (1 ms), then returns stop times and states from any start.
 
-    mu:    patch radius over R; 0 < mu <= 1 for a ball; disc and ring rest on their whole face, mu = 1
-    law:   a name, a Law or a function; that of the body if left out: exact for a ball
-    body:  ball, hollow-ball, disc, ring, or (chi, gamma): chi = 1 + m R^2/J about a horizontal axis (1: it cannot
-           roll), gamma = m R^2/J_z
-    drive: a constant force along the slip, over f N, 0 or more and below 1, from where on it never stops: rolling
-           resistance u_r/f of a ball that rolls the way it slides, or a slope straight down, tan(angle)/(chi f)
+    mu:     patch radius divided by R; 0 < mu <= 1 for a ball; disc and ring rest on their whole face, mu = 1
+    law:    a name, a Law or a function; by default that of the body, for a ball exact
+    body:   ball, hollow-ball, disc, ring, or (chi, gamma): chi = 1 + m R^2/J about a horizontal axis (1 for a body that
+            cannot roll), gamma = m R^2/J_z
+    drive:  constant force along the slip divided by f N, from 0 to below 1; at 1 the body would not stop. It is rolling
+            resistance, u_r/f for a ball that rolls the way it slides, or a slope straight down, tan(angle)/(chi f)
     """
 
     mu: float
@@ -158,14 +160,14 @@ class Flow:
         threads: int = 1,
         gradient: bool = False,
     ) -> Any:
-        """The time tau until u = v = 0, to a few eps (2e-15 relative).
+        """Returns the time tau until u = v = 0, to a few eps (2e-15 relative).
 
-        u, v:     numbers, or arrays of shapes that broadcast; any u, v >= 0. In an array what is no start, or is
-                  masked, becomes NaN
-        out:      float64 of the broadcast shape, to write into; may be u or v itself
-        threads:  that share the work on a large array; other threads of Python go on meanwhile
-        gradient: also its derivatives, each with the others kept: returns tau and a dict of arrays by u, v, mu, chi, gamma
-                  and drive. At rest they are NaN
+        u, v:      numbers, or arrays of shapes that broadcast; any u, v >= 0. Invalid or masked entries of an array
+                   become NaN
+        out:       float64 array of the broadcast shape for the result; may be u or v itself
+        threads:   number of threads for a large array; other threads of Python continue meanwhile
+        gradient:  True to return tau and a dict of its partial derivatives by u, v, mu, chi, gamma and drive; NaN at
+                   rest
         """
         if gradient:
             if out is not None or threads != 1:
@@ -190,25 +192,26 @@ class Flow:
         return out if out is not None else taus[()]
 
     def orbit(self, *, u: float, v: float) -> Orbit:
-        """The motion from one start."""
+        """Returns the motion from one start."""
         return Orbit(self, u, v)
 
     def terminal(self) -> Terminal:
-        """What k tends to as the body comes to rest."""
+        """Returns the limits of k as the body comes to rest."""
         r, low, high, rays, ends = self._core.terminal()
         return Terminal(r, low, high, tuple(Ray(*ray) for ray in rays), tuple(End(*end) for end in ends))
 
     def reduction(self) -> FlowReduction:
-        """The symmetry of (2.6), found, and what it makes of the plane."""
+        """Returns the symmetry of (2.6), found numerically, and the plane reduced by it."""
         return FlowReduction(self)
 
     def facts(self) -> tuple[SingularPoint, ...]:
-        """The singular points of the plane, at the origin and at infinity, with their eigenvalues."""
+        """Returns the singular points of the plane, at the origin and at infinity, with their eigenvalues."""
         return tuple(SingularPoint(*point) for point in self._core.facts())
 
 
 class FlowReduction(Reduction):
-    """Of Zhuravlev's system, in the paper's coordinates: q = v/u and p = ln v; the first integral is ln |u| - ln w(k)."""
+    """The reduction of Zhuravlev's system in the paper's coordinates, q = v/u and p = ln v. The first integral is ln
+    |u| - ln w(k)."""
 
     def __init__(self, flow: Flow) -> None:
         system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
@@ -248,9 +251,9 @@ def stop_time(
     threads: int = 1,
     gradient: bool = False,
 ) -> Any:
-    """Flow(mu, law, body, drive).stop_time, with the flows of the last calls kept; mu, too, may be an array, at the cost of
-    a flow (0.4 ms) for each of its values, without a drive of 0.1 s for any number of them from 1000 on. Where it is NaN, or
-    masked, the time is NaN."""
+    """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Each of its
+    values costs a flow (0.4 ms); from 1000 values on, without a drive, all of them cost 0.1 s. The time is NaN where mu
+    is NaN or masked."""
     if mu is None or isinstance(mu, (float, int)):
         return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient)
     u, v, mu = together(u=u, v=v, mu=mu)
@@ -297,8 +300,8 @@ class Checks(tuple[Check, ...]):
         return all(row.passed for row in self)
 
     def raise_for_failure(self) -> Checks:
-        """Itself, if every check passed.
-        Raises ArithmeticError naming those that did not."""
+        """Returns itself if every check passed.
+        Raises ArithmeticError, naming the others."""
         if self.passed:
             return self
         raise ArithmeticError("\n".join(str(Checks([row])) for row in self if not row.passed))
@@ -313,8 +316,9 @@ class Checks(tuple[Check, ...]):
 def check(
     *, u: float, v: float, mu: Optional[float] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0
 ) -> Checks:
-    """Everything the theory says about the motion from one start, each as a number that must be small: the routes to its
-    stop time against each other, the symmetry, the first integral, the limits. Without a law, of both laws of the paper.
+    """Computes every statement of the theory about the motion from one start as a number that must be small: the routes
+    to the stop time against each other, the symmetry, the first integral, the limits. The default is both laws of the
+    paper.
     """
     laws: list[Optional[LawLike]] = ["exact", "pade"] if law is None and body in ("ball", "hollow-ball") else [law]
     flows = [_flow(mu, each, body, drive) for each in laws]

@@ -16,15 +16,15 @@ Body = Union[str, tuple[float, float]]
 
 @dataclass(frozen=True)
 class Law:
-    """A friction law; `law` makes one. Called with k = v/(mu |u|), of any shape, it gives (force, moment): Phi, the
-    force over f N, and Psi, the moment over f N times the patch radius, each of the shape of k.
+    """A friction law; `law` makes it. Called with k = v/(mu |u|) of any shape, it returns (force, moment): Phi, the
+    force divided by f N, and Psi, the moment divided by f N times the patch radius, each of the shape of k.
 
-    name:             one of `contensou law`'s, such as exact, pade, uniform, pressure:1.5, formulas in k with their parameters,
-                      "phi = k/(a + k); psi = 1/(a + k); a = 2", or that of a law of one's own
-    function:         (sliding, pivoting) -> (force, moment), two speeds >= 0 in one unit, v and mu |u|; it depends on
-                      their ratio alone. Raises what it likes: that comes through unchanged
-    rho, pressure:    instead, the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
-    kinks:            of a function: each k where it is not smooth
+    name:           a name of `contensou law`, such as exact, pade, uniform, pressure:1.5; formulas in k with their
+                    parameters, "phi = k/(a + k); psi = 1/(a + k); a = 2"; or any name for a function or table
+    function:       (sliding, pivoting) -> (force, moment), of two speeds >= 0 in one unit, v and mu |u|; the result
+                    depends on their ratio alone. Its exceptions pass through unchanged
+    rho, pressure:  the pressure of the patch as a table: rho from 0 at the centre to 1 at the edge
+    kinks:          each k at which a function is not smooth
     """
 
     name: str = "exact"
@@ -60,7 +60,7 @@ class Law:
 
     @property
     def force_slope(self) -> float:
-        """Phi'(0), the viscosity of slow sliding over a pivoting patch."""
+        """Phi'(0). Slow sliding of a pivoting patch has the force f N Phi'(0) k, like viscous friction."""
         return self._core.force_slope
 
 
@@ -76,7 +76,7 @@ def law(
     pressure: Optional[ArrayLike] = None,
     **parameters: float,
 ) -> Law:
-    """The law of a name, of a function, of formulas in k with their parameters, or of a pressure given as a table. See
+    """Returns the law of a name, of a function, of formulas in k with their parameters, or of a tabulated pressure; see
     Law."""
     if parameters and not (isinstance(of, str) and "=" in of):
         raise TypeError(f"law: only formulas have parameters, got {', '.join(parameters)}")
@@ -96,7 +96,7 @@ def law(
 
 
 def body_of(given: Body) -> Body:
-    """One name for one body, or its two numbers."""
+    """Returns one name for each body, or its two numbers."""
     if isinstance(given, str):
         return "disc" if given == "puck" else given
     pair = numbers("body", given)

@@ -1,4 +1,4 @@
-"""What a caller gives, checked at the door of each function."""
+"""Tests of arguments."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 
 def needs(name: str, what: str, given: Any) -> TypeError:
-    """Of an argument of another kind."""
+    """Returns the error for an argument of a wrong type."""
     return TypeError(f"{name}: {what} is needed; got {given!r:.60}")
 
 
 def numbers(name: str, given: Any) -> NDArray[np.float64]:
-    """The numbers of an argument as one C array of doubles. What is masked in a masked array is NaN.
-    Raises TypeError for what are no real numbers: None, text, dates, complex; ValueError for rows of several lengths and what
-    no double holds."""
+    """Returns the numbers of an argument as one C array of doubles. Masked entries become NaN.
+    Raises TypeError unless they are real numbers (for None, text, dates, complex numbers), and ValueError for rows of
+    different lengths and numbers beyond doubles."""
     if given is None:
         raise needs(name, "a number, or an array of them,", given)
     mask = given.mask if isinstance(given, np.ma.MaskedArray) else False
@@ -37,7 +37,7 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
 
 
 def number(name: str, given: Any) -> float:
-    """The same for one number."""
+    """Returns an argument that is one number. Raises as numbers."""
     if isinstance(given, (float, int)) and abs(given) < 1e308:
         return float(given)
     result = numbers(name, given)
@@ -47,7 +47,7 @@ def number(name: str, given: Any) -> float:
 
 
 def together(**given: Any) -> list[NDArray[np.float64]]:
-    """The numbers of several arguments, in arrays of one shape.
+    """Returns the numbers of several arguments in arrays of one shape.
     Raises ValueError for shapes that do not broadcast."""
     arrays = {name: numbers(name, each) for name, each in given.items()}
     try:
@@ -77,8 +77,8 @@ def whole(name: str, given: Any) -> int:
 
 
 def target(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any] = np.dtype(np.float64)) -> NDArray[Any]:
-    """Returns an array to write results of that shape into.
-    Raises TypeError or ValueError for anything else."""
+    """Returns `out` if it is an array of that shape and dtype for results.
+    Raises TypeError or ValueError if it is not."""
     words = str(dtype) if dtype.fields is None else f"a row of {', '.join(dtype.names or ())}"
     if not isinstance(out, np.ndarray):
         raise TypeError(f"out: an array of NumPy is needed, {words} of shape {shape}, got {type(out).__name__}")
@@ -88,7 +88,7 @@ def target(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any] = np.dtype(np.
 
 
 def thread_count(threads: Any) -> int:
-    """Raises TypeError or ValueError unless it is a number of threads."""
+    """Returns a valid number of threads. Raises TypeError or ValueError for any other argument."""
     most = 1024
     count = whole("threads", threads)
     if not 1 <= count <= most:

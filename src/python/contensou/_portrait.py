@@ -21,7 +21,7 @@ _kinds: dict[str, Callable[[str, Any], Any]] = {
 
 
 def points_of(through: Any) -> list[tuple[float, float]]:
-    """The argument through."""
+    """Returns the argument through as a list of points."""
     points = numbers("through", list(through) if isinstance(through, Iterable) and not isinstance(through, str) else through)
     if points.size and (points.ndim != 2 or points.shape[1] != 2):
         raise needs("through", "points, [(u, v), ...],", through)
@@ -29,7 +29,7 @@ def points_of(through: Any) -> list[tuple[float, float]]:
 
 
 def _columns(value: Any) -> Any:
-    """JSON with lists of numbers as arrays."""
+    """Returns JSON with lists of numbers as arrays."""
     if isinstance(value, dict):
         return {key: _columns(each) for key, each in value.items()}
     if isinstance(value, list):
@@ -41,7 +41,7 @@ _Text = tuple[tuple[str, bool, int], ...]
 
 
 def _mathtext(text: _Text) -> str:
-    """A text of a figure as matplotlib writes it."""
+    """Returns a text of a figure in the markup of matplotlib."""
     parts = []
     for words, italic, level in text:
         words = words.replace("$", r"\$")
@@ -53,12 +53,12 @@ def _mathtext(text: _Text) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Numbers as Python's own, which may come as arrays."""
+    """Returns numbers or arrays as Python's own numbers and lists."""
     return value if value is None else np.asarray(value).tolist()
 
 
 class Portrait:
-    """A phase portrait: `portrait` makes one, and Reduction.portrait. In a notebook it shows itself."""
+    """A phase portrait; `portrait` and Reduction.portrait make it. A notebook shows its picture."""
 
     def __init__(self, draw: Callable[[dict[str, Any]], _core.Portrait], asked: dict[str, Any]) -> None:
         self._draw, self._asked = draw, asked
@@ -99,7 +99,7 @@ class Portrait:
         return f"portrait({', '.join(f'{key}={value!r}' for key, value in self._asked.items() if value is not None)})"
 
     def render(self, format: str) -> bytes:
-        """The file in a format: svg, pdf, png and eps, drawn by gnuplot, which is looked up in PATH; gp, its script; tex."""
+        """Returns the file in a format: svg, pdf, png or eps, drawn by gnuplot (on PATH); gp, its script; tex."""
         return self._core.render(format, self._asked["font"], self._asked["dpi"])
 
     def save(self, path: Union[str, PathLike[str]]) -> None:
@@ -113,22 +113,22 @@ class Portrait:
 
     @property
     def data(self) -> dict[str, Any]:
-        """What `contensou portrait -o FILE.json` writes, lists of numbers as arrays: window; orbits, each with u, v, ln_v,
-        k and tau_left; isochrones, each with tau_stop, u, v; where asked for highlight, through, against. Of a Reduction
-        also kind, centre and rays; window has two ends of each axis, highlight is a list of pieces, and neither ln_v nor
-        k is there. Of several mu or laws it is portraits, a list of such."""
+        """The content of `contensou portrait -o FILE.json`, with lists of numbers as arrays: window; orbits with u, v,
+        ln_v, k and tau_left; isochrones with tau_stop, u, v; if requested highlight, through, against. A Reduction adds
+        kind, centre and rays; its window has two ends of each axis, its highlight is a list of parts, and ln_v and k
+        are missing. For several mu or laws it is {"portraits": list}."""
         return dict(_columns(json.loads(self._core.json())))
 
     @property
     def figure(self) -> dict[str, Any]:
-        """The drawing as data: title, panels with axes, lines, arrows, marks, labels and regions in the units of the axes.
-        A text is a tuple of runs (words, italic, level); level is 1 for a power, -1 for an index, else 0."""
+        """The drawing as data: title, and panels with axes, lines, arrows, marks, labels and regions in the units of
+        the axes. A text is a tuple of runs (words, italic, level); level is 1 for a power, -1 for an index, else 0."""
         return self._core.figure()
 
     def plot(self, ax: Any = None) -> Any:
-        """The figure by matplotlib, into `ax`, axes or as many of them as it has panels, with letters of the size set there;
-        into a new figure without. The scale of colours stands beside them, the legend below. Gives the axes, or an array of
-        them where there are several panels."""
+        """Plots the figure by matplotlib into `ax`, one axes object for each panel, with the size of letters set there,
+        or into a new figure. The scale of colours stands beside it, the legend below. Returns the axes, or an array of
+        them for several panels."""
         from matplotlib import pyplot, rcParams, rc_context
 
         figure = self.figure
@@ -139,7 +139,7 @@ class Portrait:
                 raise ValueError(f"ax: {count} axes are needed, got {len(places)}")
             self._fill(figure, places, rcParams["font.size"], None)
             return ax
-        # As the library: side by side where each has 50 mm, in rows of one length.
+        # The layout is that of the library: side by side if each panel has 50 mm, in rows of one length.
         columns = next(each for each in range(count, 0, -1) if each == 1 or (count % each == 0 and figure["width_mm"] >= 50 * each))
         with rc_context({"font.size": figure["letter_pt"]}):
             page, ax = pyplot.subplots(
@@ -150,9 +150,9 @@ class Portrait:
         return ax
 
     def _fill(self, figure: dict[str, Any], places: Any, letter: float, page: Any) -> None:
-        """Draws the panels, with lines, marks and heads in proportion to letters of that many points.
+        """Draws the panels; lines, marks and heads are proportional to letters of a size in points.
 
-        page: the figure, if it is all the portrait's own"""
+        page:  the figure, if this portrait made it"""
         from matplotlib.cm import ScalarMappable
         from matplotlib.collections import LineCollection
         from matplotlib.colors import ListedColormap
@@ -195,10 +195,10 @@ class Portrait:
 
     @staticmethod
     def _legend(places: Any, letter: float, page: Any) -> None:
-        """Each text once, below the page, or below axes of one's own, which give room for it where no layout does."""
+        """Draws each text once, below the page, or below the caller's axes, which shrink without a layout engine."""
         from matplotlib.transforms import ScaledTranslation
 
-        entries: dict[str, dict[type, Any]] = {}  # of each text a line, a mark, or both
+        entries: dict[str, dict[type, Any]] = {}  # for each text a line, a mark, or both
         for place in places:
             for handle, text in zip(*place.get_legend_handles_labels()):
                 entries.setdefault(text, {}).setdefault(type(handle), handle)
@@ -226,7 +226,7 @@ class Portrait:
 
     @staticmethod
     def _arrows(place: Any, panel: dict[str, Any], layer: dict[str, Any], letter: float) -> None:
-        """Heads of one size, each at the end of a way of a thousandth of the axes, whatever size these will have."""
+        """Draws heads of one size, each at the end of a thousandth of the axes, whatever their size."""
         from matplotlib.patches import FancyArrowPatch
 
         span = np.array([panel[name]["high"] - panel[name]["low"] for name in "xy"])
@@ -289,23 +289,26 @@ def portrait(
     font: str = "",
     dpi: float = 300,
 ) -> Portrait:
-    """The phase portrait of a system, as in Flow, or of a ball in SI units, as `contensou portrait` draws it.
+    """Returns the phase portrait of a system, as in Flow, or of a ball in SI units, as `contensou portrait` draws it.
 
-    mu, law:     lists of them: a plane for each, side by side in one frame, with one scale of colours
-    u, v:        the start of an orbit to be highlighted
+    mu, law:     a value, or a list: one plane for each, side by side in one frame, with one scale of colours
+    u, v:        start of an orbit to highlight
     view:        uv, patch, log, similarity, blowup, disc, time, regularised, pair
     window:      (U, V): show |u| <= U and v <= V; in the views uv, patch and pair also ((U1, U2), (V1, V2))
-    orbits:      so many on each side of u = 0
+    orbits:      number of orbits on each side of u = 0
     through:     points (u, v) whose orbits are shown, too
-    isochrones:  about so many lines of equal stop time; or their times, of a ball in s
+    isochrones:  approximate number of lines of equal stop time, or their times, for a ball in s
     against:     another law, in the same figure
-    arrows:      time, one or none; field: none, motion or regularised; axes: the invariant axes and rays
-    colour:      orbits by the time left (time), or in one colour (none)
-    style:       print or screen; scale: bent or linear
-    estimate:    in the view of time, beside each motion, dashed, the asymptotic solution for small mu
-    size:        (width, height) in mm, or single, double: the columns of a journal
+    arrows:      time, one or none
+    field:       none, motion or regularised
+    axes:        True to draw the invariant axes and rays
+    colour:      time for orbits coloured by the time left, none for one colour
+    style:       print or screen
+    scale:       bent or linear
+    estimate:    in the view of time, draw the approximation for small mu beside each motion, dashed
+    size:        (width, height) in mm, or single, double for the columns of a journal
     title:       "" for neither title nor subtitle
-    font, dpi:   of files; the font of all but tex, dots per inch of a png
+    font, dpi:   font of all files except tex; dots per inch of a png
     """
     asked = dict(locals(), through=points_of(through))
     return Portrait(_of_system, asked)

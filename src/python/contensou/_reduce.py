@@ -1,4 +1,4 @@
-"""The symmetries of a planar system, found, and the motions that they solve."""
+"""The symmetries of a planar system, and the motions that they solve."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ._portrait import Portrait, points_of, start_of
 
 
 class Generator(NamedTuple):
-    """X = c t d/dt + (A x + b) . d/dx, x = (u, v); its largest entry is 1. Where not `everywhere`, it maps the field onto
-    itself within each sector in which that is smooth, and not across their borders."""
+    """X = c t d/dt + (A x + b) . d/dx, x = (u, v), with the largest entry 1. If `everywhere` is False, it maps the
+    field onto itself within each sector in which the field is smooth, and not across their borders."""
 
     time: float
     matrix: NDArray[np.float64]
@@ -23,7 +23,7 @@ class Generator(NamedTuple):
 
 
 class PlanarRay(NamedTuple):
-    """A direction that orbits keep; radial and angular are the eigenvalues along it and across."""
+    """A direction in which orbits stay; radial and angular are the eigenvalues along it and across it."""
 
     angle: float
     attracts: bool
@@ -33,19 +33,18 @@ class PlanarRay(NamedTuple):
 
 
 class Reduction:
-    """What `reduce` found.
+    """The result of `reduce`.
 
-    generators:       all of the form c t d/dt + (A x + b) . d/dx, the one that solves the system first; none: ()
-    singular_values:  of the determining equations, ascending, relative to the largest; below level they count as 0
-    gap:              how far those that count as 0 are from the others
-    verdict:          found, none, or undecided: the field's noise hides what a generator would leave
-    solved:           True if a scaling, or an inverse integrating factor alone, solves it; else what follows raises
-                      ValueError
-    form:             how it is solved: "scaling", or the form of the factor, such as "polynomial"; else None
+    generators:       all of the form c t d/dt + (A x + b) . d/dx, the one that solves the system first; () for none
+    singular_values:  of the determining equations, increasing, relative to the largest; below level they count as 0
+    gap:              distance of the values that count as 0 from the others
+    verdict:          found, none, or undecided: the field's noise hides the effect of a generator
+    solved:           True if a scaling or an inverse integrating factor solves it; else the methods raise ValueError
+    form:             the solution: "scaling", or the form of the factor, such as "polynomial"; else None
     tried:            forms of the factor that were tried: (form, least singular value, gap, residual)
 
-    It keeps the system: orbit and portrait are its motions.
-    Points are numbers, or arrays of shapes that broadcast; NaN where there is no answer.
+    orbit and portrait show the motions of the system. Points are numbers, or arrays of shapes that broadcast; results
+    without a value are NaN.
     """
 
     def __init__(self, core: _core.Planar, system: str, start: Optional[tuple[float, float]], again: tuple[Any, ...]) -> None:
@@ -69,18 +68,18 @@ class Reduction:
 
     @property
     def generator(self) -> Generator:
-        """The first of them. Raises ValueError if there is none."""
+        """The first generator. Raises ValueError if there is none."""
         if self.generators:
             return self.generators[0]
         raise ValueError(f"no generator of this form, or none that is known: the verdict is {self.verdict}")
 
     @property
     def kind(self) -> str:
-        """Of the blown-up centre: stable node, saddle, stable focus, ..."""
+        """The kind of the blown-up centre: stable node, saddle, stable focus, ..."""
         return self._core.kind
 
     def factor(self, u: ArrayLike, v: ArrayLike) -> Any:
-        """An inverse integrating factor V, for which f . grad V = V div f; NaN where it is not known."""
+        """Returns an inverse integrating factor V, for which f . grad V = V div f; NaN where it is not known."""
         return self._core.factor(*together(u=u, v=v))[()]
 
     @property
@@ -89,24 +88,26 @@ class Reduction:
 
     @property
     def turn(self) -> Optional[tuple[float, float]]:
-        """Of a focus: the factor of exp(p) in a turn, and its length in sigma, d sigma = exp(-c p) dt."""
+        """For a focus the factor of exp(p) in a turn, and its length in sigma, d sigma = exp(-c p) dt; else None."""
         return self._core.turn
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
-        """q, the angle, and p, which alone the symmetry moves: ln of the distance over that of the start given to reduce."""
+        """Returns q, the angle, and p, which alone the symmetry moves: ln of the distance divided by that of reduce's
+        start."""
         q, p = self._core.canonical(*together(u=u, v=v))
         return q[()], p[()]
 
     def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
-        """The same number along an orbit; NaN on rays."""
+        """Returns a number that is constant along an orbit; NaN on rays."""
         return self._core.first_integral(*together(u=u, v=v))[()]
 
     def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> Any:
-        """The time to the centre, relative 1e-12; inf if it is not reached; NaN beyond a border of the field, or a jump."""
+        """Returns the time to the centre, relative 1e-12; inf if not reached; NaN beyond a border of the field or a
+        jump."""
         return self._core.stop_time(*together(u=u, v=v))[()]
 
     def orbit(self, u: float, v: float) -> PlanarOrbit:
-        """The motion from one start."""
+        """Returns the motion from one start."""
         return PlanarOrbit(self, number("u", u), number("v", v))
 
     def portrait(
@@ -128,14 +129,16 @@ class Reduction:
         font: str = "",
         dpi: float = 300,
     ) -> Portrait:
-        """The plane with orbits, rays and isochrones, as `contensou portrait --system` draws it.
+        """Returns the plane with orbits, rays and isochrones, as `contensou portrait --system` draws it.
 
-        u, v:        the start of an orbit to be highlighted; the start given to reduce if left out
-        window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); else a square with the start and all points in it
-        orbits:      so many, else as many as fill the window
+        u, v:        start of an orbit to highlight; by default the start given to reduce
+        window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); by default a square around the points
+        orbits:      number of orbits; by default enough to fill the window
         through:     points (u, v) whose orbits are shown, too
-        isochrones:  about so many lines of equal time left; or their times
-        field:       none or motion; axes: the rays; arrows, colour, style, size, title, font, dpi: as of contensou.portrait
+        isochrones:  approximate number of lines of equal time left, or their times
+        field:       none or motion
+        axes:        True to draw the rays
+        arrows, colour, style, size, title, font, dpi:  as in contensou.portrait
         """
         asked: dict[str, Any] = dict(locals(), through=points_of(through))
         asked["reduction"] = asked.pop("self")
@@ -154,13 +157,13 @@ def _of_plane(asked: dict[str, Any]) -> _core.Portrait:
 
 
 class PlanarOrbit:
-    """One motion: Reduction.orbit makes it.
+    """One motion; Reduction.orbit makes it.
 
-    end:        centre, infinity, rest (a point that is none of both), border (of the field, or a jump), periodic,
+    end:        centre, infinity, rest (another point with a field of 0), border (of the field, or a jump), periodic,
                 equilibrium or cycle (which it nears for ever); None if it is not decided
-    end_time:   when it is there, by quadrature, relative 1e-12; inf if that takes for ever, or is not known
-    stop_time:  when it is at the centre; inf if it never is; NaN if it comes to a border
-    period:     of a motion that returns; else None
+    end_time:   time of the end, by quadrature, relative 1e-12; inf if it takes for ever, or is not known
+    stop_time:  time at the centre; inf if it never reaches it; NaN if it comes to a border
+    period:     period of a motion that returns; else None
     """
 
     def __init__(self, reduction: Reduction, u: float, v: float) -> None:
@@ -176,8 +179,8 @@ class PlanarOrbit:
         return f"<orbit from u = {self.u}, v = {self.v} to {self.end}>"
 
     def at(self, t: ArrayLike) -> Any:
-        """The states at times t >= 0 after the start: a structured array of their shape with fields t, u, v, q, p (as of
-        Reduction.canonical). From end_time on at the centre; NaN where it has gone to infinity or beyond a border."""
+        """Returns the states at times t >= 0 after the start, as a structured array of their shape with fields t, u, v,
+        q, p (as in Reduction.canonical). From end_time on the centre; NaN at infinity and beyond a border."""
         times = numbers("t", t)
         states = np.empty(times.shape, [(name, float) for name in ("t", "u", "v", "q", "p")])
         states["t"] = times
@@ -192,13 +195,12 @@ class PlanarOrbit:
 def reduce(
     system: Union[str, Callable[[float, float], tuple[float, float]]], *, u: float, v: float, **parameters: float
 ) -> Reduction:
-    """The symmetries of u' = F(u, v), v' = G(u, v), and the system solved by quadrature, without steps in time.
+    """Finds the symmetries of u' = F(u, v), v' = G(u, v), and solves the system by quadrature, without steps in time.
 
-    system:      a function (u, v) -> (u', v'), or its formulas "u' = F; v' = G", "y' = F(x, y)" or "x'' = F(x, x')", where
-                 u, v are x, y and x, x'; an exception, NaN and inf stand for
-                 points without a value
-    u, v:        a start, not 0: its size is the scale at which the field is sampled
-    parameters:  of the formulas
+    system:      a function (u, v) -> (u', v'), or formulas "u' = F; v' = G", "y' = F(x, y)" or "x'' = F(x, x')", in
+                 which u, v are x, y or x, x'; an exception, NaN or inf marks a point without a value
+    u, v:        a start, not 0; its size is the scale at which the field is sampled
+    parameters:  parameters of the formulas
     """
     if not (isinstance(system, str) or callable(system)):
         raise needs("system", "a function (u, v) -> (u', v'), or its formulas \"u' = F; v' = G\",", system)
