@@ -18,8 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns v/(mu |u|) from its logarithm, which does not underflow. Eigen's exp is unsuitable: it is never below
-/// 5.6e-309.
+/// Returns v/(mu |u|) from its logarithm, which does not underflow. Eigen's exp never gives less than 5.6e-309.
 std::vector<double> ratios(const PortraitOrbit& orbit) {
   return list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
 }

@@ -221,8 +221,7 @@ class Script {
     put("unset multiplot\n");
   }
 
-  /// Returns the first lines of the script. At `set encoding` gnuplot prints a warning in a locale without a degree
-  /// sign.
+  /// Returns the first lines of the script. `set encoding` warns in a locale without a degree sign.
   std::string heading() const {
     return fmt::format(
         "# Drawn by contensou; gnuplot 5. `LC_ALL=C.UTF-8 gnuplot FILE.gp > FILE.svg` draws it again.\n"

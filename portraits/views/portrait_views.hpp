@@ -31,8 +31,7 @@ void add_courses(const Drawing& drawing, const std::function<void(const PhasePor
 /// Returns ratios by half-decades about the one at which pure sliding and pure pivoting take the same time.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
 
-/// Returns the panel of (u, ln k), which shows how orbits enter the origin even for a contact of order 10^5 with an
-/// axis.
+/// Returns the panel of (u, ln k), which shows how orbits enter the origin, even with a contact of order 10^5.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
 /// A view with its name for users and its layout on a page.

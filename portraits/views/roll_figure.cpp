@@ -216,8 +216,7 @@ Panel speed_panel(const RollPicture& picture) {
   return panel;
 }
 
-/// Returns the part of a panel that a film's frame shows. A GIF has no dashes, and the colours of its first frame
-/// alone.
+/// Returns the part of a panel that a film's frame shows. A GIF has no dashes, and one set of colours.
 Panel until(const Panel& whole, std::size_t frame) {
   Panel panel = whole;
   panel.marks.clear();

@@ -29,8 +29,7 @@ using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
 /// Largest change of x in one step next to a kink, as a fraction of x, where x = ln k - ln k of the kink. A law may
-/// have a term x ln|x| there. Fehlberg's error estimate does not see it: only the stages at the two ends of a step
-/// enter.
+/// have a term x ln|x| there. Fehlberg's error estimate, of the stages at the ends of a step, does not see it.
 constexpr double fraction_of_distance = 0.5;
 /// Distance |x| below which x^2 is negligible and steps need not shrink any more.
 constexpr double nearest_kink = 1e-8;

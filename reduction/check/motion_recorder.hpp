@@ -15,8 +15,8 @@ class MotionRecorder {
   /// @throws std::domain_error  if start is not a state, or times are negative, not finite or decreasing
   MotionRecorder(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
 
-  /// Returns the start in the recorder's unit of speed; -infinity for a speed of 0. It is already reported if
-  /// requested.
+  /// Returns the start in the recorder's unit of speed; -infinity for a speed of 0. A requested start is already
+  /// reported.
   const LogState& start() const { return start_; }
 
   /// Returns an upper bound of the whole scaled time, the unit of its error.

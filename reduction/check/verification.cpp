@@ -98,8 +98,7 @@ class Examination {
     add("stop time of the scaled start, (2.6)", relative(scaled, factor * orbit_.stop_time()), stepping);
   }
 
-  /// Returns the start, or a state beside it if it lies at a kink, where the ring and the uniform disc have no
-  /// derivatives.
+  /// Returns the start, or a state beside it at a kink, where the ring and the uniform disc have no derivatives.
   State beside_the_kink() const {
     const double k = start_.v / (system_.mu() * std::abs(start_.u));
     const bool beside =
@@ -139,8 +138,7 @@ class Examination {
   double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
 
   void first_integral(const Motion& regularised, const Motion& direct) {
-    // The slope of the curve multiplies an error of ln k. It is unbounded along a ray, and for r next to
-    // Phi'(0)/Psi(0).
+    // The slope of the curve multiplies an error of ln k. It is unbounded on rays, and for r next to Phi'(0)/Psi(0).
     const auto drift = [&](const Motion& motion) {
       const double at_start = flow_.log_first_integral(start_.u, std::log(start_.v));
       double worst = 0;

@@ -59,8 +59,7 @@ class FunctionTable {
   }
 
   Values operator()(double y) const {
-    // The exponent and the first bits of the mantissa are the number of the panel. The others go from -1 to 1 across
-    // it.
+    // The exponent and the first bits of the mantissa number the panels. The others go from -1 to 1 across it.
     constexpr int fraction_bits = 52;
     constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
     constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);

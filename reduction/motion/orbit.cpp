@@ -38,8 +38,8 @@ double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
 /// Returns the root of an increasing function of xi in [low, high] by Newton's method, with bisection if a step leaves
-/// the interval. The function changes by a factor over a unit of xi. So the error after a step below small_step, its
-/// square, is nothing.
+/// the interval. The function changes by a factor over a unit of xi, so after a small_step the error, its square, is
+/// nothing.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);

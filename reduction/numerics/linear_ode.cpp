@@ -65,8 +65,7 @@ Samples slope_by_collocation(const Samples& advection, const Samples& rate, cons
 }  // namespace
 
 LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, const Samples& source, double start) {
-  // Solve for z = y - start. Noise that h and g share cancels in g/h and so in y, and the series is rounded relative to
-  // z.
+  // Solve for z = y - start. Noise that h and g share cancels in g/h and so in y, and its rounding is that of z.
   const Samples change = source - rate * start;
   LegendreSeries y;
   if (forgets_start(advection, rate)) {

@@ -80,7 +80,7 @@ class RegularSolution {
 };
 
 /// Returns true if a curve with a drive reaches k = 0, where m, n and o grow like 1/k. The functions below then return
-/// k/(1 + k) times these.
+/// these times k/(1 + k).
 bool reaches_rest(const TerminalChart& chart, double drive);
 
 /// Solves the equation of m with any right side: that of m itself, or of its derivatives by r and rho, README (R58).

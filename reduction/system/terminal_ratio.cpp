@@ -1,5 +1,4 @@
-// Notation (README (R2)): x = ln k, E = Phi/(rho + r k Psi) - 1 or (1 - rho)/(1 - Phi + r k Psi) - 1; k falls for E >
-// 0.
+// Notation (README (R2)): x = ln k, E = Phi/(rho + r k Psi) - 1 or (1 - rho)/(1 - Phi + r k Psi) - 1; k falls if E > 0.
 #include "contensou/reduction/terminal_ratio.hpp"
 
 #include <algorithm>

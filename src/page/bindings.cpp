@@ -449,8 +449,7 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// Returns the plane's data of a ball. Its drive is of slope and rolling friction; `without` is the reason if it is
-/// left out.
+/// Returns the plane's data of a ball. Its drive is of slope and rolling friction; `without` says why it is left out.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));

@@ -7,8 +7,8 @@
 namespace contensou::platform {
 
 /// A file for results. It appears whole or not at all: it is written under another name in the same folder, then
-/// renamed. Links stay and lead to the new file, with the permissions of the old one. Standard output, devices and
-/// pipes are written directly.
+/// renamed. Links stay and lead to the new file, with the old permissions. Standard output, devices and pipes are
+/// written directly.
 class OutputFile {
  public:
   /// @param path  "-" is standard output

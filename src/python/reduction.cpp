@@ -106,8 +106,8 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
-/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, a row each. NaN for an invalid start, derivatives
-/// also at rest.
+/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, a row each: NaN for an invalid start, derivatives
+/// at rest.
 py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, const Numbers& v) {
   const py::ssize_t count = u.size();
   py::array_t<double> result({py::ssize_t{7}, count});

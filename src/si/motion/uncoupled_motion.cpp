@@ -13,8 +13,7 @@ using Eigen::Vector2d;
 
 /// The motion of the uncoupled model. When a ball with rolling friction rolls, it rolls without slip along a straight
 /// line, slows down at a = u_r g and rests. If the friction f g is less than a, it cannot roll: it slows down at f g,
-/// its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin is that without rolling
-/// friction.
+/// its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin is not affected.
 class Uncoupled final : public Motion::Solution {
  public:
   Uncoupled(const Experiment& of, const reduction::Law& law, double rolling_below) : Solution(of) {

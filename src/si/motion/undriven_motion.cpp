@@ -8,8 +8,8 @@ namespace contensou::si {
 
 namespace {
 
-/// A motion without a drive, from the similarity solution. Slip and spin are one orbit of the reduced system, each
-/// state is a root.
+/// A motion without a drive, from the similarity solution. Slip and spin are one orbit of the reduced system, a state
+/// one root.
 class OneOrbit final : public Motion::Solution {
  public:
   OneOrbit(const Experiment& of, reduction::Flow flow)

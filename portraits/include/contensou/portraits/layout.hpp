@@ -18,7 +18,7 @@ Point between(Point a, Point b, double fraction);
 
 /// Returns the place on paper of a point that is given in the units of the axes.
 /// @return  x from 0 (left) to 1 (right), y from 0 (bottom) to 1 (top); outside 0 to 1 beyond the axes; not finite if
-///          the point is not finite
+///          the point is not
 Point on_paper(const Panel& panel, Point point);
 
 /// Returns the point in the units of the axes at a place on paper, the inverse of on_paper.

@@ -130,8 +130,8 @@ struct PortraitRequest {
 /// isochrones are copies of one, which is computed.
 ///
 /// @throws std::domain_error  if the sides of the window are not within 1e-150 to 1e150, a point has u or v = 0 (no
-///                            orbit) or lies outside the window, a number is negative, or no requested isochrone lies
-///                            in the window
+///                            orbit) or lies outside the window, a number is negative, or no requested isochrone is
+///                            visible
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
 
 /// Computes portraits for a comparison, with one window, one kind of v axis and isochrones of the same times. Without a

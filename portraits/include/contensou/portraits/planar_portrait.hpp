@@ -71,9 +71,8 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// Returns the portrait as JSON.
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
-/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; if requested highlight and through (orbits). Without a scaling
-/// centre is null, and there are form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}] and separatrices
-/// (orbits).
+/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; if requested highlight and through (orbits). Without a scaling:
+/// centre null, form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}] and separatrices (orbits).
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or

@@ -33,12 +33,11 @@ struct RollPicture {
   bool whole_path = false;  ///< draw up to the last row; false: up to a little after the ball rolls
 };
 
-/// Draws the path on the table up to a little after the ball rolls, and the speeds against time up to the stop; the
-/// uncoupled model dashed.
+/// Draws the path until a little after the ball rolls, and the speeds against time up to the stop; the uncoupled model
+/// dashed.
 ///
 /// The time axis is logarithmic if the spin outlives the slip by far. The path is to scale unless it is too flat; the
-/// figure then says how it is stretched, and where it is cut. A straight path is drawn against time. A ball in place
-/// has no path.
+/// figure then says how it is stretched or cut. A straight path is drawn against time. A ball in place has no path.
 ///
 /// @throws std::domain_error  if a column has fewer than 2 rows or columns differ in length
 Figure roll_figure(const RollPicture& picture);

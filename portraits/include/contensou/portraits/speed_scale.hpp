@@ -6,8 +6,8 @@ namespace contensou::portraits {
 ///
 /// The term x shows sliding, while v falls and u hardly changes. The term x^s shows the approach to the stop. There k =
 /// v/(mu |u|) tends to 0, Phi to Phi'(0) k and Psi to Psi(0), and by (2.6) d ln|u|/d ln v = r k Psi/Phi tends to s = r
-/// Psi(0)/Phi'(0). So |u| falls like v^s, and with x^s every orbit is a straight line into the origin. With s = 1 the
-/// axis is linear.
+/// Psi(0)/Phi'(0). So |u| falls like v^s, and in x^s every orbit is straight at the origin. With s = 1 the axis is
+/// linear.
 struct SpeedScale {
   double top;
   double exponent = 1;  ///< s, in (0, 1]

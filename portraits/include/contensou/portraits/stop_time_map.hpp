@@ -30,7 +30,7 @@ struct StopTimeMap {
 ///
 /// @param time_unit  unit in tau; isochrones are at its round multiples
 /// @throws std::domain_error  if an axis is not as MapAxes requires, values are outside 1e-100 to 1e100, or a stop time
-///                            exceeds the largest double
+///                            overflows
 StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, double time_unit = 1);
 
 /// Texts and units of a map's drawing. The defaults are those of the paper.

@@ -43,8 +43,7 @@ double least_time(const Flow& flow, const Aim& aim);
 
 /// Finds the one start with u, v >= 0 that fulfils the two demands; README (R59), (R60): a root in ln k, then a scale.
 /// @return empty if no start does: if and only if the stop time demanded is below least_time
-/// @throws std::domain_error  unless two demands are given, finite and >= 0; for a flow with a drive; as
-///                            require_monotone
+/// @throws std::domain_error  unless two demands are given, finite and >= 0; with a drive; as require_monotone
 /// @throws TooFarApart        if the best start misses a demand by more than 1e-6, relative
 ///
 /// Accuracy  the start fulfils each demand to 1e-13.

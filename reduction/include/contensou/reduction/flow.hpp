@@ -86,8 +86,7 @@ class Flow {
   /// Returns ln |u| - ln w(k), the first integral of (2.6) and (2.7).
   ///
   /// It is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to it. Its
-  /// constant changes across an invariant ray. For the Pade law it is ln [ |u| k^(-a) (A + B k)^b ] up to a constant
-  /// (README (R8)).
+  /// constant changes across an invariant ray. Pade: ln [ |u| k^(-a) (A + B k)^b ] up to a constant (README (R8)).
   ///
   /// @param ln_v  natural logarithm of v; v itself underflows near the stop
   /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; on an invariant ray (k within 4 eps)

@@ -22,8 +22,7 @@ struct InstantGradient {
 };
 
 /// Returns the state at the time tau, slip length and angle with their gradients, README (R61). They are algebraic in
-/// the state and in the field at both ends. From the stop on the speeds are 0, and the lengths those of the whole
-/// motion.
+/// the state and in the field at both ends. From the stop on the speeds are 0 and the lengths constant.
 /// @throws std::domain_error  if start is not a state, or lies on an axis; as Orbit::instant
 ///
 /// Accuracy  u by_u and v by_v: 1e-13 of the largest part of the same kind, times the larger term of D divided by D;

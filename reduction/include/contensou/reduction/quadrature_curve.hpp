@@ -23,11 +23,10 @@ class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
   /// @param chart     chart between two neighbours among 0, the invariant rays and infinity, ending at the limit of k
-  ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), as for every ball under the
-  ///                  laws of Zh98
+  ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), so for balls under Zh98's
+  ///                  laws
   /// @param drive     rho of ReducedSystem
-  /// @throws std::domain_error  unless r > 0 and Phi - rho - r k Psi has the sign of the chart's direction for all k
-  ///                            between
+  /// @throws std::domain_error  unless r > 0 and Phi - rho - r k Psi has the chart's sign for all k between
   QuadratureCurve(const Law& law, double r, const TerminalChart& chart = TerminalChart::to_zero(), double drive = 0);
 
   double ln_w(double xi) const override;

@@ -45,15 +45,12 @@ class ReducedSystem {
   const Law& law() const { return law_; }
   double mu() const { return mu_; }
   Inertia inertia() const { return inertia_; }
-
-  /// Returns rho.
   double drive() const { return drive_; }
 
   /// Smallest drive. A smaller one changes no digit of a motion, and its ray leaves the range of doubles.
   static constexpr double least_drive = 1e-100;
 
-  /// Returns r = gamma mu^2/chi, which with rho determines the shape of a motion (README (R1)); at least the smallest
-  /// normal double.
+  /// Returns r = gamma mu^2/chi, which with rho determines the shape of a motion (README (R1)); a normal double.
   double r() const { return r_; }
 
   /// Returns ds/dtau of the scaled time s = chi f g t (README (R1)): dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.

@@ -4,7 +4,7 @@
 
 namespace contensou::reduction {
 
-/// Finds the root of a function between two arguments to the last bits, by TOMS 748 (G. Alefeld, F. Potra, Y. Shi,
+/// Finds a function's root between two arguments, by TOMS 748 (G. Alefeld, F. Potra, Y. Shi,
 /// doi:10.1145/210089.210111).
 /// @param at_low, at_high  the function's values at low and high, of different signs except for rounding
 /// @return the root; for equal signs the argument with the value nearer to 0

@@ -5,14 +5,12 @@
 namespace contensou::reduction {
 
 /// The curve of which all motions with one terminal ratio, approached from one side, are scaled copies. Its functions
-/// depend on xi, a coordinate of k = v/w (TerminalChart); if k -> 0, as for every ball under a law of the paper, xi is
-/// ln k.
+/// depend on xi, a coordinate of k = v/w (TerminalChart); if k -> 0, as for balls under Zh98's laws, xi is ln k.
 ///
 /// The scaling symmetry leaves nothing else to compute. Orbits, stop times, the state at a given time and the
 /// regularised time follow from these functions by exponentials and sums (Orbit). w is mu |u|, s the scaled time of
 /// README (R1). m, n and c are bounded for all r; so is b except for its value 1/(128 r Psi(0)) at k = 0. With a drive
-/// rho, m, n and o grow like 1/k as k -> 0, and their products with v stay finite. xi may be any finite number: v
-/// underflows long before ln v.
+/// rho, m, n and o grow like 1/k as k -> 0, and their products with v stay finite. v underflows long before ln v.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;

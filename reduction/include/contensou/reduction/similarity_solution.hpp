@@ -32,8 +32,7 @@ class SimilaritySolution {
 
   explicit operator bool() const { return !curves_.empty(); }
 
-  /// Returns the curve of the motions with this k; ln_k may be infinite. For the k of a ray it is the curve of either
-  /// side.
+  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray it is the curve of either side.
   /// @throws std::domain_error  if no curve covers this k
   const Curve& through(double ln_k) const;
 

@@ -21,8 +21,7 @@ struct CoefficientExpansion {
 /// @param ln_k  any finite number
 /// @throws std::domain_error  if ln_k is not finite
 ///
-/// Accuracy  first 1e-13 relative, second 1e-12 of its largest size over all k (2e-3 to 0.3), for a law with no kink
-///           but k = 1.
+/// Accuracy  first 1e-13 relative, second 1e-12 of its maximum (2e-3 to 0.3), for a law with no kink but k = 1.
 /// Cost      up to 3000 calls of the law.
 CoefficientExpansion coefficient_expansion(const Law& law, double ln_k);
 
@@ -57,8 +56,7 @@ struct StopEstimate {
 /// @throws std::domain_error  if start is not a state, with a drive, or unless r < Phi'(0)/Psi(0) (k -> 0)
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
 
-/// The motion from one start for small mu, to leading order, for any law (README (R47)). r = gamma mu^2/chi must be far
-/// below r_low = Phi'(0)/Psi(0).
+/// The motion from one start to leading order for r = gamma mu^2/chi far below r_low = Phi'(0)/Psi(0) (README (R47)).
 ///
 /// One formula covers two stages. In the layer of sliding w hardly changes. In the spin-down w falls in proportion to
 /// the time left, and v falls as a power of the time left. The motion stops at the estimate E1.

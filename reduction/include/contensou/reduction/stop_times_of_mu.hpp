@@ -29,8 +29,7 @@ class StopTimesOfMu {
   /// @throws std::domain_error  if mu is not positive and finite, or start is not a state (finite, v >= 0)
   double operator()(double mu, State start) const;
 
-  /// Returns the share of the panels that failed their test; half for ring and punch, whose m changes too fast towards
-  /// r = 5/7.
+  /// Returns the share of the panels that failed their test; half for ring and punch, whose m is too steep at r = 5/7.
   double refused() const;
 
  private:

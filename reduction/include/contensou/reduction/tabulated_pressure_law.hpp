@@ -16,8 +16,7 @@ namespace contensou::reduction {
 ///
 /// Source    README (R32) to (R34): a sum over thin rings, weighted by the pressure.
 /// Accuracy  12 eps for every table, however steep, and every k for which Phi and Psi do not underflow. A table of n
-///           rows approximates a smooth pressure to about 1/n^2, and to 1/n^(3/2) if it falls like a square root at the
-///           edge.
+///           rows approximates a smooth pressure to about 1/n^2, and to 1/n^(3/2) with a square root at the edge.
 /// Cost      2 to 10 us a slip for 10 to 10 000 rows, because rows far from rho = k are grouped.
 class TabulatedPressureLaw {
  public:
@@ -31,8 +30,6 @@ class TabulatedPressureLaw {
   TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure);
 
   const std::string& name() const { return name_; }
-
-  /// Returns the number of rows of the table.
   Eigen::Index rows() const;
 
   /// Returns the law with every other row left out, except the first, the last and both rows of a step. If the rows

@@ -29,8 +29,7 @@ Tangent tangent(const HertzLaw& law, Slip slip);
 Tangent tangent(const EllipticLaw& law, Slip slip);
 
 /// Returns the tangent of a law as a function: in closed form if its type has one, else by central differences.
-/// Differences are within 1e-9 of the slopes of a smooth law and finite at its kinks. Calls allocate or throw only if
-/// the law does.
+/// Differences are within 1e-9 for a smooth law and finite at kinks. Calls allocate or throw only if the law does.
 std::function<Tangent(Slip)> tangent_of(const Law& law);
 
 /// Returns a bound of the error of tangent_of's slopes: 0 for rounding alone, else the error of differences.

@@ -76,8 +76,7 @@ struct TerminalRatios {
 ///           has no more than one extremum there.
 TerminalRatios terminal_ratios(const Law& law, double r, double drive = 0);
 
-/// Returns the ln k of a motion that has just begun to creep under a drive. Motions from there and from v = 0 are
-/// equal.
+/// Returns the least ln k under a drive: that of a motion from v = 0 that has just begun to creep.
 double least_log_ratio(const Law& law, double r, double drive);
 
 }  // namespace contensou::reduction

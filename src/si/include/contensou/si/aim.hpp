@@ -8,8 +8,7 @@
 
 namespace contensou::si {
 
-/// Demands on a motion: two of distance, turns and time, until slip and spin end. With rolling friction, until nothing
-/// moves.
+/// Demands on a motion: two of distance, turns and time, until slip and spin end. With rolling friction, until rest.
 struct Goal {
   std::optional<double> distance;  ///< path of the centre, m
   std::optional<double> turns;     ///< turns about the vertical, of either sign
@@ -22,8 +21,7 @@ struct Goal {
 /// @param flow        flow of undriven_system(experiment, law)
 /// @throws std::domain_error  unless two demands are given, finite, with distance and time >= 0; if no start fulfils
 ///                            both (the message contains the nearest possible values), or none with finite doubles to
-///                            1e-6; for distance and time with rolling friction; for a slope; as
-///                            reduction::require_monotone
+///                            1e-6; for distance and time with rolling friction; for a slope; as require_monotone
 SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal);
 
 /// Demands on a ball that begins to roll, when its slip falls below rolling_slip.
@@ -46,8 +44,7 @@ struct RollingGoal {
 ///
 /// @param flow  flow of undriven_system(experiment, law)
 /// @throws std::domain_error  if a demand is out of its range, for a body that lies flat, for rolling friction or a
-///                            slope, if the start in doubles misses the place by more than 1e-6 of it, and as
-///                            reduction::require_monotone
+///                            slope, if doubles miss the place by more than 1e-6 of it, and as require_monotone
 Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& flow, const RollingGoal& goal);
 
 /// Returns the level stroke of a standard cue that gives a ball this start along x, so that struck(ball, stroke) is the

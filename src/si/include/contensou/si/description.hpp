@@ -81,8 +81,6 @@ class Description {
   const std::optional<Body>& body() const { return body_; }
   const std::string& law() const { return law_; }
   const Spreads& spreads() const { return spreads_; }
-
-  /// Returns true if no value is given.
   bool empty() const { return values_.empty(); }
 
   /// Returns this description with the values of `above` in place of its own.

@@ -19,8 +19,7 @@ struct EventNumber {
 /// The numbers of the events of a ball's motion, as functions of the numbers that give the experiment.
 ///
 /// The numbers are time and place of the beginning of rolling (for a body that lies flat, of rest), time and place of
-/// the end of the spin, with rolling friction or on a slope those of rest if it rests; slip length, turns, path and
-/// stop time.
+/// the end of the spin, with rolling friction or on a slope those of rest; slip length, turns, path, stop time.
 class EventNumbers {
  public:
   /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment

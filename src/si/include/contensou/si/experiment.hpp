@@ -77,8 +77,8 @@ using Start = std::variant<SlipAndSpin, Velocities>;
 
 /// The forces between ball and plane other than friction.
 struct Environment {
-  /// Load divided by mass, m/s^2, on which alone the motion on a horizontal plane depends; N/mass for a ball pressed on
-  /// it by N newtons.
+  /// Load divided by mass, m/s^2, on which alone the motion on a level plane depends; N/mass for a ball pressed on it
+  /// by N newtons.
   double gravity = 9.80665;
   std::optional<double> load{};  ///< load in N, if given; gravity is then load/mass
   double slope = 0;              ///< angle of the plane in degrees, above -90 and below 90; it rises along x
@@ -105,12 +105,11 @@ struct GivenQuantity {
   std::vector<double> values;
 };
 
-/// Returns the values that give an experiment, in the order of quantities(). Defaults other than gravity's are left
-/// out.
+/// Returns the values that give an experiment, in the order of quantities(). It leaves defaults out, except gravity.
 std::vector<GivenQuantity> given_by(Experiment experiment);
 
-/// Returns the source of a patch in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or
-/// "its whole face".
+/// Returns a patch's source in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or "its
+/// whole face".
 std::string origin_of(const PatchSource& patch);
 
 /// Returns the name of the default law of an experiment: that of the contact, or of the body's pressure.

@@ -72,7 +72,7 @@ inline constexpr double resting_slip = 1e-4;
 /// A motion never changes. Copies and threads may share its solution.
 class Motion {
  public:
-  /// Computes the motion, without time steps if possible: slip and spin are then one orbit of the reduced system.
+  /// Computes the motion, without time steps if possible. Slip and spin are then one orbit of the reduced system.
   ///
   /// With rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)) if
   /// the body slides in the direction in which it rolls, and straight down a slope. Any other such motion is integrated

@@ -34,8 +34,7 @@ struct Wrench {
 /// At rest the Jacobian is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, with K = lim k Psi (1/5
 /// for exact). With lengths in units of eps it is below 5 f N/s everywhere under every law. (The law ring has a
 /// logarithm at k = 1, which differences cut off.) For exact and elliptic, whose slopes are in closed form, it is
-/// symmetric to rounding. For others it is symmetric to 1e-9 by differences, and to 1e-6 next to the kink of ring and
-/// similar laws.
+/// symmetric to rounding. For others it is symmetric to 1e-9, and to 1e-6 next to the kink of ring and similar laws.
 ///
 /// A body at rest under a force creeps. Under a tangential load T < f N alone it creeps at
 ///   |v| = s T/sqrt((f N)^2 - T^2),
