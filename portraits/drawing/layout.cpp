@@ -251,7 +251,7 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
     for (double pieces = std::max(2.0, length / (upright ? 3 : 5));; pieces *= 0.75) {
       all.clear();
       const double step = round_step(range, pieces);
-      // So that two ticks differ.
+      // Two neighbouring ticks must differ.
       const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(end / step))) + 1, 5, 15);
       for (double at : multiples(axis.low - 1e-6 * step, axis.high + 1e-6 * step, step)) {
         all.push_back({at, number(std::abs(at) < 1e-9 * step ? 0 : at, digits)});

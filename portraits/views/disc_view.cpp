@@ -68,7 +68,7 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
 
 /// Adds the directions of motion along the circles of the points at infinity and of the blown-up origin.
 void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
-  std::vector<double> angles{0};  // of v = 0 and the invariant half-lines, up to u = 0
+  std::vector<double> angles{0};  // angles of v = 0 and the invariant half-lines, up to u = 0
   for (const reduction::SingularPoint& point : drawing.portrait.plane.points) {
     const double angle = std::atan(point.k);
     if (angle > angles.back()) angles.push_back(angle);

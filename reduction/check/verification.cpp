@@ -193,7 +193,7 @@ class Examination {
     const double pivoting_rate = system_.r() * system_.law().pivoting_moment();
     const State almost_sliding{faint * std::min(1.0, pivoting_rate) * speed / system_.mu(), speed};
     const auto stop = [&](State start) { return flow_.orbit(start).stop_time(); };
-    // With a drive k = 0 is no limit: a body there begins to creep.
+    // k = 0 is no limit with a drive: a body there begins to creep.
     const bool creeps = system_.drive() > 0;
     const double pivoting = creeps ? stop({speed, 0}) : system_.pivoting_limit(speed);
     add(creeps ? "start of creeping" : "limit of pure pivoting", relative(stop(almost_pivoting), pivoting), rounding);

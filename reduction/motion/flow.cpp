@@ -204,7 +204,7 @@ void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, st
 
 double Flow::refused(std::size_t whole) const { return by_table(whole) ? table().refused() : 0; }
 
-// With a drive m, the content of the table, is not bounded.
+// The content of the table, m, is not bounded with a drive.
 bool Flow::by_table(std::size_t starts) const { return starts >= many_starts && system().drive() == 0; }
 
 const StopTimeTable& Flow::table() const {

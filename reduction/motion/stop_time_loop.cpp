@@ -62,7 +62,7 @@ constexpr std::size_t width = 4;
 using Numbers [[gnu::vector_size(width * sizeof(double))]] = double;
 using Bits [[gnu::vector_size(width * sizeof(double))]] = std::uint64_t;
 
-// The same vectors, stored at any place in an array.
+// Vectors that are stored at any place in an array.
 using StoredNumbers [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = double;
 using StoredBits [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = std::uint64_t;
 const StoredNumbers* at(const double* first) { return reinterpret_cast<const StoredNumbers*>(first); }

@@ -37,7 +37,7 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
       solved_from_(infinity) {
   const double from = chart.log_terminal_ratio(), to = chart.log_far_ratio();
   if (std::max(from, to) < infinity || std::min(from, to) > std::log(fast_slide)) return;
-  // With a drive ds/dw is solved from the ray on, towards which k falls and at which the solution is regular.
+  // A drive makes k fall to a ray, at which ds/dw is regular, so ds/dw is solved from there on.
   const bool from_ray = drive > 0 && from > -infinity && from < infinity;
   const double solved_from = from_ray ? std::exp(from) : fast_slide;
   std::optional<double> start;

@@ -11,7 +11,8 @@ namespace contensou::reduction {
 /// The derivatives of the scaled stop time s along one chart.
 ///
 /// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, with a
-/// drive, and for w beside a fast slide; (R57) is solved there. Those by r and rho each need one, (R58).
+/// drive, and for w beside a fast slide; (R57) is solved there. The derivatives by r and rho each need one equation,
+/// (R58).
 class SlidingDerivatives {
  public:
   /// @throws std::domain_error  as sliding_solution

@@ -295,7 +295,7 @@ Integration integrate(const Experiment& experiment, const reduction::Law& law, c
   }
   const Tail tail(ball, x, t * T);
   for (; next != order.end(); ++next) {
-    // By rounding a time may lie just before the last step's end.
+    // Rounding may put a time just before the last step's end.
     const double at = std::max(times[*next], t * T);
     motion.points.set(*next, point_of(ball, experiment.ball, tail.at_time(at), times[*next]));
   }

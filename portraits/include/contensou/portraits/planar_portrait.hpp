@@ -44,7 +44,7 @@ struct PlanarPortrait {
 
 /// The contents of a portrait.
 struct PlanarPortraitRequest {
-  std::optional<PlanarWindow> window = {};  ///< by default a rectangle about the centre
+  std::optional<PlanarWindow> window = {};  ///< window; the default is a rectangle about the centre
   /// Half the sides of that rectangle. By default it is a square that contains the points below; without points 1.
   std::optional<Eigen::Vector2d> sides = {};
   std::optional<Eigen::Vector2d> highlight = {};

@@ -8,7 +8,7 @@ namespace contensou::reduction {
 struct InstantGradient {
   struct Part {
     double value;
-    double by_u, by_v;  ///< by the speeds at the start
+    double by_u, by_v;  ///< derivatives by the speeds at the start
     double by_tau;
   };
   Part u, v;

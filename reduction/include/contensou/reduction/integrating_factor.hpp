@@ -70,8 +70,8 @@ class FactorReduction {
   /// @throws std::domain_error  if no factor was found
   PlanarReduction reduction() const;
 
-  /// Follows the orbit of another start, or of this one. V is fitted anew from box to box.
-  /// @param most_parts  the number of parts after which its end is left open
+  /// Returns the orbit of another start, or of this one. V is fitted anew from box to box.
+  /// @param most_parts  number of parts after which the end is left open
   /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
   FactorOrbit orbit(const Eigen::Vector2d& start, int most_parts = 32000) const;
   static constexpr int parts_of_a_picture = 150;
@@ -81,13 +81,13 @@ class FactorReduction {
   std::shared_ptr<const Solved> solved_;
 };
 
-/// One motion.
+/// One motion of a system with an inverse integrating factor.
 class FactorOrbit {
  public:
   struct Motion;  // planar/factor_orbit.cpp
   explicit FactorOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
 
-  /// Returns where it ends: equilibrium, infinity, border, periodic, cycle or undecided.
+  /// Returns its end: equilibrium, infinity, border, periodic, cycle or undecided.
   PlanarEnd end() const;
 
   /// Returns the time of the end; infinity if it takes for ever, NaN if it is not decided.
@@ -96,12 +96,12 @@ class FactorOrbit {
   /// Returns the period of a periodic orbit.
   std::optional<double> period() const;
 
-  /// Returns why the end is not decided; empty if it is.
+  /// Returns the reason why the end is not decided; empty if it is.
   const std::string& undecided() const;
 
   /// Returns the state at a time after the start.
-  /// @throws std::domain_error  unless time >= 0; from the end time on, and beyond the time up to which an orbit was
-  ///                            followed whose end is not decided
+  /// @throws std::domain_error  unless time >= 0; from the end time on, and for an undecided end beyond the last time
+  ///                            followed
   Eigen::Vector2d at(double time) const;
 
  private:

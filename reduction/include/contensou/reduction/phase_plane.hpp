@@ -63,8 +63,8 @@ struct EndTangent {
 struct PhasePlane {
   TerminalRatios terminal;
   double mu_low, mu_high;  ///< r_low and r_high as patch ratios mu of this body; with a drive mu_low has no meaning
-  /// By direction from v = 0 to u = 0, the point at the origin first. Every half-line is an orbit from infinity to the
-  /// origin and joins a saddle to a node. With a drive the axis v = 0 is missing: it is no orbit.
+  /// The points by direction from v = 0 to u = 0, at each the one at the origin first. Every half-line is an orbit from
+  /// infinity to the origin and joins a saddle to a node. With a drive the axis v = 0 is missing: it is no orbit.
   std::vector<SingularPoint> points;
   std::vector<EndTangent> tangents;  ///< tangents of the orbits that end at each of terminal.ends
 };

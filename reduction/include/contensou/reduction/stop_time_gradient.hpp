@@ -8,10 +8,10 @@ namespace contensou::reduction {
 /// without a drive by_v is 0 at v = 0.
 struct StopTimeGradient {
   double tau;
-  double by_u, by_v;        ///< by the speeds at the start
-  double by_mu;             ///< by the patch radius divided by R
-  double by_chi, by_gamma;  ///< by the two numbers of Inertia
-  double by_drive;          ///< by rho, the drive along the slip
+  double by_u, by_v;        ///< derivatives by the speeds at the start
+  double by_mu;             ///< derivative by the patch radius divided by R
+  double by_chi, by_gamma;  ///< derivatives by the two numbers of Inertia
+  double by_drive;          ///< derivative by rho, the drive along the slip
 };
 
 }  // namespace contensou::reduction

@@ -35,7 +35,7 @@ struct TerminalRatio {
 struct InvariantRay {
   double k;
   bool attracts_above;  ///< starts with a slightly larger k tend to the ray; otherwise they leave it
-  bool attracts_below;  ///< the same for a slightly smaller k; only one of the two if Phi/(k Psi) touches r
+  bool attracts_below;  ///< likewise for a slightly smaller k; only one of the two if Phi/(k Psi) touches r
   double accuracy;      ///< relative error of k: rounding of the law divided by the slope of Phi/(k Psi)
 
   bool attracts() const { return attracts_above && attracts_below; }
@@ -50,8 +50,8 @@ struct InvariantRay {
 struct TerminalRatios {
   double low;                       ///< Phi/(k Psi) at k = 0, that is Phi'(0)/Psi(0)
   double high;                      ///< (Phi - rho)/(k Psi) at k = infinity
-  std::vector<InvariantRay> rays;   ///< by increasing k
-  std::vector<TerminalRatio> ends;  ///< by increasing k; never empty
+  std::vector<InvariantRay> rays;   ///< increasing in k
+  std::vector<TerminalRatio> ends;  ///< increasing in k; never empty
 
   /// Returns the limit of the motions with this k; an axis and a ray are their own limits.
   /// @param k  from 0 to infinity

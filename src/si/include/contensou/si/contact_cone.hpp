@@ -25,7 +25,7 @@ inline constexpr double faded = 1e-3;
 /// Times and lengths until slip and spin end.
 struct FadeTimes {
   double slip;         ///< time until the slip has fallen to `faded` of its start, s; 0 without slip
-  double spin;         ///< the same for the spin; infinity for never
+  double spin;         ///< time until the spin has fallen likewise, s; infinity for never
   double slip_length;  ///< length that the contact slides until it stops, m; for a body that lies flat its path
   double turns;        ///< turns about the vertical until the stop; infinity for never
 };
@@ -34,7 +34,7 @@ struct FadeTimes {
 /// @throws std::domain_error  as require_experiment and patch_radius_of
 FadeTimes fade_times(const Experiment& experiment, const reduction::Law& law);
 
-/// Computes the times under a cone. Of its forces the one that dissipates most acts.
+/// Computes the times under a cone. The force that dissipates most acts.
 ///
 /// @param moment_arm  c in m, >= 0: the largest moment divided by the load; for 0 the spin never ends
 /// @throws std::domain_error  as require_experiment, or if moment_arm is negative or not a finite number

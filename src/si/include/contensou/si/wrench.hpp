@@ -18,7 +18,7 @@ struct Patch {
 /// The friction of a patch on a body, and its derivatives by the motion.
 struct Wrench {
   Eigen::Vector3d value;     ///< Fx, Fy in N; moment about the normal in N m
-  Eigen::Matrix3d jacobian;  ///< of these by vx, vy in m/s and omega in rad/s
+  Eigen::Matrix3d jacobian;  ///< derivatives by vx, vy in m/s and omega in rad/s
 };
 
 /// The wrench of a patch for a time step, finite and continuous down to rest.
