@@ -87,7 +87,7 @@ class PanelLayers {
   const LayerLook& look_;
   PortraitStyle::Arrows arrows_;
   Panel panel_;
-  bool early_arrows_ = false;  ///< one more arrow at the beginning of an orbit
+  bool early_arrows_ = false;  ///< true: one more arrow at the beginning of an orbit
 
  private:
   struct TimedArrow {

@@ -140,7 +140,8 @@ Orbit::Progress Orbit::progress(double xi) const {
 }
 
 Orbit::Progress Orbit::progress(double xi, double left) const {
-  // Both speeds follow from k and from left = P w/w0 + S m v/v0, by the ratio of their fractions that is at most 1.
+  // Both speeds follow from k and left = P w/w0 + S m v/v0. `ratio` is the smaller of w/w0 and v/v0 divided by the
+  // larger.
   const double change = curve_->chart().log_ratio(xi) - ln_k0_;
   const double ratio = std::exp(-std::abs(change));
   const double sliding = v_ * curve_->sliding_coefficient(xi);
@@ -206,7 +207,7 @@ OrbitPoint Orbit::rest(double tau) const {
 }
 
 OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
-  // The one speed falls linearly. On either axis dtau = weight dbeta, with a weight proportional to its square.
+  // The speed falls linearly. dtau = weight dbeta, where the weight is proportional to the square of the speed.
   if (fraction_left == 0) return rest(tau);
   const double rate = system_.scaled_time_rate();
   const double spent = (1 - fraction_left) / fraction_left;

@@ -15,7 +15,7 @@ using Panels = StopTimePanels;
 constexpr int index_shift = std::numeric_limits<double>::digits - 1 - Panels::cut_bits;
 constexpr std::uint64_t left_mask = ~std::uint64_t{0} << index_shift;
 
-/// Usable stop times lie from 2^-511 to 2^513: the bits of such a double, less these, begin with two zeros.
+/// Usable stop times lie from 2^-511 to 2^513. Their bits minus min_ordinary begin with two zeros.
 constexpr std::uint64_t min_ordinary = std::bit_cast<std::uint64_t>(0x1p-511);
 constexpr std::uint64_t not_ordinary = std::uint64_t{3} << 62;
 

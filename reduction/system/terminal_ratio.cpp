@@ -66,7 +66,7 @@ class Search {
         drive_, r_, law_.name()));
   }
 
-  /// Adds the extrema at which E comes near to 0, or crosses 0 and returns.
+  /// Adds the extrema of E that come near to 0, or lie beyond 0 between two samples of one sign.
   void sharpen() {
     std::vector<Sample> extrema;
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {

@@ -321,7 +321,7 @@ def balls() -> dict[str, Ball]:
 
 _flat = ("disc", "ring")
 
-#: Arguments that give a start: the shape of one, and its allowed widths.
+#: Arguments that give a start, each with its shape for one start and its allowed numbers of columns.
 _widths: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
     "velocity": ((2,), (2, 3)), "angular_velocity": ((3,), (3,)), "slip": ((), ()), "spin": ((), ()),
     "strike": ((), ()), "tip": ((2,), (2,)), "elevation": ((), ()), "cue_mass": ((), ()),
@@ -349,7 +349,7 @@ def _rows(name: str, given: ArrayLike, one: tuple[int, ...], widths: tuple[int, 
 
 
 def _count(start: dict[str, NDArray[np.float64]]) -> Optional[int]:
-    """Returns the number of starts; None for a single start without that axis."""
+    """Returns the number of starts; None if no argument has an axis of starts."""
     counts = {name: value.shape[0] for name, value in start.items() if value.ndim > len(_widths[name][0])}
     if len(set(counts.values())) > 1:
         raise ValueError(f"as many of each are needed, got {', '.join(f'{count} of {name}' for name, count in counts.items())}")

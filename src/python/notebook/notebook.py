@@ -37,7 +37,7 @@ def notebook(text):
 
 
 def outputs_of(executed):
-    """What each cell of code printed and drew."""
+    """Yields the printed text and the pictures of each code cell."""
     for each in executed["cells"]:
         if each["cell_type"] == "code":
             printed = "".join("".join(output["text"]) for output in each["outputs"] if output["output_type"] == "stream")

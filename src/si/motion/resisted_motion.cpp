@@ -275,7 +275,7 @@ class Straight final : public Resisted {
     });
   }
 
-  /// Returns the time, s, at which a piece passes the k whose friction resistance can just hold.
+  /// Returns the time, s, at which friction is just as large as resistance can hold.
   std::optional<double> passes_holding(const Piece& piece) const {
     const double force = body_.holding();
     if (!(force > 0 && force < 1) || piece.of.orbit.on_axis()) return std::nullopt;

@@ -8,8 +8,7 @@ namespace contensou::si {
 
 namespace {
 
-/// A motion without a drive, from the similarity solution. Slip and spin are one orbit of the reduced system, a state
-/// one root.
+/// A motion without a drive, from the similarity solution. Slip and spin are one orbit of the reduced system.
 class OneOrbit final : public Motion::Solution {
  public:
   OneOrbit(const Experiment& of, reduction::Flow flow)

@@ -95,7 +95,8 @@ struct ColourMap {
   std::vector<Colour> palette;  ///< two or more, from low to high
 };
 
-/// A system of axes with its contents, in the order in which they are drawn below. Only labels may lie beyond the axes.
+/// A system of axes. It draws colours, regions, lines, arrows, marks and labels, in this order. Only labels may leave
+/// the axes.
 struct Panel {
   Text title;
   Axis x;

@@ -10,7 +10,7 @@ namespace contensou::portraits {
 ///
 /// It needs the packages pgfplots and amsmath (Debian: texlive-pictures). Its tikzpicture can be moved into a paper
 /// that loads both. Coordinates are in units of the panel's axes, as a comment beside them says. On a logarithmic axis
-/// they are powers of ten. Beyond TeX's fixed point (0.2 to 500) they are in a power of ten of the unit.
+/// they are powers of ten. If TeX's fixed point cannot hold the side (0.2 to 500), the unit has a power of ten.
 /// @throws std::domain_error  for a panel with a ColourMap, which exceeds TeX's memory; as tex_text
 std::string pgfplots(const Figure& figure);
 

@@ -49,7 +49,7 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
 /// is constant, does not roll and does not yield sideways. Gravity is negligible during the impact.
 ///
 /// @param experiment     its start is the motion at the first contact
-/// @param rolling_below  slip below which the ball rolls, m/s, >= 0 (0 only when the spin ends)
+/// @param rolling_below  slip below which the ball rolls, m/s, >= 0; with 0 it rolls when its spin ends
 /// @throws std::domain_error  as pressed_in and Motion::reduced
 Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                double rolling_below = rolling_slip);
