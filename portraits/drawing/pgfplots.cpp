@@ -151,7 +151,7 @@ class Writer {
     int digits;                   ///< digits behind the point, for hundredths of mm
 
     Coordinates(const Axis& of, double from_mm, double side_mm) : axis(of) {
-      constexpr double least = 0.2, most = 500, farthest = 20;  // of a side, and distance from it, in units of the side
+      constexpr double least = 0.2, most = 500, farthest = 20;  // bounds of a side; largest distance, in sides
       const auto [low, high] = std::pair(data(axis.low), data(axis.high));
       const double side = high - low;
       if (side < least || side > most) unit = std::pow(10, std::floor(std::log10(side)));

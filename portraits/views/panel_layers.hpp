@@ -49,8 +49,8 @@ class PanelLayers {
   PanelLayers(const LayerLook& look, PortraitStyle::Arrows arrows, Panel axes)
       : look_(look), arrows_(arrows), panel_(std::move(axes)) {}
 
-  /// Sets the place of an orbit's arrow if none lies at equal times, as a fraction of its length on paper, and the
-  /// least distance of heads, in sizes of letters.
+  /// Sets the place of an orbit's only arrow, as a fraction of its length on paper, and the least distance of heads, in
+  /// sizes of letters.
   void set_arrows(double fraction, double keep_off) {
     arrow_fraction_ = fraction;
     keep_off_ = keep_off;

@@ -154,8 +154,8 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive it is larger, as is the error
-  /// of k by steps in time next to the ray, where most of the sum compared with Phi is rho.
+  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive rho + r k Psi replaces r k Psi,
+  /// because steps in time blur k as much next to the ray.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
     const Balance balance = Balance::of(system_.law(), system_.r(), system_.drive(), k);

@@ -104,7 +104,8 @@ struct PhasePortrait {
 struct PortraitRequest {
   std::optional<View> view = {};
   std::optional<Window> window = {};
-  /// A rectangle instead of a window, in views that show it. Orbits begin on the smallest window around it.
+  /// A rectangle instead of a window, in views that show it. Its orbits are those of the smallest window around it that
+  /// enter it.
   std::optional<WindowPart> part = {};
   std::optional<reduction::State> highlight = {};  ///< a start; the window then contains it
   std::vector<reduction::State> through = {};      ///< points in the window with neither u nor v 0

@@ -24,7 +24,8 @@ class ContactPatch {
   Resistance over_disc(Slip slip) const;
 
   /// Returns force and moment by (1.2), in polar coordinates (q, theta) about the centre of velocity, which lies at the
-  /// distance k. It includes the factor cos(theta), missing in print, and M = M^h - k F; theta ends at pi for k <= 1.
+  /// distance k. It includes the factor cos(theta), missing in print, and M = M^h - k F; theta goes from 0 to pi for k
+  /// <= 1.
   /// @param k  > 0, finite
   Resistance over_chords(double k) const;
 

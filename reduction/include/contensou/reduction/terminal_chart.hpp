@@ -39,8 +39,8 @@ class TerminalChart {
   /// Returns true if k lies between k* and k_far or is one of them.
   bool reaches(double ln_k) const { return sign_ * ln_k >= end_ && sign_ * ln_k <= far_; }
 
-  /// Returns xi of a k between k* and k_far. A k that no double distinguishes from k* has the xi of ln k* plus
-  /// min_coordinate, on the chart from below of -ln k* plus min_coordinate; k_far has one as much larger.
+  /// Returns xi of a k between k* and k_far. At the ends, with y = ln k (from below -ln k), it is y(k*) +
+  /// min_coordinate and y(k_far) - min_coordinate.
   double coordinate(double ln_k) const;
 
   /// Returns ln k.
@@ -49,7 +49,7 @@ class TerminalChart {
   /// Returns d ln k/d xi: positive from above, negative from below, 0 at a k* or k_far that is neither 0 nor infinity.
   double log_ratio_rate(double xi) const;
 
-  /// xi - ln k*, from below xi + ln k*, at which exp(xi) is negligible beside k* (1/k*).
+  /// Difference xi - ln k* (from below xi + ln k*) at which exp(xi) is negligible beside k* (1/k*).
   static constexpr double min_coordinate = -745;
 
  private:

@@ -15,9 +15,9 @@ struct Check {
   bool passed() const { return measured <= allowed; }
 };
 
-/// Computes every statement of the theory about one motion as a number that must be small. These are the routes against
-/// each other, the scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta
-/// against (2.8), both limits and the law's own bounds; for the exact law also its elementary orbit inside k = 1.
+/// Computes every statement of the theory about one motion as a number that must be small. It compares the routes, and
+/// tests the scaling generator on (2.6), (2.7) and dv/du, the separated equation, the first integral, beta against
+/// (2.8), both limits, the law's bounds, and for the exact law its elementary orbit inside k = 1.
 ///
 /// @param flow  motions to examine; a closed form, also one of the caller, is compared with quadrature
 /// @throws std::domain_error  if start is not a state or is at rest, or r < 1e-100

@@ -18,8 +18,8 @@ struct EventNumber {
 
 /// The numbers of the events of a ball's motion, as functions of the numbers that give the experiment.
 ///
-/// The numbers are time and place of the beginning of rolling (for a body that lies flat, of rest), time and place of
-/// the end of the spin, with rolling friction or on a slope those of rest; slip length, turns, path, stop time.
+/// The events are the beginning of rolling (of rest for a body that lies flat), the end of the spin, and with rolling
+/// friction or on a slope rest. Each has time and place. The other numbers are slip length, turns, path and stop time.
 class EventNumbers {
  public:
   /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment

@@ -74,9 +74,9 @@ class Motion {
  public:
   /// Computes the motion, without time steps if possible. Slip and spin are then one orbit of the reduced system.
   ///
-  /// With rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)) if
-  /// the body slides in the direction in which it rolls, and straight down a slope. Any other such motion is integrated
-  /// by the method of Cash and Karp 5(4).
+  /// With rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)).
+  /// The body must then slide in the direction in which it rolls, and straight down a slope. Any other such motion is
+  /// integrated by the method of Cash and Karp 5(4).
   ///
   /// @param history  a changing load, whose nominal load is the experiment's; the patch does not change with it
   /// @throws std::domain_error   as require_experiment and require_stop; if the load ends at 0 before the motion does;
@@ -174,8 +174,8 @@ class Motion {
   /// Returns true if the motion was computed from the reduced system, without time steps.
   bool is_reduced() const;
 
-  /// Returns the orbits of the motion until slip and spin end: one without a drive. Empty for a motion that is not
-  /// reduced, and with rolling friction or on a slope for one without slip and spin.
+  /// Returns the orbits of the motion until slip and spin end; without a drive there is one. Empty for a motion that is
+  /// not reduced. With a drive it is also empty for a start without slip and spin.
   std::vector<ReducedPiece> pieces() const;
 
   /// Returns the ratio v/(eps |omega_z|) of a body that creeps while it spins; empty if it does not creep or spin.
