@@ -4,7 +4,7 @@ namespace contensou::reduction {
 
 /// Returns ln w along an orbit of the exact law for 0 < k <= 1, where it is elementary, up to a constant: README (R12).
 ///
-/// It is independent of SimilarityCurve::ln_w. Differences between two k agree.
+/// It is independent of SimilarityCurve::ln_w. Compare differences between two k, because the constants differ.
 ///
 /// @param r  gamma mu^2/chi, 0 < r < 2
 /// @param k  v/(mu |u|), 0 < k <= 1

@@ -99,7 +99,7 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     low = high, at_low = at_high;
     high = std::min(high + step, widest), at_high = residual(high);
   }
-  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // the difference from the axis is below a double
+  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // no double lies between the start and the axis
   const State start = unit_start(flow, root_between(residual, low, high, at_low, at_high));
   const Reached here = reached(flow, start);
   if (aim.distance) return scaled(start, square_root_of_ratio(*aim.distance, here.distance));

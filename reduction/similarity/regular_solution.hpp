@@ -39,8 +39,8 @@ class RegularSolution {
   /// @param equation   the terms at k, up to a common positive factor
   /// @param direction  +1 if z is ln k, -1 if z is -ln k; errors decay as z grows
   /// @param edges      z at which panels meet, increasing; at the first y is g/h
-  /// @param size       size of y to which errors of g and of a smaller y are relative; a law may know 1 - Psi/Psi(0)
-  ///                   and 1 - Phi to eps of 1 only, which is enough for times and lengths
+  /// @param size       size of y to which errors of g and of a smaller y are relative; a law may give 1 - Psi/Psi(0)
+  ///                   and 1 - Phi only to eps of 1, which is enough for times and lengths
   /// @param start      y at the first edge, if D does not vanish there
   /// @param noise      relative error of the terms; panels are not halved for smaller errors
   RegularSolution(const std::function<Terms(double k)>& equation, double direction, const std::vector<double>& edges,

@@ -46,7 +46,7 @@ const char* PatchFriction::evaluate(const Eigen::Vector3d& motion, double load, 
   wrench.value << -limit * resistance.force * along, -limit * arm * resistance.moment;
 
   const double inverse = 1 / std::max(slip.sliding, slip.pivoting);
-  // Derivative of either slope's argument by the sliding speed.
+  // Factor of either slope in a derivative by the sliding speed.
   const double by_sliding = slip.pivoting * inverse * inverse;
   const double by_pivoting = slip.sliding * inverse * inverse;
   const double across = resistance.force / slip.sliding;

@@ -13,7 +13,7 @@ struct InstantGradient {
   };
   Part u, v;
   Part slip_length;  ///< the integral of v dtau
-  Part turned;       ///< the integral of u dtau, of the sign of u
+  Part turned;       ///< the integral of u dtau; has the sign of u
 
   /// Returns the derivative, by a speed at the start, of the tau at which u or v has a given value: -by/by_tau.
   /// @param by    by_u or by_v of that part
