@@ -25,10 +25,7 @@ bool of_all_tracks(Parameter parameter) { return static_cast<int>(parameter) < s
 /// the sense of to that of the ball.
 VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
   for (std::size_t i = 0; i < request.tracks.size(); ++i) {
-    const auto sees = [&](Observable observable) {
-      const std::vector<Series>& series = request.tracks[i].series;
-      return std::ranges::find(series, observable, &Series::observable) != series.end();
-    };
+    const auto sees = [&](Observable observable) { return series_of(request.tracks[i], observable) != nullptr; };
     double& slip = parameters[TrackModel::place(Parameter::slip, i)];
     double& spin = parameters[TrackModel::place(Parameter::spin, i)];
     double& direction = parameters[TrackModel::place(Parameter::direction, i)];

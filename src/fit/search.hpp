@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,8 +42,19 @@ struct Coordinate {
 /// Orbits as sharp as any film.
 inline constexpr double accuracy_of_guess = 1e-6;
 
+/// Returns the series of an observable; nullptr if the track has none.
+template <class AnyTrack>
+auto series_of(AnyTrack& track, Observable observable) -> decltype(track.series.data()) {
+  const auto found = std::ranges::find(track.series, observable, &Series::observable);
+  return found == track.series.end() ? nullptr : &*found;
+}
+
 /// The place of an observable's other axis: y for x and so on; of others it is their own.
 std::size_t other_axis(std::size_t place);
+
+/// Returns the median; the upper one of two in the middle.
+/// @param values  at least one
+double median(std::vector<double> values);
 
 /// The standard deviation that normal errors of this median of their sizes have.
 double sd_by_median(std::vector<double> sizes);
@@ -108,6 +120,17 @@ class Search {
   double criterion(const Eigen::VectorXd& parameters) const;
 
  private:
+  /// Fills data, weight and rows_of from the tracks.
+  void read_data();
+  /// Sets the unknown standard deviations from the distances of values from the line between their neighbours.
+  void begin_noise();
+  /// Fills `free`.
+  void choose_free();
+
+  /// Sets the standard deviation of one observable, or a tiny share of its largest value if that is larger.
+  /// @return  the relative change
+  double set_sd(std::size_t place, double sd);
+
   /// Where a column shows no noise, what its other axis has.
   std::optional<std::size_t> sharp_as[7] = {};
   void follow_other_axes();

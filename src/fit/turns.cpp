@@ -22,12 +22,6 @@ constexpr double no_preference = 4;
 /// a second, one of the fastest, has 19.
 constexpr double fastest_spin = 20;
 
-template <class AnyTrack>
-auto series_of(AnyTrack& track, Observable observable) -> decltype(track.series.data()) {
-  const auto found = std::ranges::find(track.series, observable, &Series::observable);
-  return found == track.series.end() ? nullptr : &*found;
-}
-
 /// From one measured value to the next: the time and by how much the angle grew, up to whole turns.
 struct Step {
   double time, growth;
@@ -46,9 +40,7 @@ std::vector<Step> steps_of(const Track& track, const Series& angle) {
 double usual_time(const std::vector<Step>& steps) {
   std::vector<double> times;
   for (const Step& step : steps) times.push_back(step.time);
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::ranges::nth_element(times, middle);
-  return *middle;
+  return median(std::move(times));
 }
 
 /// How fast the angle grows in the first steps of the usual time, where no step is more than half a turn.
