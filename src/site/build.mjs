@@ -127,7 +127,7 @@ const readers = [
   { path: "compute.html", title: "Compute", gallery: "roll.svg", parts: ["#compute", "#accuracy-and-speed"],
     links: [["src/program/README.md", "A command for each purpose"], ["src/javascript/README.md", "In JavaScript"]] },
   { path: "check.html", title: "Check", gallery: "reduction.svg", parts: ["#check"],
-    links: [["src/program/README.md#check", "Commands for checks"], ["reduction/README.md#errata-of-the-paper", "Misprints of the paper"], ["tests/README.md", "The tests"]] },
+    links: [["src/program/README.md#check", "Commands for checks"], ["reduction/README.md#errata-of-the-paper", "Errors of the paper"], ["tests/README.md", "The tests"]] },
   { path: "python.html", title: "Python", words: "The Python module works with NumPy's arrays. matplotlib draws this plane of a puck.", picture: "src/python/notebook/plane.png",
     command: 'import contensou as ct\nct.portrait(body="disc").plot()', language: "python", alt: "The plane of a puck", parts: ["In Python,"],
     links: [["src/python/README.md", "The tour"], ["src/python/notebook/README.md", "Why a spinning ball slides farther: a lesson as a notebook"]] },
