@@ -1,6 +1,7 @@
 // The sessions in transcripts/*.txt and in the documents' blocks of console: each command prints what is shown below it.
 //
-//   $ COMMAND          is run by sh in an empty folder, one for each file, where `contensou` is the program
+//   $ COMMAND          is run by sh, where `contensou` is the program, in a new folder for each file. The folder contains the
+//                      run files and tables that lie beside the document
 //   $ COMMAND ! WORDS  is refused as bad input: status 2, these words on standard error, nothing on standard output
 //   ! LINE             a line of standard error; those stand below what is on standard output
 //   [STATUS]           the exit status where it is not 0
@@ -84,6 +85,12 @@ Lines session(const std::string& command, const std::filesystem::path& folder, b
 int check_file(const std::filesystem::path& file) {
   const bool has_blocks = file.extension() == ".md";
   const TemporaryDirectory folder;
+  for (const auto& beside : std::filesystem::directory_iterator(file.parent_path())) {
+    const std::string ending = beside.path().extension();
+    if (ending == ".toml" || ending == ".csv") {
+      std::filesystem::copy_file(beside.path(), folder.path() / beside.path().filename());
+    }
+  }
   const Lines lines = lines_of(read_file(file));
   const auto ends_output = [&](std::size_t at) {
     return at == lines.size() || lines[at].starts_with("$ ") ||
@@ -131,5 +138,6 @@ TEST_CASE("the commands of the documents print what is shown", "[cli]") {
   CHECK(check_file(CONTENSOU_README) >= 3);
   CHECK(check_file(top / "src/program/README.md") >= 50);
   CHECK(check_file(top / "src/si/README.md") >= 4);
-  CHECK(check_file(top / "src/fit/README.md") >= 5);
+  CHECK(check_file(top / "src/fit/README.md") >= 7);
+  CHECK(check_file(top / "src/site/cases/README.md") >= 3);
 }
