@@ -11,10 +11,9 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "contensou/reduction/infinity.hpp"
+#include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/differences.hpp"
 #include "planar/matrix_exponential.hpp"
@@ -326,7 +325,7 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
   }
   if (scaling) {
     Eigen::Index place = 0;
-    kernel.colPivHouseholderQr().solve(unknowns_of(*scaling)).cwiseAbs().maxCoeff(&place);
+    least_squares(kernel, unknowns_of(*scaling)).cwiseAbs().maxCoeff(&place);
     kernel.col(place).swap(kernel.col(0));
   }
   std::vector<Generator> basis;
@@ -336,53 +335,45 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
   return basis;
 }
 
-auto decomposed(const MatrixXd& matrix) {
-  return Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner>(matrix,
-                                                                        Eigen::ComputeThinU | Eigen::ComputeThinV);
-}
-
 /// Of the null space, the simplest scaling that holds throughout: within these subspaces in turn, what is nearest to
 /// A = 1.
+///
+/// @param largest  singular value of the equations
 template <class Everywhere>
-std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equations, double level,
+std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equations, double largest, double level,
                                           const Vector2d& scale, const Everywhere& everywhere) {
-  using Subspace = Eigen::Matrix<double, 7, Eigen::Dynamic>;
   const auto spanned = [](std::initializer_list<Unknowns> vectors) {
-    Subspace subspace(7, vectors.size());
+    MatrixXd subspace(7, vectors.size());
     std::ranges::for_each(vectors, [&, i = Eigen::Index(0)](const Unknowns& x) mutable { subspace.col(i++) = x; });
     return subspace;
   };
   const auto unit = [](int i) -> Unknowns { return Unknowns::Unit(i); };
   const Unknowns identity = unit(0) + unit(3), b1 = unit(4), b2 = unit(5), c = unit(6);
-  const double largest = decomposed(equations.matrix).singularValues()[0];
   const auto transformed = [&](const Unknowns& x) {
     return finite_transformation(field, generator_of(x), equations.points, equations.matrix.rows());
   };
-  for (const Subspace& subspace :
+  for (const MatrixXd& subspace :
        {spanned({identity, c}), spanned({identity, b1, b2, c}), spanned({unit(0), unit(3), c}),
-        spanned({unit(0), unit(3), b1, b2, c}), Subspace(Subspace::Identity(7, 7))}) {
+        spanned({unit(0), unit(3), b1, b2, c}), MatrixXd(MatrixXd::Identity(7, 7))}) {
     // In the unknowns of the matrix, each of the subspace's of length 1.
-    Subspace inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
+    MatrixXd inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
     const Eigen::VectorXd lengths = inner.colwise().norm();
     inner = (inner * lengths.cwiseInverse().asDiagonal()).eval();
-    const auto part = decomposed(equations.matrix * inner);
-    const Eigen::VectorXd values = part.singularValues() / largest;
+    const SingularValues part(product(equations.matrix, inner));
+    const Eigen::VectorXd values = part.values / largest;
     const auto kernel_size = (values.array() <= level).count();
     if (kernel_size == 0) continue;
     const MatrixXd kernel =
-        subspace * (lengths.cwiseInverse().asDiagonal() * part.matrixV().rightCols(kernel_size)).eval();
-    Unknowns x = kernel * kernel.colPivHouseholderQr().solve(identity);
+        product(subspace, MatrixXd(lengths.cwiseInverse().asDiagonal() * part.V.rightCols(kernel_size)));
+    Unknowns x = product(kernel, least_squares(kernel, identity));
     if (!scales(generator_of(x), scale)) continue;
 
     // The same from finite transformations, without a derivative: Newton's method with the matrix that is there.
     Finite finite = transformed(x);
     for (int step = 0; step < 4; ++step) {
-      const Eigen::VectorXd along = part.matrixU().transpose() * equations.row_scale.cwiseProduct(finite.difference);
-      Eigen::VectorXd correction = Eigen::VectorXd::Zero(inner.cols());
-      for (Eigen::Index i = 0; i < inner.cols() - kernel_size; ++i) {
-        correction += part.matrixV().col(i) * (along[i] / part.singularValues()[i]);
-      }
-      const Unknowns next = x + subspace * correction.cwiseQuotient(lengths);
+      const Eigen::VectorXd correction =
+          part.solution(equations.row_scale.cwiseProduct(finite.difference), inner.cols() - kernel_size);
+      const Unknowns next = x + product(subspace, Eigen::VectorXd(correction.cwiseQuotient(lengths)));
       const Finite closer = transformed(next);
       if (!(closer.residual < finite.residual)) break;
       x = next;
@@ -412,7 +403,7 @@ double Generator::growth() const {
 }
 
 Vector2d Generator::centre() const {
-  return Vector2d::Zero() - matrix.partialPivLu().solve(shift);  // no -0
+  return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // no -0
 }
 
 PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
@@ -434,14 +425,14 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     break;
   }
   Equations equations = determining_equations(sampler, scale);
-  const auto svd = decomposed(equations.matrix);
-  const double largest = svd.singularValues()[0];
+  const SingularValues svd(equations.matrix);
+  const double largest = svd.values[0];
   PlanarSymmetries result;
   result.level = 8 * std::max(equations.error / largest, 8 * eps);
   result.points = static_cast<int>(equations.points.size());
   int nullity = 0;
   for (int i = 0; i < 7; ++i) {
-    result.singular_values[i] = svd.singularValues()[6 - i] / largest;
+    result.singular_values[i] = svd.values[6 - i] / largest;
     nullity += result.singular_values[i] <= result.level;
   }
   constexpr double hidden = 1e-2;
@@ -457,8 +448,8 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   const auto everywhere = [&](const Generator& g) {
     return holds_everywhere(sampler, g, equations.points, scale, std::max(finest, amplified * result.level));
   };
-  result.scaling = simplest_scaling(sampler, equations, result.level, scale, everywhere);
-  const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.matrixV().rightCols(nullity);
+  result.scaling = simplest_scaling(sampler, equations, largest, result.level, scale, everywhere);
+  const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.V.rightCols(nullity);
   const auto find_generators = [&] {
     result.generators = basis_of(kernel, result.level, result.scaling);
     for (Generator& g : result.generators) g.everywhere = everywhere(g);
@@ -467,7 +458,8 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   if (!result.scaling && !std::ranges::all_of(result.generators, &Generator::everywhere)) {
     // Of several that hold within sectors one may hold throughout: the one that leaves the jumps where they are.
     add_jumps(equations, sampler, scale);
-    result.scaling = simplest_scaling(sampler, equations, result.level, scale, everywhere);
+    const double largest_now = SingularValues(equations.matrix).values[0];
+    result.scaling = simplest_scaling(sampler, equations, largest_now, result.level, scale, everywhere);
     if (result.scaling) find_generators();
   }
   if (result.scaling) {

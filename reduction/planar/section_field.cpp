@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "contensou/reduction/root.hpp"
+#include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/matrix_exponential.hpp"
 
@@ -25,7 +26,7 @@ Matrix2d frame_of(const Matrix2d& a) {
   equations << 2 * a(0, 0), 2 * a(1, 0), 0,  //
       a(0, 1), a(0, 0) + a(1, 1), a(1, 0),   //
       0, 2 * a(0, 1), 2 * a(1, 1);
-  const Eigen::Vector3d q = equations.partialPivLu().solve(Eigen::Vector3d(1, 0, 1));
+  const Eigen::Vector3d q = solution(equations, Eigen::Vector3d(1, 0, 1));
   if (!(q[0] > 0 && q[0] * q[2] > q[1] * q[1])) {
     throw std::domain_error("PlanarReduction: all eigenvalues of the scaling's matrix must have positive real parts");
   }

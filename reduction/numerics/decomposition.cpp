@@ -1,0 +1,36 @@
+#include "numerics/decomposition.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace contensou::reduction {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+SingularValues::SingularValues(const MatrixXd& matrix) {
+  const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(matrix,
+                                                                           Eigen::ComputeThinU | Eigen::ComputeThinV);
+  values = svd.singularValues();
+  U = svd.matrixU();
+  V = svd.matrixV();
+}
+
+VectorXd SingularValues::solution(const VectorXd& right, Eigen::Index rank) const {
+  const VectorXd along = U.transpose() * right;
+  VectorXd result = VectorXd::Zero(V.rows());
+  for (Eigen::Index i = 0; i < rank; ++i) result += V.col(i) * (along[i] / values[i]);
+  return result;
+}
+
+VectorXd solution(const MatrixXd& matrix, const VectorXd& right) { return matrix.partialPivLu().solve(right); }
+
+VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right) {
+  return matrix.colPivHouseholderQr().solve(right);
+}
+
+MatrixXd product(const MatrixXd& left, const MatrixXd& right) { return left * right; }
+VectorXd product(const MatrixXd& left, const VectorXd& right) { return left * right; }
+
+}  // namespace contensou::reduction

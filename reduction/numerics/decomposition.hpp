@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Linear algebra of matrices of any size. One source compiles Eigen's templates, which take seconds in each.
+namespace contensou::reduction {
+
+/// The singular value decomposition U diag(values) V^T of a matrix, with thin U and V.
+struct SingularValues {
+  explicit SingularValues(const Eigen::MatrixXd& matrix);
+
+  /// Returns the least-squares solution of least norm, from the largest singular values.
+  /// @param rank  how many of them
+  Eigen::VectorXd solution(const Eigen::VectorXd& right, Eigen::Index rank) const;
+
+  Eigen::VectorXd values;  ///< decreasing
+  Eigen::MatrixXd U, V;
+};
+
+/// Returns the solution of matrix x = right, by LU with partial pivots.
+Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// Returns the least-squares solution of matrix x = right, by QR with pivots.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);
+Eigen::VectorXd product(const Eigen::MatrixXd& left, const Eigen::VectorXd& right);
+
+}  // namespace contensou::reduction
