@@ -19,6 +19,7 @@ struct Transform {
   LegendreSeries::Samples points;
   Eigen::Matrix<double, order, order> analysis;
   Eigen::Matrix<double, order, order + 1> synthesis;
+  Eigen::Matrix<double, 1, order> end;  ///< samples -> value at 1; that at -1 is of the samples in reverse
 
   Transform() {
     const auto& half_points = GaussRule::abscissa();
@@ -35,6 +36,7 @@ struct Transform {
         before = std::exchange(here, ((2 * j + 1) * point * here - j * before) / (j + 1));
       }
     }
+    end = analysis.colwise().sum();
   }
 };
 
@@ -117,6 +119,10 @@ double LegendreSeries::operator()(double t) const {
 
 LegendreSeries::Samples LegendreSeries::samples() const {
   return (transform().synthesis * coefficients_.matrix()).array();
+}
+
+double LegendreSeries::at_end(const Samples& samples, int end) {
+  return end > 0 ? transform().end.dot(samples.matrix()) : transform().end.dot(samples.matrix().reverse());
 }
 
 double LegendreSeries::tail() const {

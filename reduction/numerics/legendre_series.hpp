@@ -33,6 +33,9 @@ class LegendreSeries {
   /// Returns the value at 1.
   double at_end() const { return coefficients_.sum(); }
 
+  /// Returns the value of through(samples) at an end, -1 or 1, at the cost of one product.
+  static double at_end(const Samples& samples, int end);
+
   /// Returns the values at points().
   Samples samples() const;
 

@@ -39,10 +39,12 @@ Limit limit_at(const Approach& end, double sign) {
 Strip::Strip(const SectionField& field, const Approach& to, const Approach& from, const std::vector<Vector2d>& breaks,
              double sense, double length, double tolerance)
     : field_(&field), to_(to), from_(from), sense_(sense), length_(length), tolerance_(tolerance) {
-  constexpr double last = -first, width = 2;
+  constexpr double last = -first, middle = 8, width = 2;
   const double start = first_time();
   std::vector<double> edges;
-  for (double edge = first; edge <= last; edge += width) edges.push_back(edge);
+  // Beyond the middle R and T are nearly their leading powers: panels may be wider.
+  for (double edge = first; edge <= last; edge += edge < -middle || edge >= middle ? 2 * width : width)
+    edges.push_back(edge);
   for (const Vector2d& n : breaks) {
     const double edge = locate(n).value_or(infinity);
     if (edge > first && edge < last) edges.push_back(edge);
@@ -200,12 +202,12 @@ void Strip::march(double left, double right, int depth) {
   }
   left_out *= std::min(right - left, 1.0);
   // A jump beyond the outermost samples shows at the ends alone.
-  const auto jumps_at = [&](double t) {
+  const auto jumps_at = [&](int end) {
     constexpr double inside = 1 - 1e-12;
-    const Terms there = terms(left + half * (1 + inside * t));
+    const Terms there = terms(left + half * (1 + inside * end));
     const auto differs = [&](double value, const Samples& samples) {
       const double largest = samples.abs().maxCoeff();
-      return std::abs(LegendreSeries::through(samples)(t) - value) > (1e-10 + 100 * rounding) * largest;
+      return std::abs(LegendreSeries::at_end(samples, end) - value) > (1e-10 + 100 * rounding) * largest;
     };
     return differs(there.rate, rate) || differs(there.radial, radial);
   };
