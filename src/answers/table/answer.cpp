@@ -180,6 +180,7 @@ std::vector<std::string> answer_formats(const std::string& standard) {
 }
 
 std::string render(const Answer& answer, const std::string& format, Digits digits) {
+  if (answer.numbers && format != "text") return render(answer.numbers(), format, digits);
   return std::ranges::find(all_answer_formats, format, &AnswerFormat::name)->written(answer, digits);
 }
 

@@ -42,6 +42,7 @@ struct Answer {
   std::vector<Json> rows = {};           ///< of CSV where there are no columns: objects with the same names
   std::vector<std::string> beside = {};  ///< names in rows that a table in a paper has no room for
   std::function<std::string(const Digits&)> text = {};  ///< empty: the columns, or the rows as in CSV
+  std::function<Answer()> numbers = {};  ///< makes the answer for every format except text; empty: this answer
 };
 
 /// The formats of an answer, the standard one first.

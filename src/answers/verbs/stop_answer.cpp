@@ -569,9 +569,9 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
                           gradient && !start.at_rest() ? std::optional(flow->stop_time_gradient(state)) : std::nullopt,
                           uncertainty,
                           load};
-  return {.members = members_of(fields, report), .rows = {row_of(fields, report)}, .text = [=](const Digits& digits) {
-            return Text(report, digits).all();
-          }};
+  return {
+      .text = [report](const Digits& digits) { return Text(report, digits).all(); },
+      .numbers = [report] { return Answer{.members = members_of(fields, report), .rows = {row_of(fields, report)}}; }};
 }
 
 }  // namespace contensou::answers
