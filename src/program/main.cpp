@@ -52,7 +52,7 @@ std::string footer() {
   for (const VerbEntry& entry : verbs()) text += fmt::format("  {}\n", entry.example);
   return text + "\n" +
          help_paragraph(
-             "'contensou help VERB' lists the options of a verb, 'contensou help laws|views|units|files|theory' "
+             "'contensou help VERB' lists the options of a verb, 'contensou help laws|views|units|files|fields|theory' "
              "explains what they take.") +
          help_paragraph(
              "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot "
@@ -80,7 +80,7 @@ class Verbs {
     Part& part = *std::ranges::find(parts_, name, [](const Part& of) { return of.entry->name; });
     if (!part.verb) {
       part.app->footer(
-          [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(entry->name); });
+          [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(*entry); });
       part.verb = part.entry->make();
       part.verb->add_options(*part.app);
       part.app->set_help_flag();  // so that it is the last

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "answers/table/record.hpp"
 #include "exit_status.hpp"
 
 namespace contensou::program {
@@ -31,6 +32,7 @@ struct VerbEntry {
   std::string name;
   std::string summary;  ///< one line of help
   std::string example;  ///< a command line that works, for the help
+  std::vector<VerbFields> fields;
   std::unique_ptr<Verb> (*make)();
 };
 
@@ -40,8 +42,9 @@ std::vector<VerbEntry>& verbs();
 /// Makes a verb one of them: a constant in its file.
 template <class AVerb>
 struct RegisteredVerb {
-  RegisteredVerb(Purpose purpose, std::string name, std::string summary, std::string example) {
-    verbs().push_back({purpose, std::move(name), std::move(summary), std::move(example),
+  RegisteredVerb(Purpose purpose, std::string name, std::string summary, std::string example,
+                 std::vector<VerbFields> fields = {}) {
+    verbs().push_back({purpose, std::move(name), std::move(summary), std::move(example), std::move(fields),
                        []() -> std::unique_ptr<Verb> { return std::make_unique<AVerb>(); }});
   }
 };

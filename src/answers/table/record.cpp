@@ -1,5 +1,7 @@
 #include "answers/table/record.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +47,19 @@ FieldText text_of(const std::string& name, const char* columns, const char* unit
     names += fmt::format("{}CSV `{}`", name.empty() ? "" : "; ", fmt::join(headings, "`, `"));
   }
   return {names, unit, meaning};
+}
+
+std::vector<std::string> names_of(std::initializer_list<ColumnText> columns) {
+  std::vector<std::string> names;
+  for (const ColumnText& column : columns) std::ranges::move(split(column.names, ','), std::back_inserter(names));
+  return names;
+}
+
+std::vector<FieldText> texts_of(std::initializer_list<ColumnText> columns, const std::string& before) {
+  std::vector<FieldText> texts;
+  for (const auto& [names, unit, meaning] : columns)
+    texts.push_back({fmt::format("{}`{}`", before, fmt::join(split(names, ','), "`, `")), unit, meaning});
+  return texts;
 }
 
 std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists) {

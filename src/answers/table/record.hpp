@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "answers/table/answer.hpp"
 
 namespace contensou::answers {
 
-/// Names, unit and meaning of a field, as help and the table in src/README.md say them.
+/// Names, unit and meaning of a field, as help prints them.
 struct FieldText {
   std::string
       names;         ///< in backquotes, with what is no name around them: `bounds` [lower, upper]; CSV `lower`, `upper`
@@ -17,12 +19,18 @@ struct FieldText {
   std::string meaning;
 };
 
-/// A field of the result of a verb. A table of them is all that JSON, CSV, help and README know of that result.
+/// The columns and fields that a verb reads and writes.
+struct VerbFields {
+  std::string_view option;  ///< of the verb, with which it has them, such as "--batch"; none: without
+  std::vector<FieldText> (*fields)();
+};
+
+/// A field of the result of a verb. A table of them is all that JSON, CSV and help know of that result.
 template <class Result>
 struct Field {
   const char* name;              ///< of the member of JSON; none: it is in CSV alone
   const char* unit;              ///< none: a pure number, or a name
-  const char* meaning;           ///< null: it is told elsewhere, for all verbs; empty: with the next
+  const char* meaning;           ///< empty: it shares the line of help of the next
   Json (*value)(const Result&);  ///< null where this result has none
 
   /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an object; an entry without
@@ -30,7 +38,7 @@ struct Field {
   /// empty one: none.
   const char* columns = nullptr;
   int place = 0;           ///< of the columns: they follow those of a lower place
-  const char* shape = "";  ///< of an array or object, for README
+  const char* shape = "";  ///< of an array or object, for help
 };
 
 /// The value of a field that JSON has as null.
@@ -45,11 +53,21 @@ struct ColumnField {
   const Eigen::ArrayXd* (*values)(const Result&);  ///< null where this result has none
 };
 
+/// Columns of a table whose rows are read or written as they come.
+struct ColumnText {
+  const char *names, *unit, *meaning;  ///< names between commas
+};
+
+std::vector<std::string> names_of(std::initializer_list<ColumnText> columns);
+
+/// @param before  stands before the names: "in: " or "out: "
+std::vector<FieldText> texts_of(std::initializer_list<ColumnText> columns, const std::string& before = "");
+
 /// A row of CSV gets the columns of a value.
 /// @param columns  as Field's
 void append_columns(Json& row, const std::string& name, const char* columns, const Json& value);
 
-/// A field as the table of fields shows it.
+/// A field as help shows it.
 FieldText text_of(const std::string& name, const char* columns, const char* unit, const char* meaning,
                   const char* shape);
 
@@ -95,23 +113,40 @@ std::vector<Column> columns_of(const ColumnField<Result> (&fields)[count], const
   return columns;
 }
 
-/// The fields that have a meaning, as texts.
+/// The fields as texts.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of(const Field<Result> (&fields)[count]) {
   std::vector<FieldText> texts;
-  for (const auto& [name, unit, meaning, value, columns, place, shape] : fields) {
-    if (meaning != nullptr) texts.push_back(text_of(name, columns, unit, meaning, shape));
-  }
+  for (const auto& [name, unit, meaning, value, columns, place, shape] : fields)
+    texts.push_back(text_of(name, columns, unit, meaning, shape));
   return joined({texts});
 }
 
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of(const ColumnField<Result> (&fields)[count]) {
   std::vector<FieldText> texts;
-  for (const auto& [name, unit, meaning, values] : fields) {
-    if (meaning != nullptr) texts.push_back(text_of(name, nullptr, unit, meaning, ""));
-  }
+  for (const auto& [name, unit, meaning, values] : fields) texts.push_back(text_of(name, nullptr, unit, meaning, ""));
   return joined({texts});
+}
+
+/// An answer that is a row for each result: the rows of CSV, and a list in JSON.
+/// @param list  the name of that list
+template <class Result, std::size_t count>
+Answer answer_of_rows(const char* list, const Field<Result> (&fields)[count], const std::vector<Result>& results) {
+  Answer answer;
+  Json& members = answer.members[list] = Json::array();
+  for (const Result& result : results) {
+    members.push_back(members_of(fields, result));
+    answer.rows.push_back(row_of(fields, result));
+  }
+  return answer;
+}
+
+/// The fields of such an answer, as texts.
+template <class Result, std::size_t count>
+std::vector<FieldText> texts_of_rows(const char* list, const Field<Result> (&fields)[count]) {
+  return joined({{{std::string("JSON `") + list + "` [...]", "", "an entry for each row of CSV, with its fields"}},
+                 texts_of(fields)});
 }
 
 }  // namespace contensou::answers

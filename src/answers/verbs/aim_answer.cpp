@@ -28,7 +28,7 @@ struct AimReport {
 };
 
 constexpr Field<AimReport> aim_row[]{
-    {"law", "", nullptr, [](const AimReport& r) -> Json { return r.law.name(); }},
+    {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
     {"ball", "", "as of stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
      [](const AimReport& r) -> Json { return r.slip; }},

@@ -57,8 +57,9 @@ constexpr const char* textbook_columns =
     "textbook_change_vx,textbook_change_vy,textbook_change_wz,textbook_grip";
 
 constexpr Field<BounceReport> bounce_row[]{
-    {"law", "", nullptr, [](const BounceReport& r) -> Json { return r.law.name(); }},
-    {"mu", "", nullptr, [](const BounceReport& r) -> Json { return si::patch_ratio(r.experiment, r.law); }},
+    {"law", "", "name of the law of friction", [](const BounceReport& r) -> Json { return r.law.name(); }},
+    {"mu", "", "patch radius over R",
+     [](const BounceReport& r) -> Json { return si::patch_ratio(r.experiment, r.law); }},
     {"ball", "", "as of stop; its patch is that of the impact",
      [](const BounceReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"height", "m", "with --drop", [](const BounceReport& r) -> Json { return r.height ? Json(*r.height) : Json(); },

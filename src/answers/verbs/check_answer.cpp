@@ -40,24 +40,21 @@ Json of_deviation(const CheckedLaw& row, double Deviation::*number) {
 
 using Row = CheckedLaw;
 constexpr Field<Row> row_fields[]{
-    {"law", "", nullptr, [](const Row& row) -> Json { return row.law; }},
+    {"law", "", "name of the law of friction", [](const Row& row) -> Json { return row.law; }},
     {"check", "", "what is checked", [](const Row& row) -> Json { return row.check.name; }},
     {"measured", "", "the worst; it must not exceed allowed",
      [](const Row& row) -> Json { return or_infinity(row.check.measured); }},
     {"allowed", "", "what it may be", [](const Row& row) -> Json { return row.check.allowed; }},
     {"", "", "ok or FAIL", [](const Row& row) -> Json { return verdict(row.check); }, "verdict"},
     {"passed", "", "whether it holds", [](const Row& row) -> Json { return row.check.passed(); }, ""},
-};
-constexpr Field<Row> deviation_fields[]{
-    {"error", "m/s or rad/s", "the worst of the table",
+    {"error", "m/s or rad/s", "largest error in the table of --against",
      [](const Row& row) { return of_deviation(row, &Deviation::error); }},
-    {"t", "s", "its row", [](const Row& row) { return of_deviation(row, &Deviation::t); }},
-    {"leaves", "s", "the first row off by more than allowed, or inf",
+    {"t", "s", "time of that error", [](const Row& row) { return of_deviation(row, &Deviation::t); }},
+    {"leaves", "s", "time from which an error is larger than allowed, or inf",
      [](const Row& row) { return of_deviation(row, &Deviation::leaves); }},
 };
-
 constexpr Field<MotionsBeside> beside_fields[]{
-    {"start", "m/s, rad/s", "of all models",
+    {"start", "m/s, rad/s", "start of all models, with --against",
      [](const MotionsBeside& motions) -> Json {
        return {{"slip", motions.start.slip}, {"spin", motions.start.spin}};
      },
@@ -73,20 +70,9 @@ constexpr Field<MotionsBeside> beside_fields[]{
        return models;
      },
      "", 0, " [{`model`, `slip`, `spin`}]"},
-    {"nearest", "", "of the models", [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
+    {"nearest", "", "name of the nearest model",
+     [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
 };
-
-Answer answer_of(const std::vector<CheckedLaw>& rows) {
-  Answer answer;
-  Json& checks = answer.members["checks"] = Json::array();
-  for (const CheckedLaw& row : rows) {
-    checks.push_back(members_of(row_fields, row));
-    checks.back().update(members_of(deviation_fields, row));
-    answer.rows.push_back(row_of(row_fields, row));
-    answer.rows.back().update(row_of(deviation_fields, row));
-  }
-  return answer;
-}
 
 /// The name of a law, without the words that end a row: that of a file may have them.
 std::string label(const std::string& law) {
@@ -169,7 +155,7 @@ std::vector<Check> built_in_checks(const reduction::Law& law) {
 }
 
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in) {
-  Answer answer = answer_of(rows);
+  Answer answer = answer_of_rows("checks", row_fields, rows);
   answer.text = [=](const Digits& digits) { return (built_in ? heading() : "") + as_text(rows, digits); };
   return answer;
 }
@@ -182,7 +168,7 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
   const std::vector<CheckedLaw> rows{
       row(motions.start.slip > 0 ? "slip error / slip at start" : "slip error / R spin at start", slip),
       row(motions.start.spin != 0 ? "spin error / spin at start" : "R spin error / slip at start", spin)};
-  Answer answer = answer_of(rows);
+  Answer answer = answer_of_rows("checks", row_fields, rows);
   answer.members.update(members_of(beside_fields, motions));
   for (Json& line : answer.rows) line.update(row_of(beside_fields, motions));
   answer.text = [=](const Digits& digits) { return as_text(rows, digits) + as_text(motions, digits); };
@@ -190,16 +176,13 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
 }
 
 std::vector<FieldText> check_fields() {
-  return joined({{{"JSON `checks` [...]", "", "one for each row of CSV, with its fields"}}, texts_of(row_fields)});
-}
-
-std::vector<FieldText> check_against_fields() {
-  return joined({{{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
-                   "rows in order of time, the first is the start; or in another unit, as in 'wz [rpm]'"},
-                  {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
-                   "of a rigid body, in place of slip and spin, z up; of one that lies flat without wx, wy"}},
-                 texts_of(deviation_fields),
-                 texts_of(beside_fields)});
+  return joined(
+      {texts_of_rows("checks", row_fields),
+       {{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
+         "columns of --against, rows in order of time; the first is the start; in another unit as 'wz [rpm]'"},
+        {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
+         "motion of a rigid body, in place of slip and spin, z up; without wx, wy if it lies flat"}},
+       texts_of(beside_fields)});
 }
 
 }  // namespace contensou::answers

@@ -40,6 +40,5 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
 
 /// The fields of these answers.
 std::vector<FieldText> check_fields();
-std::vector<FieldText> check_against_fields();
 
 }  // namespace contensou::answers

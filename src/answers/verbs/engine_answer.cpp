@@ -128,7 +128,7 @@ Json members_of_engine(const EngineWithBall& engine) {
 }
 
 constexpr Field<Report> report_fields[]{
-    {"law", "", nullptr, [](const Report& r) -> Json { return r.law.name(); }},
+    {"law", "", "name of the law of friction", [](const Report& r) -> Json { return r.law.name(); }},
     {"ball", "", "its name", [](const Report& r) -> Json { return r.experiment.ball.name; }, ""},
     {"body", "", "ball, hollow-ball, disc, puck or ring",
      [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},

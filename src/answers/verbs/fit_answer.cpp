@@ -15,13 +15,17 @@ namespace {
 using fit::Estimate;
 using fit::Parameter;
 
-Json members_of_estimate(const Estimate& estimate) {
-  return {{"value", estimate.value},
-          {"standard_error", estimate.standard_error},
-          {"low", estimate.interval.low},
-          {"high", estimate.interval.high},
-          {"determined", estimate.determined()}};
-}
+constexpr Field<Estimate> estimate_fields[]{
+    {"value", "", "estimate; where the data do not determine it, any of many",
+     [](const Estimate& of) -> Json { return of.value; }},
+    {"standard_error", "", "inf where the data do not determine it",
+     [](const Estimate& of) -> Json { return of.standard_error; }},
+    {"low", "", "", [](const Estimate& of) -> Json { return of.interval.low; }},
+    {"high", "", "ends of the 95 % interval", [](const Estimate& of) -> Json { return of.interval.high; }},
+    {"determined", "", "whether the data determine it", [](const Estimate& of) -> Json { return of.determined(); }},
+};
+Json members_of_estimate(const Estimate& estimate) { return members_of(estimate_fields, estimate); }
+constexpr const char* of_estimate = " {`value`, `standard_error`, `low`, `high`, `determined`}";
 
 const std::string_view& name_of(const Estimate& estimate) { return fit::kind_of(estimate.parameter).name; }
 
@@ -183,32 +187,37 @@ struct FitReport {
 };
 
 constexpr Field<FitReport> answer_fields[]{
-    {"law", "", nullptr, [](const FitReport& r) -> Json { return r.best.law; }},
-    {"friction", "1", "", [](const FitReport& r) { return members_of_estimate(r.best.estimates[0]); }},
-    {"patch_radius", "m", "", [](const FitReport& r) { return members_of_estimate(r.best.estimates[1]); }},
-    {"slip", "m/s", "", [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::slip)); }},
-    {"spin", "1, m, m/s, 1/s", "estimates; the last two of the first track, at its start",
-     [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::spin)); }},
+    {"law", "", "name of the best law of friction", [](const FitReport& r) -> Json { return r.best.law; }, ""},
+    {"friction", "1", "coefficient of friction",
+     [](const FitReport& r) { return members_of_estimate(r.best.estimates[0]); }, "", 0, of_estimate},
+    {"patch_radius", "m", "radius of the patch",
+     [](const FitReport& r) { return members_of_estimate(r.best.estimates[1]); }, "", 0, of_estimate},
+    {"slip", "m/s", "slip at the start of the first track",
+     [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::slip)); }, "", 0, of_estimate},
+    {"spin", "1/s", "spin at the start of the first track",
+     [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::spin)); }, "", 0, of_estimate},
     {"correlation", "", "of friction and patch_radius",
-     [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }},
+     [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }, ""},
     {"reduced_chi2", "", "1 where the noise is estimated",
      [](const FitReport& r) {
        const Json value = reduced_chi2(r.best, r.planned);
        return value.is_null() ? said_null : value;
-     }},
+     },
+     ""},
     {"degrees_of_freedom", "", "measured values less the numbers that were found",
-     [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }},
+     [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }, ""},
     {"profiled", "", "whether the intervals are by profile likelihood",
-     [](const FitReport& r) -> Json { return r.best.profiled; }},
-    {"fits", "", "whether this may be the motion of the data",
-     [](const FitReport& r) -> Json { return r.best.fits(); }},
-    {"misfits", "", "and if not why (status 1)", [](const FitReport& r) -> Json { return r.best.misfits; }},
+     [](const FitReport& r) -> Json { return r.best.profiled; }, ""},
+    {"fits", "", "whether this may be the motion of the data", [](const FitReport& r) -> Json { return r.best.fits(); },
+     ""},
+    {"misfits", "", "and if not why (status 1)", [](const FitReport& r) -> Json { return r.best.misfits; }, ""},
     {"remarks", "", "what else is to be known",
-     [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }},
-    {"rolling_friction", "1", "an estimate, of a ball that has it, or where it was searched",
+     [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }, ""},
+    {"rolling_friction", "1", "rolling friction, of a ball that has it, or where it was searched",
      [](const FitReport& r) {
        return r.best.rolls_with_friction() ? members_of_estimate(r.best.estimate(Parameter::rolling_friction)) : Json();
-     }},
+     },
+     "", 0, of_estimate},
     {"only", "", "the one combination of the two that the data determine, where they do no more",
      [](const FitReport& r) -> Json {
        if (!r.best.only) return {};
@@ -221,7 +230,7 @@ constexpr Field<FitReport> answer_fields[]{
                {"low", interval.low},
                {"high", interval.high}};
      },
-     nullptr, 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
+     "", 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
     {"tracks", "rad/s",
      "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of `vx`, "
      "`vy`; of a track with an angle `half_turn_spin`, from where on its turns are found by trial; "
@@ -242,7 +251,7 @@ constexpr Field<FitReport> answer_fields[]{
        }
        return list;
      },
-     nullptr, 0, " [{`file`, `start`, `slip`, ...}]"},
+     "", 0, " [{`file`, `start`, `slip`, ...}]"},
     {"noise", "", "of each column; `outliers_at` [{`file`, `t`}] is where they are (s)",
      [](const FitReport& r) {
        Json noise = Json::object();
@@ -255,7 +264,7 @@ constexpr Field<FitReport> answer_fields[]{
        }
        return noise;
      },
-     nullptr, 0, " {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}"},
+     "", 0, " {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}"},
     {"laws", "", "the best first",
      [](const FitReport& r) {
        Json laws = Json::array();
@@ -268,7 +277,7 @@ constexpr Field<FitReport> answer_fields[]{
        }
        return laws;
      },
-     nullptr, 0, " [{`law`, `aic`, `friction`, `patch_radius`, `reduced_chi2`}]"},
+     "", 0, " [{`law`, `aic`, `friction`, `patch_radius`, `reduced_chi2`}]"},
 };
 
 }  // namespace
@@ -279,7 +288,7 @@ Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track
     for (const Estimate& estimate : fit.estimates) {
       const std::string track = is_of_start(estimate) ? tracks[estimate.track].name : "";
       Json& row = answer.rows.emplace_back(Json{{"law", fit.law}, {"track", track}, {"parameter", name_of(estimate)}});
-      row.update(members_of_estimate(estimate));
+      row.update(row_of(estimate_fields, estimate));
     }
   }
   return answer;
@@ -317,13 +326,16 @@ std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::
 }
 
 std::vector<FieldText> fit_fields() {
-  return joined(
-      {{{"in: `t`; `slip`, `x`, `y`, `vx`, `vy`", "s; m/s, m, m, m/s, m/s", "any of them; others are not read"},
-        {"in: `spin`, `angle`; NAME`_sd`", "rad/s, rad", "about the vertical; standard deviation of NAME"},
-        {"an estimate {`value`, `standard_error`, `low`, `high`, `determined`}", "",
-         "with its 95 % interval; where not determined, value is any of many and standard_error inf"},
-        {"CSV `law`, `track`, `parameter`, `value`, `standard_error`, `low`, `high`, `determined`", "", "a row each"}},
-       texts_of(answer_fields)});
+  return joined({{{"in: `t`", "s", "time"},
+                  {"in: `slip`", "m/s", "sliding speed"},
+                  {"in: `x`, `y`", "m", "place of the centre"},
+                  {"in: `vx`, `vy`", "m/s", "velocity of the centre"},
+                  {"in: `spin`", "rad/s", "spin about the vertical"},
+                  {"in: `angle`", "rad", "angle about the vertical"},
+                  {"in: NAME`_sd`", "as NAME", "standard deviation of the column NAME; other columns are not read"},
+                  {"CSV `law`, `track`, `parameter`", "", "name of the law, of the track and of the estimate"}},
+                 texts_of(estimate_fields),
+                 texts_of(answer_fields)});
 }
 
 }  // namespace contensou::answers

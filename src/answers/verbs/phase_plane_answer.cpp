@@ -60,7 +60,7 @@ End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
 }
 
 constexpr Field<ReducedSystem> system_fields[]{
-    {"law", "", nullptr, [](const ReducedSystem& system) -> Json { return system.law().name(); }},
+    {"law", "", "name of the law of friction", [](const ReducedSystem& system) -> Json { return system.law().name(); }},
     {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
     {"drive", "", "with --drive; then r_high is of (Phi - drive)/(k Psi)",
      [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
@@ -126,6 +126,14 @@ constexpr Field<SingularPoint> point_fields[]{
     {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return name(point.kind); }},
     {"separatrix", "", "whether the half-line is one",
      [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
+};
+constexpr Field<ReducedSystem> body_fields[]{
+    {"mu", "", "patch radius over R", [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
+    {"body", "", "1 + m R^2/J, m R^2/J_z",
+     [](const ReducedSystem& system) -> Json {
+       return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};
+     },
+     "", 0, " {`chi`, `gamma`}"},
 };
 constexpr Field<PhasePlane> plane_fields[]{
     {"mu_low", "", "r_low as a patch ratio of this body; not with --drive",
@@ -241,12 +249,9 @@ std::vector<FieldText> terminal_fields() {
 
 Answer phase_plane_answer(const ReducedSystem& system) {
   const PhasePlane plane = reduction::phase_plane(system);
-  Answer answer{.members = {{"law", system.law().name()},
-                            {"mu", system.mu()},
-                            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
-                            {"r", system.r()}},
+  Answer answer{.members = members_of(system_fields, system),
                 .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
-  if (system.drive() > 0) answer.members["drive"] = system.drive();
+  answer.members.update(members_of(body_fields, system));
   answer.members.update(ratio_members(plane.terminal));
   answer.members.update(members_of(plane_fields, plane));
   for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));
@@ -255,7 +260,12 @@ Answer phase_plane_answer(const ReducedSystem& system) {
 
 std::vector<FieldText> phase_plane_fields() {
   return joined(
-      {{{"JSON `r`, `r_low`, ..., `ends`", "", "as of terminal"}}, texts_of(plane_fields), texts_of(point_fields)});
+      {{{"JSON `law`, `r`, `drive`, `r_low`, `r_high`, `limit`, `k_star`, `k_star_accuracy`, `k_from`, `k_to`, "
+         "`rays`, `ends`",
+         "", "as of terminal"}},
+       texts_of(body_fields),
+       texts_of(plane_fields),
+       texts_of(point_fields)});
 }
 
 }  // namespace contensou::answers

@@ -482,4 +482,44 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   return {std::move(answer), true};
 }
 
+std::vector<FieldText> reduce_fields() {
+  return {
+      {"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "",
+       "law of friction; patch radius over R; 1 + m R^2/J, m R^2/J_z; not with --system"},
+      {"`system`", "", "the system as typed, with --system"},
+      {"`u0`, `v0`", "speed", "the start"},
+      {"`drive`", "", "drive over f N, with --drive"},
+      {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, "
+       "`b2`",
+       "",
+       "c t d/dt + (A x + b) d/dx with x = (u, v); the first reduces the system; within names the part of the plane "
+       "where it holds, if that is not the whole"},
+      {"JSON `singular_values`", "", "singular values of the determining equations over the largest, ascending"},
+      {"`level`, `gap`", "", "a singular value below level counts as 0; the others are larger by the factor gap"},
+      {"`form`, `factor`", "",
+       "scaling, or form of the inverse integrating factor V that solves the system, null for none; V in words"},
+      {"JSON `tried` [{`form`, `singular_value`, `gap`}]", "", "forms of V in the order in which they were tried"},
+      {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
+       "canonical coordinates of the start: v/u and ln v; with --system the angle of a direction, and ln of the "
+       "distance, over those of the start"},
+      {"`first_integral`", "", "p less its value on one orbit"},
+      {"JSON `rays` [{`k` or `angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
+       "invariant rays: direction of the motion, eigenvalues along the ray and across, 2 for a double ray"},
+      {"`kind`, `undecided`", "",
+       "node, saddle, focus, ... of the blown-up centre; null if not decided, and the reason"},
+      {"JSON `turn` {`factor`, `sigma`}", "", "a turn of a focus"},
+      {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
+       "orbit of the start, before and after it; turn by turn of a focus"},
+      {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
+       "starts to which the symmetry moves this one; their orbits are the same strip, higher in p by ln of the factor"},
+      {"`tau_stop`, `accuracy`", "speed, 1",
+       "stop time, inf where the centre is not reached, null before a border or if not decided; its relative error"},
+      {"`end`", "", "centre, infinity, rest, border, periodic or equilibrium, with --system; null if not decided"},
+      {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
+       "the stop time by each route; section as of --system"},
+      {"`period`", "", "time after which the motion returns"},
+      {"JSON `by_steps` {`difference`, `time`}", "", "relative difference from an integration in steps, and when"},
+  };
+}
+
 }  // namespace contensou::answers

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "answers/asked/given_start.hpp"
 #include "answers/input/errors.hpp"
-#include "answers/table/answer.hpp"
+#include "answers/table/record.hpp"
 #include "contensou/reduction/integrating_factor.hpp"
 
 namespace contensou::answers {
@@ -24,5 +25,8 @@ ReduceAnswer reduce_answer(const GivenStart& given);
 /// Reduces any field.
 /// @param text  of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
+
+/// The fields of these answers.
+std::vector<FieldText> reduce_fields();
 
 }  // namespace contensou::answers

@@ -33,10 +33,10 @@ constexpr ColumnField<Motion> motion_columns[]{
 };
 
 constexpr Field<Roll> start_fields[]{
-    {"law", "", nullptr, [](const Roll& roll) -> Json { return roll.law.name(); }},
-    {"route", "", nullptr,
+    {"law", "", "name of the law of friction", [](const Roll& roll) -> Json { return roll.law.name(); }},
+    {"route", "", "name of the route",
      [](const Roll& roll) -> Json { return roll.integrated || !roll.whole.is_reduced() ? "integrated" : "reduced"; }},
-    {"mu", "", nullptr, [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
+    {"mu", "", "patch radius over R", [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
     {"ball", "", "as of stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
     {"velocity", "m/s", "at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},

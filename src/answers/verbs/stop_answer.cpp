@@ -139,9 +139,9 @@ constexpr auto of_ball = [](const StopReport& report, auto value) {
 };
 
 constexpr Field<StopReport> fields[]{
-    {"law", "", nullptr, [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
-    {"route", "", nullptr, [](const StopReport& r) -> Json { return name(r.route); }},
-    {"mu", "", nullptr, [](const StopReport& r) -> Json { return r.start.system.mu(); }},
+    {"law", "", "name of the law of friction", [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
+    {"route", "", "name of the route", [](const StopReport& r) -> Json { return name(r.route); }},
+    {"mu", "", "patch radius over R", [](const StopReport& r) -> Json { return r.start.system.mu(); }},
     {"body", "", "1 + m R^2/J, m R^2/J_z",
      [](const StopReport& r) -> Json {
        const auto [chi, gamma] = r.start.system.inertia();
@@ -212,7 +212,7 @@ constexpr Field<StopReport> fields[]{
        for (const Derivative& derivative : derivatives(r)) gradient[derivative.by] = derivative.value;
        return gradient;
      },
-     "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, ...}"},
+     "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
     {"uncertainty", "s or speed",
      "with --uncertainty: standard deviation of t_stop, of what is no ball tau_stop, to first order; {probability, "
      "value} of "

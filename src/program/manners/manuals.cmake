@@ -17,7 +17,7 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   if(verb)
     string(APPEND include "[see also]\n.BR contensou (1)\n")
   else()
-    foreach(topic IN ITEMS laws views units files theory)
+    foreach(topic IN ITEMS laws views units files fields theory)
       contensou_help(${topic} text)
       string(REPLACE "\n" "\n\\&" text "\n${text}")  # no line begins with a dot or an apostrophe
       string(APPEND include "[${topic}]\n.nf${text}\n.fi\n")

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "answers/verbs/fields.hpp"
-
 namespace contensou::program {
 
 namespace {
@@ -46,12 +44,11 @@ std::string help_entry(std::string_view name, std::string_view meaning) {
                      wrapped(meaning, margin, margin));
 }
 
-std::string help_on_fields(const std::string& verb) {
+std::string help_on_fields(const VerbEntry& verb) {
   std::string text;
-  for (auto& [of, fields] : answers::field_table()) {
-    if (of != verb && !of.starts_with(verb + " ")) continue;
-    text += of == verb ? "\nColumns and fields:\n" : fmt::format("\nColumns of {}:\n", of);
-    for (auto& [names, unit, meaning] : fields) {
+  for (const auto& [option, fields] : verb.fields) {
+    text += fmt::format("\nColumns and fields of {}{}{}:\n", verb.name, option.empty() ? "" : " ", option);
+    for (auto [names, unit, meaning] : fields()) {
       std::erase(names, '`');
       text += help_entry(names, unit.empty() ? meaning : fmt::format("{} ({})", meaning, unit));
     }

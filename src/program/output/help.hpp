@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "verb.hpp"
+
 namespace contensou::program {
 
 inline constexpr std::size_t help_width = 80;
@@ -16,8 +18,8 @@ std::string help_paragraph(std::string_view text, std::size_t indent = 0);
 /// A name and, beside or below it, what it means, in lines of at most 80 columns.
 std::string help_entry(std::string_view name, std::string_view meaning);
 
-/// The columns and fields that a verb reads and writes; empty if it has none.
-std::string help_on_fields(const std::string& verb);
+/// The columns and fields of a verb; empty if it has none.
+std::string help_on_fields(const VerbEntry& verb);
 
 /// How CLI11 writes the help of a verb.
 class HelpFormatter final : public CLI::Formatter {

@@ -86,7 +86,7 @@ class AimCommand final : public Verb {
 
 const RegisteredVerb<AimCommand> aim_verb(
     Purpose::compute, "aim", "The start that goes so far, turns so often, lasts so long or rolls from there on",
-    "contensou aim --ball puck --distance 20m --turns 3");
+    "contensou aim --ball puck --distance 20m --turns 3", {{"", aim_fields}});
 
 }  // namespace
 

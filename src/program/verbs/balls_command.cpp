@@ -17,30 +17,39 @@ namespace {
 
 using si::CatalogueEntry;
 
-Json row_of(const CatalogueEntry& entry) {
-  const auto& [ball, contact, start, environment, spreads] = entry.experiment;
-  const reduction::Law law = *reduction::find_law(si::law_of(entry.experiment));
-  std::string sources = entry.sources;
-  std::ranges::replace(sources, '\n', ' ');
-  return {{"name", entry.name},
-          {"description", ball.name},
-          {"body", ball.body.name},
-          {"law", law.name()},
-          {"radius", ball.radius},
-          {"mass", ball.mass},
-          {"friction", contact.friction},
-          {"patch_radius", si::patch_radius_of(entry.experiment, law)},
-          {"mu", si::patch_ratio(entry.experiment, law)},
-          {"slip", si::slip_at_start(entry.experiment)},
-          {"spin", si::spin_at_start(entry.experiment)},
-          {"gravity", environment.gravity},
-          {"sources", sources}};
-}
+/// The ball's own law.
+reduction::Law own_law(const CatalogueEntry& entry) { return *reduction::find_law(si::law_of(entry.experiment)); }
+
+constexpr Field<CatalogueEntry> ball_fields[]{
+    {"name", "", "name for --ball", [](const CatalogueEntry& of) -> Json { return of.name; }},
+    {"description", "", "ball and plane", [](const CatalogueEntry& of) -> Json { return of.experiment.ball.name; }},
+    {"body", "", "ball, hollow-ball, disc or ring",
+     [](const CatalogueEntry& of) -> Json { return of.experiment.ball.body.name; }},
+    {"law", "", "name of its own law of friction", [](const CatalogueEntry& of) -> Json { return own_law(of).name(); }},
+    {"radius", "m", "radius of the ball", [](const CatalogueEntry& of) -> Json { return of.experiment.ball.radius; }},
+    {"mass", "kg", "mass of the ball", [](const CatalogueEntry& of) -> Json { return of.experiment.ball.mass; }},
+    {"friction", "", "coefficient of friction",
+     [](const CatalogueEntry& of) -> Json { return of.experiment.contact.friction; }},
+    {"patch_radius", "m", "radius of the patch",
+     [](const CatalogueEntry& of) -> Json { return si::patch_radius_of(of.experiment, own_law(of)); }},
+    {"mu", "", "patch radius over R",
+     [](const CatalogueEntry& of) -> Json { return si::patch_ratio(of.experiment, own_law(of)); }},
+    {"slip", "m/s", "slip of the typical start",
+     [](const CatalogueEntry& of) -> Json { return si::slip_at_start(of.experiment); }},
+    {"spin", "1/s", "spin of the typical start",
+     [](const CatalogueEntry& of) -> Json { return si::spin_at_start(of.experiment); }},
+    {"gravity", "m/s^2", "acceleration of gravity",
+     [](const CatalogueEntry& of) -> Json { return of.experiment.environment.gravity; }},
+    {"sources", "", "sources of these numbers",
+     [](const CatalogueEntry& of) -> Json {
+       std::string sources = of.sources;
+       std::ranges::replace(sources, '\n', ' ');
+       return sources;
+     }},
+};
 
 Answer list() {
-  Answer answer;
-  for (const CatalogueEntry& entry : si::catalogue()) answer.rows.push_back(row_of(entry));
-  answer.members["balls"] = answer.rows;
+  Answer answer = answer_of_rows("balls", ball_fields, si::catalogue());
   answer.beside = {"description", "sources"};
   answer.text = [rows = answer.rows](const Digits& digits) {
     std::string text;
@@ -53,6 +62,8 @@ Answer list() {
   };
   return answer;
 }
+
+std::vector<FieldText> balls_texts() { return texts_of_rows("balls", ball_fields); }
 
 class BallsCommand final : public Verb {
  public:
@@ -88,7 +99,7 @@ class BallsCommand final : public Verb {
 
 const RegisteredVerb<BallsCommand> balls_verb(Purpose::bodies, "balls",
                                               "The built-in balls and their sources, or one of them as a run file",
-                                              "contensou balls pool -o pool.toml");
+                                              "contensou balls pool -o pool.toml", {{"", balls_texts}});
 
 }  // namespace
 

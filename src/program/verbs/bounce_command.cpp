@@ -91,7 +91,8 @@ class BounceCommand final : public Verb {
 
 const RegisteredVerb<BounceCommand> bounce_verb(Purpose::compute, "bounce",
                                                 "A ball that hits the plane at a slant, spinning: how it leaves",
-                                                "contensou bounce --ball rubber --spin 200 --drop 1 --restitution 0.8");
+                                                "contensou bounce --ball rubber --spin 200 --drop 1 --restitution 0.8",
+                                                {{"", bounce_fields}});
 
 }  // namespace
 

@@ -105,7 +105,7 @@ class CheckCommand final : public Verb {
 
 const RegisteredVerb<CheckCommand> check_verb(Purpose::check, "check",
                                               "Every statement of the theory as a number that must be small",
-                                              "contensou check --mu 0.1 --u0 1 --v0 1");
+                                              "contensou check --mu 0.1 --u0 1 --v0 1", {{"", check_fields}});
 
 }  // namespace
 

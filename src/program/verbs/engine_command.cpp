@@ -57,7 +57,7 @@ class EngineCommand final : public Verb {
 
 const RegisteredVerb<EngineCommand> engine_verb(
     Purpose::bodies, "engine", "What to type into a physics engine for torsional friction, and what that does",
-    "contensou engine mujoco --ball pool");
+    "contensou engine mujoco --ball pool", {{"", engine_fields}});
 
 }  // namespace
 

@@ -279,7 +279,8 @@ class FitCommand final : public Verb {
 
 const RegisteredVerb<FitCommand> fit_verb(Purpose::bodies, "fit",
                                           "Friction and patch radius of a ball, from a film of it",
-                                          "contensou fit --plan --ball pool --fps 240 --noise slip=0.01,spin=1");
+                                          "contensou fit --plan --ball pool --fps 240 --noise slip=0.01,spin=1",
+                                          {{"", fit_fields}});
 
 }  // namespace
 

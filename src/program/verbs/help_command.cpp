@@ -102,6 +102,16 @@ std::string files() {
              "--samples N frames).");
 }
 
+std::string all_fields() {
+  std::string text = help_paragraph(
+      "Names of columns in CSV and of members in JSON. JSON also has schema, which is 1, and version. Lines of CSV "
+      "that "
+      "begin with # are comments. The members of an object are columns of their own. u, v and tau are in one unit of "
+      "speed, which is m/s for a ball.");
+  for (const VerbEntry& entry : verbs()) text += help_on_fields(entry);
+  return text;
+}
+
 constexpr const char* theory_text =
     R"(The equations of V. F. Zhuravlev (1998) and their symmetry. A ball of radius R
 slides and spins on a plane with coefficient of friction f; g is gravity.
@@ -162,14 +172,14 @@ constexpr std::string_view theory_words[]{"equations", "symmetry", "generator", 
 
 std::string theory() { return theory_text; }
 
-const Choices<std::string (*)()> topics{
-    {"laws", laws}, {"views", views}, {"units", units}, {"files", files}, {"theory", theory}};
+const Choices<std::string (*)()> topics{{"laws", laws},   {"views", views},       {"units", units},
+                                        {"files", files}, {"fields", all_fields}, {"theory", theory}};
 
 class HelpCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     root_ = app.get_parent();
-    topic_.add(app, "TOPIC", "", "laws, views, units, files, theory, or a verb (default: all verbs)",
+    topic_.add(app, "TOPIC", "", "laws, views, units, files, fields, theory, or a verb (default: all verbs)",
                [this](const std::string& typed) { return text_on(typed); });
   }
 

@@ -15,6 +15,23 @@ namespace contensou::program {
 
 namespace {
 
+/// A law at some ratios k.
+struct LawReport {
+  reduction::Law law;
+  Eigen::ArrayXd k, phi, psi;
+};
+
+constexpr Field<LawReport> law_fields[]{
+    {"law", "", "name of the law of friction", [](const LawReport& r) -> Json { return r.law.name(); }},
+};
+constexpr ColumnField<LawReport> law_columns[]{
+    {"k", "", "ratio v/(mu abs(u))", [](const LawReport& r) { return &r.k; }},
+    {"phi", "", "force over f N", [](const LawReport& r) { return &r.phi; }},
+    {"psi", "", "moment over f N times patch radius", [](const LawReport& r) { return &r.psi; }},
+};
+
+std::vector<FieldText> law_texts() { return joined({texts_of(law_fields), texts_of(law_columns)}); }
+
 class LawCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -50,9 +67,8 @@ class LawCommand final : public Verb {
           "--k missing: give --k K1,K2,... or --batch FILE; or a picture, -o FILE ending in svg, pdf, png, eps, gp or "
           "tex");
     }
-    output.write(
-        Answer{.members = {{"law", law.name()}},
-               .columns = evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed))});
+    const LawReport report = evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed));
+    output.write(Answer{.members = members_of(law_fields, report), .columns = columns_of(law_columns, report)});
     return ExitStatus::done;
   }
 
@@ -65,7 +81,7 @@ class LawCommand final : public Verb {
     return ratios;
   }
 
-  static std::vector<Column> evaluate(const reduction::Law& law, const std::vector<double>& ratios) {
+  static LawReport evaluate(const reduction::Law& law, const std::vector<double>& ratios) {
     const auto rows = static_cast<Eigen::Index>(ratios.size());
     const Eigen::ArrayXd k = Eigen::Map<const Eigen::ArrayXd>(ratios.data(), rows);
     Eigen::ArrayXd phi(rows), psi(rows);
@@ -74,7 +90,7 @@ class LawCommand final : public Verb {
       phi[i] = resistance.force;
       psi[i] = resistance.moment;
     }
-    return {{"k", k}, {"phi", phi}, {"psi", psi}};
+    return {law, k, phi, psi};
   }
 
   LawOption law_;
@@ -87,7 +103,7 @@ class LawCommand final : public Verb {
 
 const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law",
                                           "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2",
-                                          "contensou law --law exact --k 0,0.5,1,2,inf");
+                                          "contensou law --law exact --k 0,0.5,1,2,inf", {{"", law_texts}});
 
 }  // namespace
 

@@ -17,6 +17,19 @@ using answers::TextTable;
 
 std::string verdict(const Published& number) { return number.agrees() ? "agrees" : "differs"; }
 
+constexpr Field<Published> number_fields[]{
+    {"name", "", "the number's name", [](const Published& n) -> Json { return n.name; }},
+    {"source", "", "authors, journal and year", [](const Published& n) -> Json { return n.source; }},
+    {"link", "", "its DOI or repository", [](const Published& n) -> Json { return n.link; }},
+    {"read", "", "the part that was read: abstract, code, in textbooks, or as cited",
+     [](const Published& n) -> Json { return n.read; }},
+    {"published", "", "the number as published", [](const Published& n) -> Json { return n.published; }},
+    {"computed", "", "the number as computed here", [](const Published& n) -> Json { return n.computed; }},
+    {"verdict", "", "agrees or differs", [](const Published& n) -> Json { return verdict(n); }},
+    {"recorded", "", "the verdict on record; another one is a failed check (status 1)",
+     [](const Published& n) -> Json { return n.confirmed ? "agrees" : "differs"; }},
+};
+
 /// The number of a source in the list below the table, and that list.
 struct Sources {
   std::vector<std::string> list{};
@@ -49,6 +62,8 @@ std::string as_text(const std::vector<Published>& numbers, const Digits& digits)
                             numbers.size(), agreeing, std::ssize(numbers) - agreeing);
 }
 
+std::vector<FieldText> literature_texts() { return texts_of_rows("rows", number_fields); }
+
 class LiteratureCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override { output_.add(app); }
@@ -56,18 +71,7 @@ class LiteratureCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const std::vector<Published> numbers = published_numbers();
-    Answer answer;
-    for (const Published& number : numbers) {
-      answer.rows.push_back({{"name", number.name},
-                             {"source", number.source},
-                             {"link", number.link},
-                             {"read", number.read},
-                             {"published", number.published},
-                             {"computed", number.computed},
-                             {"verdict", verdict(number)},
-                             {"recorded", number.confirmed ? "agrees" : "differs"}});
-    }
-    answer.members["rows"] = answer.rows;
+    Answer answer = answer_of_rows("rows", number_fields, numbers);
     answer.beside = {"link", "read", "recorded"};
     answer.text = [&](const Digits& digits) { return as_text(numbers, digits); };
     output.write(answer);
@@ -82,7 +86,7 @@ class LiteratureCommand final : public Verb {
 
 const RegisteredVerb<LiteratureCommand> literature_verb(Purpose::check, "literature",
                                                         "Numbers that others published, beside ours",
-                                                        "contensou literature");
+                                                        "contensou literature", {{"", literature_texts}});
 
 }  // namespace
 

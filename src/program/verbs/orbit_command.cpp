@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <vector>
@@ -23,22 +22,61 @@ namespace contensou::program {
 
 namespace {
 
-/// q = v/u, p = ln v and the first integral on every row. Where the integral has no value, on the axes, on an
-/// invariant ray and at rest, it is infinite.
-std::array<Column, 3> canonical_columns(const GivenStart& start, const reduction::OrbitColumns& motion) {
-  const reduction::Flow flow = start.flow();
-  Eigen::ArrayXd integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
-  for (Eigen::Index i = 0; i < motion.rows(); ++i) {
-    try {
-      integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
-    } catch (const std::domain_error&) {
-      // none here
-    }
-  }
-  const double factor = start.system.mu() * (start.state.u < 0 ? -1 : 1);
-  // + 0: not -0
-  return {{{"q", factor * motion.k + 0.0}, {"p", motion.ln_v}, {"integral", integral}}};
-}
+/// An orbit at the instants that are asked for; columns that are not are empty.
+struct OrbitReport {
+  const GivenStart& start;
+  reduction::Route route;
+  reduction::OrbitColumns motion;
+  std::optional<si::LoadHistory> load;
+  Eigen::ArrayXd u_estimate = {}, v_estimate = {}, ln_v_estimate = {};
+  Eigen::ArrayXd tau_left = {};
+  Eigen::ArrayXd t = {};  ///< s
+  Eigen::ArrayXd q = {}, p = {}, integral = {};
+};
+
+constexpr Field<OrbitReport> orbit_fields[]{
+    {"law", "", "name of the law of friction",
+     [](const OrbitReport& r) -> Json { return r.start.system.law().name(); }},
+    {"route", "", "name of the route", [](const OrbitReport& r) -> Json { return name(r.route); }},
+    {"mu", "", "patch radius over R", [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
+    {"u0", "speed", "R omega_z at the start", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
+    {"v0", "speed", "sliding speed at the start", [](const OrbitReport& r) -> Json { return r.start.state.v; }},
+    {"ball", "", "as of stop",
+     [](const OrbitReport& r) {
+       return r.start.experiment ? members_of_ball(*r.start.experiment, r.start.system.law()) : Json();
+     }},
+    {"load", "s, N", "columns t, load of the table of --load",
+     [](const OrbitReport& r) { return r.load ? members_of(*r.load) : Json(); }, nullptr, 0,
+     " {`t` [...], `load` [...]}"},
+};
+
+/// The values of a column; none of one that is not asked for.
+const Eigen::ArrayXd* unless_empty(const Eigen::ArrayXd& values) { return values.size() > 0 ? &values : nullptr; }
+
+constexpr ColumnField<OrbitReport> orbit_columns[]{
+    {"tau", "speed", "time (3 pi/2) f g t", [](const OrbitReport& r) { return &r.motion.tau; }},
+    {"u", "speed", "R omega_z", [](const OrbitReport& r) { return &r.motion.u; }},
+    {"v", "speed", "sliding speed", [](const OrbitReport& r) { return &r.motion.v; }},
+    {"ln_v", "", "logarithm of v, which does not underflow", [](const OrbitReport& r) { return &r.motion.ln_v; }},
+    {"k", "", "v/(mu abs(u))", [](const OrbitReport& r) { return &r.motion.k; }},
+    {"beta", "1/speed", "regularised time (2.8), 0 at the start", [](const OrbitReport& r) { return &r.motion.beta; }},
+    {"u_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.u_estimate); }},
+    {"v_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.v_estimate); }},
+    {"ln_v_estimate", "speed",
+     "asymptotic solution for small mu at the same tau, with --estimate; u and v are 0 from its own stop, E1, on",
+     [](const OrbitReport& r) { return unless_empty(r.ln_v_estimate); }},
+    {"tau_left", "speed", "time until the stop, with --time-left",
+     [](const OrbitReport& r) { return unless_empty(r.tau_left); }},
+    {"t", "s", "time of a ball", [](const OrbitReport& r) { return unless_empty(r.t); }},
+    {"q", "", "v/u, with --reduction", [](const OrbitReport& r) { return unless_empty(r.q); }},
+    {"p", "", "ln v, with --reduction", [](const OrbitReport& r) { return unless_empty(r.p); }},
+    {"integral", "",
+     "first integral ln abs(u) - ln w(k), with --reduction, the same on every row; inf on the axes, on a ray and at "
+     "rest, where it has no value",
+     [](const OrbitReport& r) { return unless_empty(r.integral); }},
+};
+
+std::vector<FieldText> orbit_texts() { return joined({texts_of(orbit_fields), texts_of(orbit_columns)}); }
 
 class OrbitCommand final : public Verb {
  public:
@@ -109,33 +147,19 @@ class OrbitCommand final : public Verb {
       const double k_end = start.at_rest() ? 0 : last.terminal().end_of(k0).k;
       motion.k = at_rest.select(k_end, motion.k);
     }
-    Answer answer{.members = {{"law", system.law().name()},
-                              {"route", name(route)},
-                              {"mu", system.mu()},
-                              {"u0", start.state.u},
-                              {"v0", start.state.v}},
-                  .columns = {{"tau", motion.tau},
-                              {"u", motion.u},
-                              {"v", motion.v},
-                              {"ln_v", motion.ln_v},
-                              {"k", motion.k},
-                              {"beta", motion.beta}}};
-    if (estimate_) add_estimate(answer, reduction::SmallMuMotion(system, start.state), motion.tau);
-    if (time_left_.given()) answer.columns.push_back({"tau_left", lefts});
+    OrbitReport report{start, route, motion, load};
+    if (estimate_) add_estimate(report);
+    report.tau_left = lefts;
     if (start.experiment) {
-      answer.members["ball"] = members_of_ball(*start.experiment, system.law());
       const auto seconds = [&](double tau) {
         const double nominal = si::seconds(*start.experiment, tau);
         return load ? load->time_of(nominal) : nominal;
       };
       const bool given = at != nullptr && at->in_seconds;  // as they were typed, not there and back
-      if (load) answer.members["load"] = answers::members_of(*load);
-      answer.columns.push_back({"t", given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds))});
+      report.t = given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds));
     }
-    if (reduction_) {
-      for (Column& column : canonical_columns(start, motion)) answer.columns.push_back(std::move(column));
-    }
-    output.write(answer);
+    if (reduction_) add_canonical(report);
+    output.write(Answer{.members = members_of(orbit_fields, report), .columns = columns_of(orbit_columns, report)});
     return ExitStatus::done;
   }
 
@@ -170,17 +194,35 @@ class OrbitCommand final : public Verb {
         "times in seconds are of a ball: add --ball NAME|FILE.toml, or leave the unit out: tau is in that of --u0");
   }
 
-  static void add_estimate(Answer& answer, const reduction::SmallMuMotion& estimate, const Eigen::ArrayXd& taus) {
-    Eigen::ArrayXd u(taus.size()), v(taus.size()), ln_v(taus.size());
+  static void add_estimate(OrbitReport& report) {
+    const reduction::SmallMuMotion estimate(report.start.system, report.start.state);
+    const Eigen::ArrayXd& taus = report.motion.tau;
+    for (Eigen::ArrayXd* column : {&report.u_estimate, &report.v_estimate, &report.ln_v_estimate})
+      column->resize(taus.size());
     for (Eigen::Index row = 0; row < taus.size(); ++row) {
       const auto speeds = estimate.at_time(taus[row]);
-      u[row] = speeds.u;
-      v[row] = speeds.v;
-      ln_v[row] = speeds.ln_v;
+      report.u_estimate[row] = speeds.u;
+      report.v_estimate[row] = speeds.v;
+      report.ln_v_estimate[row] = speeds.ln_v;
     }
-    answer.columns.push_back({"u_estimate", u});
-    answer.columns.push_back({"v_estimate", v});
-    answer.columns.push_back({"ln_v_estimate", ln_v});
+  }
+
+  /// Adds q = v/u, p = ln v and the first integral, which is infinite where it has no value: on the axes, on an
+  /// invariant ray and at rest.
+  static void add_canonical(OrbitReport& report) {
+    const reduction::OrbitColumns& motion = report.motion;
+    const reduction::Flow flow = report.start.flow();
+    report.integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
+    for (Eigen::Index i = 0; i < motion.rows(); ++i) {
+      try {
+        report.integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
+      } catch (const std::domain_error&) {
+        // none here
+      }
+    }
+    const double factor = report.start.system.mu() * (report.start.state.u < 0 ? -1 : 1);
+    report.q = factor * motion.k + 0.0;  // + 0: not -0
+    report.p = motion.ln_v;
   }
 
   StartOptions start_;
@@ -196,7 +238,8 @@ class OrbitCommand final : public Verb {
 
 const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit",
                                               "The state along the motion: tau,u,v,ln_v,k,beta (and t for a ball)",
-                                              "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50");
+                                              "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50",
+                                              {{"", orbit_texts}});
 
 }  // namespace
 

@@ -48,6 +48,21 @@ struct StatementRow {
   bool as_recorded() const { return found.verdict == statement.recorded; }
 };
 
+constexpr Field<StatementRow> statement_fields[]{
+    {"equation", "", "its number in the paper", [](const StatementRow& row) -> Json { return row.statement.equation; }},
+    {"statement", "", "the statement in words", [](const StatementRow& row) -> Json { return row.statement.says; }},
+    {"printed", "", "value of the statement as printed",
+     [](const StatementRow& row) -> Json { return or_infinity(row.found.printed); }},
+    {"computed", "", "value found without the statement",
+     [](const StatementRow& row) -> Json { return or_infinity(row.found.computed); }},
+    {"verdict", "", "one of the verdicts of the text",
+     [](const StatementRow& row) -> Json { return word(row.found.verdict); }},
+    {"recorded", "", "the verdict on record; another one is a failed check (status 1)",
+     [](const StatementRow& row) -> Json { return word(row.statement.recorded); }},
+    {"correction", "", "correction of an erratum", [](const StatementRow& row) -> Json { return row.correction; }},
+    {"at", "", "place of the comparison, such as a k", [](const StatementRow& row) -> Json { return row.where; }},
+};
+
 /// All statements in the order of the paper.
 std::vector<StatementRow> recompute() {
   std::vector<StatementRow> rows;
@@ -148,6 +163,8 @@ std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits)
                     std::ranges::count(rows, false, &StatementRow::as_recorded));
 }
 
+std::vector<FieldText> paper_texts() { return texts_of_rows("claims", statement_fields); }
+
 class PaperCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -165,18 +182,7 @@ class PaperCommand final : public Verb {
     }
     const std::vector<StatementRow> rows = recompute();
     if (out_.given()) write_files(out_, draw_figures(path_of(out_.text()), figure_));
-    Answer answer;
-    for (const auto& [statement, found, correction, where] : rows) {
-      answer.rows.push_back({{"equation", statement.equation},
-                             {"statement", statement.says},
-                             {"printed", or_infinity(found.printed)},
-                             {"computed", or_infinity(found.computed)},
-                             {"verdict", word(found.verdict)},
-                             {"recorded", word(statement.recorded)},
-                             {"correction", correction},
-                             {"at", where}});
-    }
-    answer.members["claims"] = answer.rows;
+    Answer answer = answer_of_rows("claims", statement_fields, rows);
     answer.beside = {"recorded", "correction"};
     answer.text = [&](const Digits& digits) { return as_text(rows, digits); };
     output.write(answer);
@@ -191,7 +197,7 @@ class PaperCommand final : public Verb {
 
 const RegisteredVerb<PaperCommand> paper_verb(Purpose::check, "paper",
                                               "Every equation and claim of the paper recomputed; its four figures",
-                                              "contensou paper --out figures");
+                                              "contensou paper --out figures", {{"", paper_texts}});
 
 }  // namespace
 

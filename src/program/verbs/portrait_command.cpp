@@ -85,6 +85,47 @@ auto at_most(int highest) {
   return [=](const std::string& typed) { return static_cast<int>(parse_integer(typed, 0, highest)); };
 }
 
+/// Fields of the data of a portrait, which the library of portraits writes.
+std::vector<FieldText> portrait_fields() {
+  return {
+      {"CSV `kind`, `index`", "", "orbit, highlight, through, isochrone, ...; number of the line of that kind"},
+      {"CSV `u`, `v`, `tau`", "speed", "states on the line, and the time left until the stop"},
+      {"CSV `ln_v`, `k`", "", "logarithm of v, and v/(mu abs(u))"},
+      {"CSV `beta`", "1/speed", "regularised time (2.8) since the first state of an orbit, of --view regularised"},
+      {"CSV `t`", "s", "time left of a ball"},
+      {"JSON `portraits` [{`version`, ...}]", "",
+       "a portrait for each of several --mu or --law, with the members below"},
+      {"`law`, `mu`", "", "law of friction, patch radius over R; columns with several --mu or --law"},
+      {"JSON `body` {`chi`, `gamma`}, `view`", "", "1 + m R^2/J, m R^2/J_z; name of the view"},
+      {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane that is shown"},
+      {"JSON `drive`", "", "drive over f N, with --drive, rolling friction or a slope"},
+      {"JSON `ball`, `seconds_per_tau`", "; s/speed", "name of the ball, and the unit of its tau"},
+      {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV", "lists of the states of each orbit"},
+      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "states with the same stop time"},
+      {"JSON `highlight`, `through` [...]", "", "orbits of the start and of --through, as one of orbits"},
+      {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "the same lines under the law of --against"},
+  };
+}
+
+/// Fields of the data of a portrait of --system.
+std::vector<FieldText> system_portrait_fields() {
+  return {
+      {"CSV `kind`, `index`", "", "orbit, highlight, through, separatrix, isochrone; number of the line of that kind"},
+      {"CSV `u`, `v`, `tau`", "", "states on the line; time left until the centre, inf where it is not reached"},
+      {"JSON `system`", "", "the system as typed"},
+      {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "as of reduce"},
+      {"JSON `form`", "", "as of reduce, without a scaling; null where orbits are steps"},
+      {"JSON `centre` [U, V]", "", "centre of the scaling; null without one"},
+      {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane that is shown"},
+      {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues` [[re, im], [re, im]]}]", "",
+       "points at rest, without a scaling"},
+      {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "", "lists of the states of each orbit"},
+      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "states with the same time left"},
+      {"JSON `highlight`, `through`, `separatrices` [...]", "",
+       "orbits of the start, of --through and of saddles, as those of orbits"},
+  };
+}
+
 class PortraitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -329,7 +370,8 @@ class PortraitCommand final : public Verb {
 
 const RegisteredVerb<PortraitCommand> portrait_verb(
     Purpose::draw, "portrait", "A phase portrait: orbits, isochrones of the stop time, invariant axes",
-    "contensou portrait --mu 0.3 -o portrait.svg");
+    "contensou portrait --mu 0.3 -o portrait.svg",
+    {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}});
 
 }  // namespace
 

@@ -65,7 +65,7 @@ class ReduceCommand final : public Verb {
 
 const RegisteredVerb<ReduceCommand> reduce_verb(Purpose::check, "reduce",
                                                 "The symmetry of a planar system found, its motion solved",
-                                                "contensou reduce --mu 0.3 --u0 1 --v0 1");
+                                                "contensou reduce --mu 0.3 --u0 1 --v0 1", {{"", reduce_fields}});
 
 }  // namespace
 

@@ -82,6 +82,21 @@ double parse_end(const std::string& typed) {
 
 constexpr long max_frames = 1000;  ///< of a film: 40 s
 
+/// Columns of the tables of --batch.
+constexpr ColumnText straight_shots{"slip,spin", "m/s, 1/s", "start along x; all other columns pass through"};
+constexpr ColumnText general_shots{"vx,vy,wx,wy,wz", "m/s, 1/s", "start by velocities, in place of slip and spin"};
+constexpr std::initializer_list<ColumnText> shot_events{
+    {"t_rolls,x_rolls,y_rolls", "s, m, m", "time and place at which the slip falls below --rolling-below"},
+    {"t_spin_ends,x_spin_ends,y_spin_ends", "s, m, m", "time and place at which the spin ends; 0 without spin"},
+    {"slip_length,turns,path", "m, 1, m",
+     "length slid by the contact point, turns about the vertical, path of the centre until it rolls or rests"},
+    {"t_rest,x_rest,y_rest", "s, m, m",
+     "time and place at which the centre rests, of a puck or with --rolling-friction"}};
+
+std::vector<FieldText> roll_batch_texts() {
+  return joined({texts_of({straight_shots, general_shots}, "in: "), texts_of(shot_events, "out: ")});
+}
+
 class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -221,7 +236,6 @@ class RollCommand final : public Verb {
     const si::Experiment still = start_.read_ball(law, at_rest("--batch"));
     require_rolling_options(still);
     if (start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
-    const std::string rolls = still.ball.body.lies_flat() ? "rest" : "rolls";
     const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
     const si::Shots shots(still, law);
     const double rolling_below = rolling_below_.value_or(si::rolling_slip);
@@ -229,7 +243,7 @@ class RollCommand final : public Verb {
     const bool may_rest = u_r * si::pressing(still.environment) > (1 - 1 / chi) * si::pull(still.environment).norm();
     OutputFile output(out.path);
     CsvReader table(batch_.text());
-    const std::vector<std::string> along_x{"slip", "spin"}, velocities{"vx", "vy", "wx", "wy", "wz"};
+    const std::vector<std::string> along_x = names_of({straight_shots}), velocities = names_of({general_shots});
     const auto has = [&](const std::string& column) { return table.has_column(column); };
     const bool general = std::ranges::any_of(velocities, has);
     if (general && std::ranges::any_of(along_x, has)) {
@@ -237,8 +251,7 @@ class RollCommand final : public Verb {
                             "columns slip, spin and vx, vy, wx, wy, wz exclude each other: keep one kind of start");
     }
     BatchRequest request{.inputs = general ? velocities : along_x,
-                         .results = {"t_" + rolls, "x_" + rolls, "y_" + rolls, "t_spin_ends", "x_spin_ends",
-                                     "y_spin_ends", "slip_length", "turns", "path"},
+                         .results = names_of(shot_events),
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long /*line*/) {
                                const si::Start start =
@@ -249,7 +262,10 @@ class RollCommand final : public Verb {
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
-    if (may_rest) request.results.insert(request.results.end(), {"t_rest", "x_rest", "y_rest"});
+    std::vector<std::string>& names = request.results;
+    if (still.ball.body.lies_flat())
+      std::copy(names.end() - 3, names.end(), names.begin());  // it rests in place of rolling
+    if (!may_rest) names.resize(names.size() - 3);
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
     return status;
@@ -325,7 +341,8 @@ class RollCommand final : public Verb {
 
 const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",
                                             "The whole motion of a ball or a puck: t,x,y,vx,vy,wx,wy,wz,slip,energy",
-                                            "contensou roll --ball gel --slip 0.5 --spin 300 --format text");
+                                            "contensou roll --ball gel --slip 0.5 --spin 300 --format text",
+                                            {{"", answers::roll_fields}, {"--batch", roll_batch_texts}});
 
 }  // namespace
 

@@ -20,6 +20,18 @@ namespace contensou::program {
 
 namespace {
 
+/// Columns of the tables of --batch, without and with --ball.
+constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed", "patch radius over R, R omega_z and sliding speed"};
+constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "start of a ball, with --ball"};
+
+std::vector<FieldText> stop_batch_texts() {
+  return joined({texts_of({reduced_starts, ball_starts}, "in: "),
+                 texts_of({{"tau_stop", "speed", "end of slip and spin; all other columns pass through"},
+                           {"t_stop", "s", "the same with --ball"},
+                           {"tau_stop_LAW,t_stop_LAW", "", "in their place with several laws: one of each law"}},
+                          "out: ")});
+}
+
 class StopCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -89,7 +101,7 @@ class StopCommand final : public Verb {
     const auto ball = has_ball ? std::optional(start_.read_ball(laws.front(), at_rest("--batch"))) : std::nullopt;
     std::deque<StopTimes> stop_times;  // stay where they are
     std::vector<double> mu;            // of the ball, by each law
-    BatchRequest request{.inputs = {"mu", "u0", "v0"},
+    BatchRequest request{.inputs = names_of({has_ball ? ball_starts : reduced_starts}),
                          .results = {},
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long line) {
@@ -115,7 +127,6 @@ class StopCommand final : public Verb {
     }
     if (has_ball) {
       const si::Experiment& experiment = *ball;
-      request.inputs = {"spin", "slip"};
       request.compute = [&](std::span<const double> row, std::span<double> results, long /*line*/) {
         const reduction::State start{.u = row[0] * experiment.ball.radius, .v = sliding("slip", row[1])};
         for (std::size_t i = 0; i < results.size(); ++i)
@@ -154,7 +165,8 @@ class StopCommand final : public Verb {
 
 const RegisteredVerb<StopCommand> stop_verb(Purpose::compute, "stop",
                                             "When the ball stops sliding and spinning, and how it rolls then",
-                                            "contensou stop --ball pool --slip 2");
+                                            "contensou stop --ball pool --slip 2",
+                                            {{"", stop_fields}, {"--batch", stop_batch_texts}});
 
 }  // namespace
 

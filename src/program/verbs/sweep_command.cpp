@@ -71,6 +71,14 @@ struct SweepGrid {
 
 enum class SweepFormat { npy, csv };
 
+/// Columns of a table, without and with --ball; npy contains the last.
+constexpr ColumnText system_columns{"mu,u0,v0,tau_stop", "1, speed, speed, speed",
+                                    "start and end of slip and spin; npy: tau_stop alone, in the shape (N_v0, N_u0) or "
+                                    "(N_mu, N_v0, N_u0)"};
+constexpr ColumnText ball_columns{"spin,slip,t_stop", "1/s, m/s, s", "the same with --ball; npy: (N_slip, N_spin)"};
+
+std::vector<FieldText> sweep_texts() { return texts_of({system_columns, ball_columns}); }
+
 /// How a sweep is computed.
 struct SweepRequest {
   reduction::Law law;
@@ -91,7 +99,8 @@ std::vector<double> values_of(const Range& range, long begin, long count) {
 /// What a file begins with: the names of the columns, or NumPy's description of the array, whose doubles follow as they
 /// are in memory.
 std::string heading(const SweepRequest& request) {
-  if (request.format == SweepFormat::csv) return request.grid.ball ? "spin,slip,t_stop\n" : "mu,u0,v0,tau_stop\n";
+  if (request.format == SweepFormat::csv)
+    return csv_line(names_of({request.grid.ball ? ball_columns : system_columns}));
   const SweepGrid& grid = request.grid;
   std::vector<long> shape{grid.v0.count, grid.u0.count};
   if (grid.mu_is_range) shape.insert(shape.begin(), grid.mu.count);
@@ -208,7 +217,6 @@ class Sweep {
 /// Writes the stop times of all starts in the memory of a few blocks of them; the bytes do not depend on the number of
 /// threads.
 ///   npy  NumPy's format 1.0: float64, shape (v0, u0), or (mu, v0, u0) if mu is a range
-///   csv  columns mu,u0,v0,tau_stop; of a ball spin,slip,t_stop
 ///
 /// @param output  not finished here
 /// @throws BadInput     if the array would be larger than any file
@@ -406,7 +414,8 @@ class SweepCommand final : public Verb {
 
 const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep",
                                               "A map of stop times over starts, of any size: numbers or a picture",
-                                              "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy");
+                                              "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy",
+                                              {{"", sweep_texts}});
 
 }  // namespace
 

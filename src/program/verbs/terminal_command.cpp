@@ -49,7 +49,7 @@ class TerminalCommand final : public Verb {
 
 const RegisteredVerb<TerminalCommand> terminal_verb(
     Purpose::compute, "terminal", "What k = v/(mu |u|) tends to at the stop: 0, an invariant ray, infinity",
-    "contensou terminal --law uniform --body disc");
+    "contensou terminal --law uniform --body disc", {{"", terminal_fields}});
 
 }  // namespace
 

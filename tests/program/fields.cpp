@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <catch2/catch.hpp>
+
+#include "run_program.hpp"
+
+namespace {
+
+using Names = std::set<std::string>;
+
+/// The names that help lists for a verb.
+struct Listed {
+  Names json, csv, any;  ///< by the word before them; any without one
+  Names parts;           ///< members of objects without a word, which are columns of CSV
+  Names words;           ///< all words of the list
+};
+
+/// Adds the names of an entry, such as: bounds [lower, upper]; CSV lower, upper
+void add_names(Listed& listed, const std::string& names) {
+  Names* to = &listed.any;
+  int depth = 0;
+  std::string word;
+  for (const char letter : names + " ") {
+    if (letter == '{' || letter == '[') ++depth;
+    if (std::string(" ,;{}[]").find(letter) == std::string::npos) {
+      word += letter;
+    } else if (!word.empty() && (letter == '}' || letter == ']' || depth > 0)) {
+      if (to == &listed.any) listed.parts.insert(word);
+      word.clear();
+    } else if (!word.empty()) {
+      if (word == "in:") return;
+      if (word == "JSON") to = &listed.json;
+      if (word == "CSV" || word == "out:") to = &listed.csv;
+      if (word != "JSON" && word != "CSV" && word != "out:" && word != "or") to->insert(word);
+      word.clear();
+    }
+    if (letter == '}' || letter == ']') --depth;
+  }
+}
+
+/// The lists of `help fields`, by the verb and its option.
+std::map<std::string, Listed> lists_of_help() {
+  const std::string heading = "Columns and fields of ";
+  std::map<std::string, Listed> lists;
+  Listed* list = nullptr;
+  std::string names;
+  std::istringstream lines(run_program("help fields").out);
+  for (std::string line; std::getline(lines, line);) {
+    constexpr std::size_t meaning = 22;
+    if (line.starts_with(heading)) list = &lists[line.substr(heading.size(), line.size() - heading.size() - 1)];
+    if (list == nullptr || !line.starts_with("  ")) continue;
+    const std::regex letters("[A-Za-z_][A-Za-z_0-9]*");
+    for (auto word = std::sregex_iterator(line.begin(), line.end(), letters); word != std::sregex_iterator(); ++word)
+      list->words.insert(word->str());
+    if (line.find_first_not_of(' ') < meaning) names += line.substr(0, line.find("  ", line.find_first_not_of(' ')));
+    if (line.size() > meaning && line[meaning] != ' ' && line[meaning - 1] == ' ' && line[meaning - 2] == ' ') {
+      add_names(*list, names);
+      names.clear();
+    }
+  }
+  return lists;
+}
+
+/// The names that a verb writes.
+struct Written {
+  Names members, nested, columns;
+};
+
+/// Adds the names of all members; the parameters of an engine have its own names.
+void add_members(Names& all, const nlohmann::json& json) {
+  for (const auto& [name, value] : json.items()) {
+    if (json.is_object()) all.insert(name);
+    if (name == "parameters") {
+      for (const auto& parameter : value) add_members(all, parameter);
+    } else if (value.is_structured()) {
+      add_members(all, value);
+    }
+  }
+}
+
+Written written_by(const std::vector<std::vector<std::string>>& runs, const std::string& input) {
+  Written names;
+  for (const std::vector<std::string>& run : runs) {
+    for (const char* format : {"json", "csv"}) {
+      const bool is_batch = std::ranges::find(run, "--batch") != run.end() || run.front() == "sweep";
+      if (is_batch && std::string(format) == "json") continue;
+      std::vector<std::string> arguments = run;
+      arguments.insert(arguments.end(), {"--format", format});
+      const Run result = run_program(arguments, input);
+      INFO(fmt::format("{}", fmt::join(arguments, " ")) << "\n" << result.err);
+      REQUIRE((result.status == 0 || result.status == 1));
+      if (std::string(format) == "csv") {
+        std::istringstream lines(result.out);
+        std::string header;
+        while (std::getline(lines, header) && header.starts_with('#')) continue;
+        std::istringstream columns(header);
+        for (std::string column; std::getline(columns, column, ',');) names.columns.insert(column);
+        continue;
+      }
+      const auto document = nlohmann::json::parse(result.out);
+      for (const auto& [name, value] : document.items()) {
+        if (name == "schema" || name == "version") continue;
+        names.members.insert(name);
+        if (value.is_structured()) add_members(names.nested, value);
+      }
+    }
+  }
+  return names;
+}
+
+/// Whether a name is listed, perhaps with a * for a part.
+bool has(const Names& listed, const std::string& name) {
+  return std::ranges::any_of(listed, [&](const std::string& pattern) {
+    return std::regex_match(name, std::regex(std::regex_replace(pattern, std::regex("\\*|LAW"), ".*")));
+  });
+}
+
+bool any_matches(const Names& names, const std::string& pattern) {
+  return std::ranges::any_of(names, [&](const std::string& name) { return has({pattern}, name); });
+}
+
+/// Words of a command line between blanks; ' keeps blanks together.
+std::vector<std::string> words(const std::string& line) {
+  std::vector<std::string> all{""};
+  bool quoted = false;
+  for (const char letter : line) {
+    if (letter == '\'') {
+      quoted = !quoted;
+    } else if (letter == ' ' && !quoted) {
+      all.emplace_back();
+    } else {
+      all.back() += letter;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no others", "[cli]") {
+  const TemporaryDirectory scratch;
+  const std::string load = scratch.file("load.csv"), film = scratch.file("film.csv"), spins = scratch.file("spins.csv");
+  write_file(load, "t,load\n0,2\n1,4\n1.2,1\n");
+  write_file(film, run_program("roll --ball pool --rolling-friction 0.01 --until 0.6 --samples 60 --format csv").out);
+  // A film of the spin alone: it determines a combination of two numbers.
+  std::string spin_alone = "t,spin,angle\n";
+  for (int i = 0; i < 40; ++i) {
+    const double t = 0.1 * i;
+    spin_alone += fmt::format("{},{},{}\n", t, 100 - 10 * t + 0.01 * (i % 3 - 1), 100 * t - 5 * t * t);
+  }
+  write_file(spins, spin_alone);
+  const std::string against = "check --ball pool --rolling-friction 0.01 --against " + film;
+  const std::string start = " --mu 0.3 --u0 1 --v0 1", system = " --u0 1 --v0 1 --system ";
+  // Each title of a list with commands that write all of its names.
+  const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
+      {"stop",
+       {"stop --ball pool --gradient --uncertainty slip=1%", "stop --estimate" + start,
+        "stop --ball pool --rolling-friction 0.01", "stop --law soft:1" + start, "stop --drive 0.1" + start,
+        "stop --ball puck --load " + load}},
+      {"stop --batch",
+       {"stop --batch -", "stop --batch - --ball pool", "stop --batch - --law exact,pade",
+        "stop --batch - --ball pool --law exact,pade"}},
+      {"orbit",
+       {"orbit --estimate --reduction" + start, "orbit --ball puck --load " + load, "orbit --time-left 0.1" + start}},
+      {"law", {"law --k 0,1"}},
+      {"roll",
+       {"roll --ball pool --samples 3 --gradient --uncertainty slip=1% --route integrated",
+        "roll --ball pool --samples 3 --rolling-friction 0.01 --slope -1",
+        "roll --ball puck --samples 3 --load " + load}},
+      {"roll --batch", {"roll --batch - --ball pool --rolling-friction 0.01"}},
+      {"bounce", {"bounce --ball steel --drop 0.1 --restitution 0.8"}},
+      {"portrait",
+       {"portrait --orbits 2 -o - --ball pool --view regularised --through 10,0.1 --slip 1 --spin 100",
+        "portrait --orbits 2 -o - --against pade --law exact --drive 0.1" + start,
+        "portrait --orbits 2 -o - --mu 0.1,0.3"}},
+      {"portrait --system",
+       {"portrait --orbits 2 -o - --through 0.5,0.5" + system + "'u\\' = -u; v\\' = -2*v'",
+        "portrait --orbits 2 -o -" + system + "'u\\' = v; v\\' = u - u^3'"}},
+      {"portrait --facts", {"portrait --facts --mu 0.3", "portrait --facts --mu 0.3 --drive 0.1"}},
+      {"sweep", {"sweep --mu 0.1 --u0 0:1:2 --v0 1", "sweep --ball pool --slip 0:1:2 --spin 1"}},
+      {"check", {"check --mu 0.1 --u0 1 --v0 1", against}},
+      {"terminal", {"terminal --law uniform --body disc", "terminal --mu 0.1 --drive 0.1"}},
+      {"reduce",
+       {"reduce --drive 0.1" + start, "reduce" + start, "reduce" + system + "'u\\' = -u; v\\' = -2*v'",
+        "reduce" + system + "'u\\' = v; v\\' = -sin(u)'", "reduce" + system + "'u\\' = -u-v; v\\' = u-v'",
+        "reduce" + system + "'u\\' = exp(u); v\\' = exp(v)'",
+        "reduce" + system + "'u\\' = v; v\\' = -sign(u) - 0.5*sign(v)'"}},
+      {"fit",
+       {"fit " + film + " --ball pool --rolling-friction 0.01",
+        "fit " + spins + " --ball pool --noise spin=1,angle=1"}},
+      {"balls", {"balls"}},
+      {"aim",
+       {"aim --ball pool --distance 1 --turns 3", "aim --ball pool --distance 1 --turns 3 --rolling-friction 0.01"}},
+      {"engine", {"engine --ball pool"}},
+      {"paper", {"paper"}},
+      {"literature", {"literature"}},
+  };
+  auto lists = lists_of_help();
+  const std::vector<std::string> names_of_files = names_in_help("files");  // of a ball
+  CHECK(lists.size() == commands.size());
+  for (const auto& [title, lines] : commands) {
+    INFO(title);
+    REQUIRE(lists.contains(title));
+    const auto& [json, csv, any, parts, own_words] = lists.at(title);
+    Names all_words = own_words;
+    for (const std::string& other : {std::string("stop"), std::string("terminal")}) {
+      if (own_words.contains("as") && own_words.contains(other)) all_words.merge(Names(lists.at(other).words));
+    }
+    all_words.insert(names_of_files.begin(), names_of_files.end());
+    std::vector<std::vector<std::string>> runs;
+    for (const std::string& line : lines) {
+      runs.push_back(words(std::regex_replace(line, std::regex("\\\\'"), "\x01")));
+      for (std::string& word : runs.back()) std::ranges::replace(word, '\x01', '\'');
+    }
+    const std::string table = title == "roll --batch" || lines.size() > 1 ? "mu,u0,v0,slip,spin\n0.3,1,1,1,1\n" : "";
+    const auto& [members, nested, columns] = written_by(runs, table);
+    // Columns that pass through.
+    const Names inputs = title.ends_with("--batch") ? Names{"mu", "u0", "v0", "slip", "spin"} : Names{};
+    for (const std::string& name : members) {
+      INFO("JSON member that help does not list: " << name);
+      CHECK((has(json, name) || has(any, name)));
+    }
+    for (const std::string& name : columns) {
+      INFO("column of CSV that help does not list: " << name);
+      CHECK((has(csv, name) || has(any, name) || parts.contains(name) || inputs.contains(name)));
+    }
+    for (const std::string& name : json) {
+      INFO("listed as JSON alone: " << name);
+      CHECK((members.contains(name) || nested.contains(name)));
+      CHECK((csv.contains(name) || any.contains(name) || !columns.contains(name)));
+    }
+    for (const std::string& name : csv) {
+      INFO("listed as CSV: " << name);
+      CHECK(any_matches(columns, name));
+      CHECK((json.contains(name) || any.contains(name) || !members.contains(name)));
+    }
+    for (const std::string& name : any) {
+      INFO("listed and not written: " << name);
+      CHECK((members.contains(name) || nested.contains(name) || columns.contains(name)));
+    }
+    for (const std::string& name : nested) {
+      INFO("nested in JSON, and no word of help: " << name);
+      CHECK(all_words.contains(name));
+    }
+  }
+}
