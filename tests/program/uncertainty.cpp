@@ -55,11 +55,11 @@ TEST_CASE("the quantiles of one number are the stop times at its quantiles", "[c
   for (const auto& [i, z] : {std::pair{0, 1.959964}, {1, 0.994458}, {2, 0.0}, {3, -0.994458}, {4, -1.959964}}) {
     CHECK(json[static_cast<std::size_t>(i)].at("value").get<double>() == Approx(at(0.1 * (1 + 0.2 * z))).epsilon(4e-3));
   }
-  // A patch of its own in each sample: the table of stop times of any mu, or solutions of some.
+  // A patch of its own in each sample, between solutions of some mu.
   for (const std::string law : {"exact", "ring"}) {
     const std::string start = "--ball pool --slip 2 --spin 30 --law " + law + " --patch-radius ";
     const auto wide = uncertainty(start + "3mm --uncertainty patch-radius=30%");
-    CHECK(wide.at("samples").get<long>() > (law == "ring" ? 99000 : 990000));
+    CHECK(wide.at("samples").get<long>() > 9900);
     for (const auto& [i, z] : {std::pair{1, 0.994458}, {2, 0.0}, {3, -0.994458}}) {
       CHECK(wide.at("quantiles")[static_cast<std::size_t>(i)].at("value").get<double>() ==
             Approx(t_stop(fmt::format("{}{:.17g}", start, 3e-3 * (1 + 0.3 * z)))).epsilon(4e-3));

@@ -36,7 +36,8 @@ constexpr Field<Roll> start_fields[]{
     {"law", "", "name of the law of friction", [](const Roll& roll) -> Json { return roll.law.name(); }},
     {"route", "", "name of the route",
      [](const Roll& roll) -> Json { return roll.integrated || !roll.whole.is_reduced() ? "integrated" : "reduced"; }},
-    {"mu", "", "patch radius over R", [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
+    {"mu", "", "patch radius over R",
+     [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
     {"ball", "", "as of stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
     {"velocity", "m/s", "at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},
@@ -128,6 +129,21 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      [](const Roll& roll) { return roll.uncertainty ? members_of(*roll.uncertainty) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {`standard`, `quantiles` [...], `shares`, ...}, ...}, ...}"},
 };
+
+std::string gradient_text(const si::EventGradient& gradient, const Digits& digits) {
+  std::vector columns(static_cast<std::size_t>(gradient.slopes.cols()) + 1, TextTable::right(digits.width()));
+  columns.front() = TextTable::left(22);
+  TextTable table(columns);
+  std::vector<std::string> heading{"derivatives, SI, by"};
+  for (const si::Component& by : gradient.by) heading.push_back(by.name());
+  table.add(std::move(heading));
+  for (std::size_t i = 0; i < gradient.events.size(); ++i) {
+    std::vector<std::string> line{label_of(gradient.events[i].event, gradient.events[i].of)};
+    for (const double slope : gradient.slopes.row(static_cast<Eigen::Index>(i))) line.push_back(digits(slope));
+    table.add(std::move(line));
+  }
+  return table.text();
+}
 
 std::string heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits) {
   const si::Velocities start = si::velocities_of(experiment.start);
@@ -286,7 +302,7 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
                                                     digits(roll.load->nominal()), digits(roll.load->loads().back()))
                                       : "") +
                            "\n" + events_text(roll, digits) + "\n" +
-                           (roll.gradient ? text_of(*roll.gradient, digits) + "\n" : "") +
+                           (roll.gradient ? gradient_text(*roll.gradient, digits) + "\n" : "") +
                            (roll.uncertainty ? text_of(*roll.uncertainty, digits) + "\n" : "") + ending(roll, digits);
   if (!roll.in_steps) return text;
   const si::Motion& motion = *roll.in_steps;
@@ -304,6 +320,19 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
              "above;\n       it slips {} m and turns {} times, in {} steps\n",
              digits(motion.stop_time()), std::abs(motion.stop_time() - roll.whole.stop_time()),
              digits(motion.slip_length()), digits(motion.turns()), motion.steps());
+}
+
+Json members_of(const si::EventGradient& gradient) {
+  Json members = Json::object();
+  for (std::size_t i = 0; i < gradient.events.size(); ++i) {
+    const auto& [event, of, unit] = gradient.events[i];
+    Json slopes = Json::object();
+    for (std::size_t j = 0; j < gradient.by.size(); ++j)
+      slopes[gradient.by[j].name()] = gradient.slopes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    const std::string name(event);
+    (of.empty() ? members[name] : members[name][std::string(of)]) = slopes;
+  }
+  return members;
 }
 
 std::vector<FieldText> roll_fields() {

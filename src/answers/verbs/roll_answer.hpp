@@ -8,7 +8,8 @@
 
 #include "answers/table/answer.hpp"
 #include "answers/table/record.hpp"
-#include "answers/verbs/roll_uncertainty.hpp"
+#include "answers/verbs/uncertainty.hpp"
+#include "contensou/si/event_gradient.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
@@ -24,7 +25,7 @@ struct Roll {
   si::Motion whole = si::Motion::reduced(experiment, law, load).finite();
   si::Motion textbook = si::Motion::uncoupled(experiment, law, rolling_below, load).finite();
   std::optional<si::Motion> in_steps = integrated ? std::optional(si::Motion::in_steps(experiment, law)) : std::nullopt;
-  std::optional<RollUncertainty> uncertainty = {};
+  std::optional<Uncertainty> uncertainty = {};
   std::optional<si::EventGradient> gradient = {};
   std::optional<double> tip = {};  ///< of a stroke of a cue: radii above the centre
 
@@ -49,5 +50,8 @@ std::string roll_text(const Roll& roll, const Digits& digits);
 
 /// The fields of that answer.
 std::vector<FieldText> roll_fields();
+
+/// {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}, by the names of components.
+Json members_of(const si::EventGradient& gradient);
 
 }  // namespace contensou::answers

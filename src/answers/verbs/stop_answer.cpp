@@ -219,7 +219,7 @@ constexpr Field<StopReport> fields[]{
      "samples; first_order_holds: whether the two agree; outside: the share of samples that no ball can be",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};
-       Json members = members_of(static_cast<const KnownTo&>(*r.uncertainty));
+       Json members = members_of(r.uncertainty->parts.front().known);
        members.update({{"samples", r.uncertainty->samples}, {"outside", r.uncertainty->outside}});
        return members;
      },
@@ -430,9 +430,7 @@ class Text {
 
   std::string uncertainty() const {
     if (!report_.uncertainty) return "";
-    const auto& [standard, shares, quantiles, holds] = static_cast<const KnownTo&>(*report_.uncertainty);
-    const long samples = report_.uncertainty->samples;
-    const double outside = report_.uncertainty->outside;
+    const auto& [standard, shares, quantiles, holds] = report_.uncertainty->parts.front().known;
     const char* const unit = report_.start.experiment ? " s" : "";
     std::string text = fmt::format("known to +-{}{}, one standard deviation, to first order", number_(standard), unit);
     if (shares.size() > 1) {
@@ -445,15 +443,10 @@ class Text {
       constexpr double rounding = 1e-9;
       if (std::abs(alone - standard) > rounding * standard) text += ", correlated";
     }
-    text += fmt::format("\n{} samples: 95 % from {} to {}{}, 68 % from {} to {}{}, median {}{}\n", samples,
-                        number_(quantiles[0]), number_(quantiles[4]), unit, number_(quantiles[1]),
-                        number_(quantiles[3]), unit, number_(quantiles[2]), unit);
-    if (!holds)
-      text += "the first order does not do here: it is off by more than a tenth of itself; take the samples\n";
-    if (outside > 0) {
-      text += fmt::format("{:.2g} % of the samples were left out: no ball has such numbers\n", 100 * outside);
-    }
-    return text + "\n";
+    text += fmt::format("\n{} samples: 95 % from {} to {}{}, 68 % from {} to {}{}, median {}{}\n",
+                        report_.uncertainty->samples, number_(quantiles[0]), number_(quantiles[4]), unit,
+                        number_(quantiles[1]), number_(quantiles[3]), unit, number_(quantiles[2]), unit);
+    return text + remarks_on(*report_.uncertainty) + "\n";
   }
 
   std::string methods() const {
@@ -524,7 +517,7 @@ reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
 std::vector<FieldText> stop_fields() { return texts_of(fields); }
 
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient,
-                   const std::optional<Spreads>& uncertain, const std::optional<si::LoadHistory>& load) {
+                   const std::optional<Uncertainty>& uncertainty, const std::optional<si::LoadHistory>& load) {
   using Estimates = std::vector<reduction::StopEstimate>;
   const auto& [system, state, experiment, motion] = start;
   const auto pieces = start.pieces();
@@ -540,22 +533,11 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
     if (gradient)
       throw BadInput("--gradient is of one orbit, and this motion with rolling friction is several: leave it out");
   }
-  if (uncertain && (system.drive() > 0 || (experiment && si::is_driven(*experiment)))) {
-    throw BadInput(
-        "--uncertainty is of a motion without rolling friction, slope and drive: leave it out, or take "
-        "'contensou roll --uncertainty', which has t_stop with rolling friction and on a slope");
-  }
-  if (uncertain && start.at_rest()) throw BadInput("--uncertainty is of a motion, and this is rest: leave it out");
   const bool stepped = route == reduction::Route::regularised || route == reduction::Route::direct;
   std::optional<reduction::Flow> flow;
-  if (!stepped || experiment || gradient || uncertain) flow = start.flow(route == reduction::Route::quadrature);
+  if (!stepped || experiment || gradient) flow = start.flow(route == reduction::Route::quadrature);
   GivenStart moves = start;
   if (experiment && !si::is_driven(*experiment)) moves.motion = si::Motion::reduced(*experiment, *flow, load);
-  std::optional<Uncertainty> uncertainty;
-  if (uncertain) {
-    const reduction::StopTimeGradient by = flow->stop_time_gradient(state);
-    uncertainty = uncertainty_of(start, *uncertain, experiment ? si::seconds(*experiment, by.tau) : by.tau, by);
-  }
   const StopReport report{moves,
                           route,
                           pieces.size() > 1 ? in_pieces(pieces)

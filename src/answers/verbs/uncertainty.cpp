@@ -4,183 +4,71 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numbers>
+#include <map>
 #include <optional>
-#include <random>
-#include <ranges>
 #include <stdexcept>
-#include <utility>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <Eigen/Eigenvalues>
+#include <boost/math/special_functions/erf.hpp>
 
 #include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
-#include "contensou/reduction/stop_times_of_mu.hpp"
-#include "contensou/si/description.hpp"
+#include "answers/table/text_table.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/stop_time_gradient.hpp"
+#include "contensou/si/event_gradient.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::answers {
 
+using Eigen::Index;
+using Eigen::VectorXd;
+
 namespace {
 
-/// The quantities of a ball that a stop time goes with by powers, and that it is given by. Those of the start are in them.
-std::vector<std::pair<const si::Quantity*, double>> numbers_of(const si::Experiment& experiment) {
-  std::vector<std::pair<const si::Quantity*, double>> all;
-  for (const auto& [quantity, values] : si::given_by(experiment)) {
-    const bool other = quantity == &si::inertia_factor || quantity == &si::counter_radius || values.size() != 1;
-    if (!other && quantity->section != si::slip.section) all.emplace_back(quantity, values[0]);
-  }
-  all.emplace_back(&si::slip, si::slip_at_start(experiment));
-  all.emplace_back(&si::spin, si::spin_at_start(experiment));
-  return all;
-}
-
-/// A number of a start of which stop times go by powers. Radius, friction, a patch and all else act so: time, u, v and mu
-/// go like the number to so much.
-struct Powers {
-  double of_time = 0, of_u = 0, of_v = 0, of_mu = 0;
+/// A number of a start that is known to so much.
+struct Spread {
+  std::string name;
+  double value;
+  double standard = 0;  ///< standard deviation of value, in its unit
 };
 
-/// The powers with which a quantity acts, from the experiment with a little less of it: they are exact, since mu and the
-/// unit of time are products of powers of what they are given by.
-Powers powers_of(const Spread& number, const GivenStart& start) {
-  if (number.name == si::slip.name || number.name == "v0") return {.of_v = 1};
-  if (number.name == si::spin.name || number.name == "u0") return {.of_u = 1};
-  if (!start.experiment) return {.of_mu = 1};
-  constexpr double less = 0.875;
-  const si::Experiment& experiment = *start.experiment;
-  si::Description described = si::describe(experiment);
-  described.set(*si::find_component(number.name)->quantity, {number.value * less}, {"", number.name, ""});
-  const si::Experiment changed = si::experiment_of(described);
-  const auto power = [&](double now, double before) { return std::log(now / before) / std::log(less); };
-  return {.of_time = power(si::seconds(changed, 1), si::seconds(experiment, 1)),
-          .of_u = power(changed.ball.radius, experiment.ball.radius),
-          .of_mu = power(si::patch_ratio(changed, start.system.law()), start.system.mu())};
-}
+/// A number that may be given a spread.
+struct Spreadable {
+  Spread number;
+  std::string_view unit;         ///< as of a Quantity
+  std::string_view corner = {};  ///< what has a corner, and so no first order, where it is 0; empty: nothing
+};
 
-/// What a ball is known to, by slip and spin where its start is given by velocities.
-si::Spreads of_slip_and_spin(const si::Experiment& experiment) {
-  const si::Spreads& own = experiment.spreads;
-  const Eigen::Vector2d along = si::slip_velocity_at_start(experiment).stableNormalized();
-  const double radius = experiment.ball.radius;
-  std::vector<si::Component> named;
-  for (const auto& [of, standard] : own.numbers) {
-    if (of.quantity->section != si::slip.section) named.push_back(of);
+/// Numbers that are known to so much, and how their errors go together.
+struct Spreads {
+  std::vector<Spread> numbers;
+  Eigen::MatrixXd correlation;  ///< 1 on the diagonal
+
+  /// The standard deviation of a sum of the numbers, each times what is given here over its own.
+  double standard_of(const Eigen::VectorXd& shares) const {
+    const double largest = shares.size() > 0 ? shares.cwiseAbs().maxCoeff() : 0;
+    if (!(largest > 0)) return 0;
+    const Eigen::VectorXd unit = shares / largest;  // its squares are doubles still
+    return largest * std::sqrt(std::max(0.0, unit.dot(correlation * unit)));
   }
-  named.insert(named.end(), {{&si::slip, 0}, {&si::spin, 0}});
-  const auto last = static_cast<Eigen::Index>(named.size()) - 1;
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(last + 1, static_cast<Eigen::Index>(own.numbers.size()));
-  for (Eigen::Index i = 0; i < slopes.cols(); ++i) {
-    const auto& [quantity, index] = own.numbers[static_cast<std::size_t>(i)].of;
-    const auto found = std::ranges::find(named, si::Component{quantity, index});
-    if (found != named.end()) {
-      slopes(found - named.begin(), i) = 1;
-    } else if (quantity == &si::velocity) {
-      slopes(last - 1, i) = along[static_cast<Eigen::Index>(index)];
-    } else {
-      const double by[]{radius * along.y(), -radius * along.x(), 1};
-      slopes(index == 2 ? last : last - 1, i) = by[index];
-    }
-  }
-  return si::spreads_of(slopes * own.covariance() * slopes.transpose(), named);
-}
+};
 
 std::string key(std::string name) {
   std::ranges::replace(name, '-', '_');
   return name;
 }
 
-/// Standard normal numbers, the same on every machine: Box and Muller, from Mersenne's twister.
-class Normal {
- public:
-  double operator()() {
-    if (has_second_) {
-      has_second_ = false;
-      return second_;
-    }
-    const double radius = std::sqrt(-2 * std::log(uniform())), angle = 2 * std::numbers::pi * uniform();
-    second_ = radius * std::sin(angle);
-    has_second_ = true;
-    return radius * std::cos(angle);
-  }
-
- private:
-  double uniform() { return (static_cast<double>(twister_() >> 11) + 0.5) * 0x1p-53; }
-
-  std::mt19937_64 twister_{20260317};
-  double second_ = 0;
-  bool has_second_ = false;
-};
-
-}  // namespace
-
-Sampled sample(const Spreads& spreads, long wanted, const std::function<bool(const Eigen::VectorXd& numbers)>& take) {
-  const auto count = static_cast<Eigen::Index>(spreads.numbers.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spreads.correlation);
-  const Eigen::MatrixXd root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-                               solver.eigenvectors().transpose();
-  Eigen::VectorXd values(count), standard(count), drawn(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    values[i] = spreads.numbers[static_cast<std::size_t>(i)].value;
-    standard[i] = spreads.numbers[static_cast<std::size_t>(i)].standard;
-  }
-  Normal normal;
-  Sampled sampled;
-  for (long i = 0; i < wanted; ++i) {
-    for (double& each : drawn) each = normal();
-    if (take(values + standard.cwiseProduct(root * drawn))) ++sampled.samples;
-  }
-  if (sampled.samples == 0) throw BadInput("no sample of these spreads is a start: make them smaller");
-  sampled.outside = 1 - static_cast<double>(sampled.samples) / static_cast<double>(wanted);
-  return sampled;
-}
-
-const reduction::Flow& FlowsOfMu::at(long steps) {
-  auto found = flows_.find(steps);
-  if (found == flows_.end()) {
-    const double mu = system_.mu() * std::exp(step_ * static_cast<double>(steps));
-    const reduction::Flow made(reduction::ReducedSystem(system_.law(), mu, system_.inertia(), system_.drive()));
-    found = flows_.emplace(steps, made).first;
-  }
-  return found->second;
-}
-
-void KnownTo::set_shares(const Spreads& spreads, const Eigen::VectorXd& share) {
-  for (Eigen::Index i = 0; i < share.size(); ++i)
-    shares.emplace_back(spreads.numbers[static_cast<std::size_t>(i)].name, share[i]);
-  standard = spreads.standard_of(share);
-}
-
-void KnownTo::compare(double value, std::vector<double> samples) {
-  for (std::size_t i = 0; i < quantiles.size(); ++i) {
-    const double p = probabilities[i];
-    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(samples.size() - 1));
-    std::ranges::nth_element(samples, at);
-    quantiles[i] = *at;
-    constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.994457883209753, 0, 0.994457883209753,
-                                                     1.959963984540054};
-    // What quantiles of so many normal numbers are off by, four times.
-    const double density = std::exp(-normal_quantiles[i] * normal_quantiles[i] / 2) / std::sqrt(2 * std::numbers::pi);
-    const double by_chance = 4 * std::sqrt(p * (1 - p) / static_cast<double>(samples.size())) / density;
-    constexpr double rounding = 1e-12;
-    const double allowed = std::max(0.1, by_chance) * standard + rounding * std::abs(value);
-    if (std::abs(*at - (value + normal_quantiles[i] * standard)) > allowed) holds = false;
-  }
-}
-
-Json members_of(const KnownTo& known) {
-  Json quantiles = Json::array(), shares = Json::object();
-  for (std::size_t i = 0; i < known.quantiles.size(); ++i)
-    quantiles.push_back({{"probability", KnownTo::probabilities[i]}, {"value", known.quantiles[i]}});
-  for (const auto& [name, share] : known.shares) shares[name] = share;
-  return {
-      {"standard", known.standard}, {"quantiles", quantiles}, {"shares", shares}, {"first_order_holds", known.holds}};
-}
-
+/// Reads "slip=1%, spin=2 rad/s, ...". A % is of the value. "fit" is what the ball itself is known to, which numbers that are
+/// named beside it replace: those are independent of the others.
+/// @param known  by their names, with an underscore
+/// @param own    of the ball
+/// @throws BadInput  naming what is wrong, what is allowed, and for a value that is 0: there may be a corner
 Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& known, const si::Spreads& own) {
   std::vector<std::string> names;
   for (const Spreadable& each : known) names.push_back(each.number.name);
@@ -254,76 +142,307 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-Spreads read_uncertain(const std::string& typed, const GivenStart& start) {
-  constexpr std::string_view corner = "the stop time has a corner";
-  if (!start.experiment) {
-    const std::vector<Spreadable> known{
-        {{"u0", start.state.u}, "", corner}, {{"v0", start.state.v}, "", corner}, {{"mu", start.system.mu()}, ""}};
-    return read_spreads(typed, known, {});
+/// Solutions of one system but for its mu: of those a step of ln mu apart, and linear between two of them.
+class FlowsOfMu {
+ public:
+  /// @param step  of ln mu, an eighth of what it is known to leaves 1e-3 of a standard deviation; 0: mu is always the same
+  FlowsOfMu(const reduction::ReducedSystem& system, double step) : system_(system), step_(step) {}
+
+  VectorXd operator()(double mu, const std::function<VectorXd(const reduction::Flow&)>& value) {
+    const double steps = step_ > 0 ? std::log(mu / system_.mu()) / step_ : 0, before = std::floor(steps);
+    const double beyond = steps - before;
+    VectorXd result = value(at(static_cast<long>(before)));
+    if (beyond > 0) result = (1 - beyond) * result + beyond * value(at(static_cast<long>(before) + 1));
+    return result;
   }
-  std::vector<Spreadable> known;
-  for (const auto& [quantity, value] : numbers_of(*start.experiment))
-    known.push_back({{std::string(quantity->name), value}, quantity->unit, corner});
-  return read_spreads(typed, known, of_slip_and_spin(*start.experiment));
+
+ private:
+  const reduction::Flow& at(long steps) {
+    const auto found = flows_.find(steps);
+    if (found != flows_.end()) return found->second;
+    const double mu = system_.mu() * std::exp(step_ * static_cast<double>(steps));
+    const reduction::ReducedSystem system(system_.law(), mu, system_.inertia(), system_.drive());
+    return flows_.emplace(steps, reduction::Flow(system)).first->second;
+  }
+
+  reduction::ReducedSystem system_;
+  double step_;
+  std::map<long, reduction::Flow> flows_;
+};
+
+/// Numbers of events that follow from others, which have spreads.
+struct Varied {
+  /// Some of the numbers, by their places, and values for them.
+  using Places = std::vector<std::size_t>;
+
+  std::vector<Spreadable> numbers;       ///< all that may have a spread
+  std::vector<Uncertainty::Part> parts;  ///< not known yet
+  reduction::ReducedSystem system;
+  long samples;
+  /// The derivatives of all parts by a number; none where they have a corner.
+  std::function<std::optional<VectorXd>(std::size_t place)> slopes;
+  /// mu at other values, and the parts there.
+  /// @throws std::domain_error  if there is no such start
+  std::function<double(const Places&, const VectorXd& values)> mu;
+  std::function<VectorXd(const Places&, const VectorXd& values, FlowsOfMu&)> at;
+};
+
+/// Standard normal numbers at a point of a lattice, which fills the space more evenly than random numbers: fractions of
+/// multiples of powers of 1/x, x^(n + 1) = x + 1.
+/// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+VectorXd normal_numbers(Index count, long point) {
+  double x = 2;
+  for (int i = 0; i < 30; ++i) x = std::pow(1 + x, 1 / static_cast<double>(count + 1));
+  VectorXd numbers(count);
+  double step = static_cast<double>(point);
+  for (double& number : numbers) {
+    step /= x;
+    number = std::sqrt(2.0) * boost::math::erf_inv(2 * (0.5 + step - std::floor(0.5 + step)) - 1);
+  }
+  return numbers;
 }
 
-Uncertainty uncertainty_of(const GivenStart& start, const Spreads& spreads, double stop,
-                           const reduction::StopTimeGradient& gradient) {
-  const reduction::ReducedSystem& system = start.system;
-  const double by_u = start.state.u * gradient.by_u / gradient.tau, by_v = start.state.v * gradient.by_v / gradient.tau;
-  const double by_mu = system.mu() * gradient.by_mu / gradient.tau;
-  const auto count = static_cast<Eigen::Index>(spreads.numbers.size());
-  std::vector<Powers> powers;
-  Eigen::VectorXd shares(count), mu_shares(count);
-  for (const Spread& number : spreads.numbers) {
-    const auto& [of_time, of_u, of_v, of_mu] = powers.emplace_back(powers_of(number, start));
-    const double relative = number.standard / number.value;
-    const auto place = static_cast<Eigen::Index>(powers.size()) - 1;
-    shares[place] = stop * (of_time + of_u * by_u + of_v * by_v + of_mu * by_mu) * relative;
-    mu_shares[place] = of_mu * relative;
-  }
-  Uncertainty result;
-  result.set_shares(spreads, shares);
+/// Of a standard normal number, at KnownTo::probabilities.
+constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.994457883209753, 0, 0.994457883209753,
+                                                 1.959963984540054};
 
-  const bool one_mu = std::ranges::all_of(powers, [](const Powers& each) { return each.of_mu == 0; });
-  std::optional<reduction::StopTimesOfMu> stop_times;
-  if (!one_mu) stop_times.emplace(system.law(), system.inertia());
-  constexpr double few_refused = 0.05;
-  const double max_mu = std::sqrt(reduction::StopTimesOfMu::max_r * system.inertia().chi / system.inertia().gamma);
-  const bool fast = one_mu || (stop_times->refused() < few_refused && system.mu() < max_mu);
-  FlowsOfMu flows(system, spreads.standard_of(mu_shares) / 8);
-  const auto tau_of = [&](double mu, reduction::State state) {
-    if (fast) return (*stop_times)(mu, state);
-    return flows(mu, [&](const reduction::Flow& flow) { return flow.stop_time(state).tau; });
-  };
-  const double unit = stop / gradient.tau;
-  const bool rolls = start.experiment && !start.experiment->ball.body.lies_flat();
-  std::vector<double> u, v, samples;
-  static_cast<Sampled&>(result) = sample(spreads, fast ? 1'000'000 : 100'000, [&](const Eigen::VectorXd& numbers) {
-    double ln_time = 0, ln_u = 0, ln_v = 0, ln_mu = 0;
-    for (std::size_t i = 0; i < powers.size(); ++i) {
-      const auto& [name, value, standard] = spreads.numbers[i];
-      const double factor = numbers[static_cast<Eigen::Index>(i)] / value;
-      const bool either_sign = name == si::spin.name || name == "u0";
-      if (!(factor > 0 || either_sign)) return false;
-      const double ln = std::log(std::abs(factor));
-      const auto& [of_time, of_u, of_v, of_mu] = powers[i];
-      ln_time += of_time * ln, ln_u += of_u * ln, ln_v += of_v * ln, ln_mu += of_mu * ln;
-    }
-    const double mu = system.mu() * std::exp(ln_mu);
-    if (rolls && mu > 1) return false;
-    u.push_back(start.state.u * std::exp(ln_u));
-    v.push_back(start.state.v * std::exp(ln_v));
-    samples.push_back(unit * std::exp(ln_time) * (one_mu ? 1 : tau_of(mu, {u.back(), v.back()})));
-    return true;
-  });
-  if (one_mu) {
-    std::vector<double> tau(u.size());
-    reduction::Flow(system).stop_times(u, v, tau);
-    std::ranges::transform(samples, tau, samples.begin(), std::multiplies());
+/// @param samples  of the part, one or more
+/// @param below    shares of all samples whose first order is below its own quantiles; the quantiles of the part have
+///                 these places in the order of its samples, which takes most of the samples' own error away
+void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const Eigen::ArrayXd& below) {
+  KnownTo& known = part.known;
+  constexpr double rounding = 1e-12;
+  for (std::size_t i = 0; i < known.quantiles.size(); ++i) {
+    const double share = known.standard > 0 ? below[static_cast<Index>(i)] : KnownTo::probabilities[i];
+    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
+    std::ranges::nth_element(samples, at);
+    known.quantiles[i] = *at;
+    const double off = *at - (part.value + normal_quantiles[i] * known.standard);
+    if (std::abs(off) > 0.1 * known.standard + rounding * std::abs(part.value)) known.holds = false;
   }
-  result.compare(stop, std::move(samples));
+}
+
+/// @throws BadInput  where a number has a corner, and if no sample is a start
+Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::string_view corner) {
+  Uncertainty result{varied.parts};
+  const auto count = static_cast<Index>(spreads.numbers.size()), parts = static_cast<Index>(result.parts.size());
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(parts, count);
+  VectorXd values(count), standards(count), mu_shares = VectorXd::Zero(count);
+  Varied::Places places;
+  for (Index i = 0; i < count; ++i) {
+    const auto& [name, value, standard] = spreads.numbers[static_cast<std::size_t>(i)];
+    const auto found = std::ranges::find(varied.numbers, name, [](const Spreadable& each) { return each.number.name; });
+    const std::size_t place = places.emplace_back(found - varied.numbers.begin());
+    values[i] = value;
+    standards[i] = standard;
+    if (standard == 0) continue;
+    const auto slopes = varied.slopes(place);
+    if (!slopes)
+      throw BadInput(fmt::format("{} is {}, where {} and no first order: leave it out", name, value, corner));
+    shares.col(i) = standard * *slopes;
+    // The change of mu needs to be known to an eighth only.
+    constexpr double step = 1e-3;
+    const double more = value + step * (value == 0 ? standard : std::abs(value));
+    const double beside = varied.mu({place}, VectorXd::Constant(1, more));
+    mu_shares[i] = std::log(beside / varied.system.mu()) / (more - value) * standard;
+  }
+  for (Index j = 0; j < parts; ++j) {
+    KnownTo& known = result.parts[static_cast<std::size_t>(j)].known;
+    known.standard = spreads.standard_of(shares.row(j));
+    for (Index i = 0; i < count; ++i)
+      known.shares.emplace_back(spreads.numbers[static_cast<std::size_t>(i)].name, shares(j, i));
+  }
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spreads.correlation);
+  const Eigen::MatrixXd root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+                               solver.eigenvectors().transpose();
+  FlowsOfMu flows(varied.system, spreads.standard_of(mu_shares) / 8);
+  std::vector<std::vector<double>> samples(result.parts.size());
+  Eigen::ArrayXXd below = Eigen::ArrayXXd::Zero(parts, static_cast<Index>(normal_quantiles.size()));
+  for (long i = 0; i < varied.samples; ++i) {
+    const VectorXd errors = root * normal_numbers(count, i);
+    const VectorXd to_first_order = shares * errors;
+    for (Index j = 0; j < parts; ++j) {
+      const double standard = result.parts[static_cast<std::size_t>(j)].known.standard;
+      for (Index k = 0; k < below.cols(); ++k)
+        below(j, k) += to_first_order[j] <= normal_quantiles[static_cast<std::size_t>(k)] * standard ? 1 : 0;
+    }
+    try {
+      const VectorXd there = varied.at(places, values + standards.cwiseProduct(errors), flows);
+      for (std::size_t j = 0; j < samples.size(); ++j) samples[j].push_back(there[static_cast<Index>(j)]);
+      ++result.samples;
+    } catch (const std::domain_error&) {
+      // no start has such numbers
+    }
+  }
+  if (result.samples == 0) throw BadInput("no sample of these spreads is a start: make them smaller");
+  result.outside = 1 - static_cast<double>(result.samples) / static_cast<double>(varied.samples);
+  below /= static_cast<double>(varied.samples);
+  for (std::size_t j = 0; j < samples.size(); ++j)
+    set_quantiles(result.parts[j], samples[j], below.row(static_cast<Index>(j)));
   return result;
+}
+
+/// @param rolling_below  as of si::EventNumbers
+Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction::Law& law,
+                              std::optional<double> rolling_below, const std::string& typed, std::string_view corner) {
+  std::optional<si::EventNumbers> made;
+  try {
+    made.emplace(experiment, law, rolling_below);
+  } catch (const std::domain_error& error) {
+    throw BadInput(fmt::format("{}: leave it out", error.what()));
+  }
+  const si::EventNumbers& events = *made;
+  const auto moved = [&](const Varied::Places& places, const VectorXd& values) {
+    std::vector<si::Component> components;
+    for (const std::size_t place : places) components.push_back(events.components()[place]);
+    return events.with(components, values);
+  };
+  Varied varied{
+      .numbers = {},
+      .parts = {},
+      .system = si::undriven_system(experiment, law),
+      .samples = events.resisted() ? 1'000 : 10'000,  // with a drive each has solutions of its own
+      .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
+      .mu = [&](const auto& places, const VectorXd& values) { return si::patch_ratio(moved(places, values), law); },
+      .at =
+          [&](const auto& places, const VectorXd& values, FlowsOfMu& flows) {
+            const si::Experiment other = moved(places, values);
+            return events.resisted() ? events.of(other)
+                                     : flows(si::patch_ratio(other, law), [&](const reduction::Flow& flow) -> VectorXd {
+                                         return events.of(other, flow);
+                                       });
+          }};
+  for (const si::Component& each : events.components()) {
+    const bool vector = each.quantity->count() > 1, about_vertical = each.name() == "wz";
+    varied.numbers.push_back({{each.name(), events.value(each)},
+                              each.quantity->unit,
+                              !vector || about_vertical ? corner : std::string_view()});
+  }
+  for (const auto& [event, of, unit] : events.names()) {
+    varied.parts.push_back({std::string(event), std::string(of), std::string(unit),
+                            events.values()[static_cast<Index>(varied.parts.size())]});
+  }
+  return uncertainty_of(varied, read_spreads(typed, varied.numbers, experiment.spreads), corner);
+}
+
+/// What a ball is known to, by slip and spin where its start is given by velocities.
+si::Spreads of_slip_and_spin(const si::Experiment& experiment) {
+  const si::Spreads& own = experiment.spreads;
+  const Eigen::Vector2d along = si::slip_velocity_at_start(experiment).stableNormalized();
+  const double radius = experiment.ball.radius;
+  std::vector<si::Component> named;
+  for (const auto& [of, standard] : own.numbers) {
+    if (of.quantity->section != si::slip.section) named.push_back(of);
+  }
+  named.insert(named.end(), {{&si::slip, 0}, {&si::spin, 0}});
+  const auto last = static_cast<Eigen::Index>(named.size()) - 1;
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(last + 1, static_cast<Eigen::Index>(own.numbers.size()));
+  for (Eigen::Index i = 0; i < slopes.cols(); ++i) {
+    const auto& [quantity, index] = own.numbers[static_cast<std::size_t>(i)].of;
+    const auto found = std::ranges::find(named, si::Component{quantity, index});
+    if (found != named.end()) {
+      slopes(found - named.begin(), i) = 1;
+    } else if (quantity == &si::velocity) {
+      slopes(last - 1, i) = along[static_cast<Eigen::Index>(index)];
+    } else {
+      const double by[]{radius * along.y(), -radius * along.x(), 1};
+      slopes(index == 2 ? last : last - 1, i) = by[index];
+    }
+  }
+  return si::spreads_of(slopes * own.covariance() * slopes.transpose(), named);
+}
+
+}  // namespace
+
+std::string label_of(std::string_view event, std::string_view of) {
+  std::string label = of.empty() ? std::string(event) : fmt::format("{} {}", event, of);
+  std::ranges::replace(label, '_', ' ');
+  return label;
+}
+
+Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
+                             const std::string& typed) {
+  Uncertainty result = event_uncertainty(experiment, law, rolling_below, typed, "the events have a corner");
+  if (si::spin_at_start(experiment) == 0)
+    std::erase_if(result.parts, [](const auto& part) { return part.event == "spin_ends" || part.event == "turns"; });
+  return result;
+}
+
+Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed) {
+  constexpr std::string_view corner = "the stop time has a corner";
+  const auto& [system, state, given, motion] = start;
+  if (given) {
+    si::Experiment experiment = *given;
+    experiment.spreads = of_slip_and_spin(experiment);
+    experiment.start = si::SlipAndSpin{si::slip_at_start(*given), si::spin_at_start(*given)};
+    return event_uncertainty(experiment, system.law(), {}, typed, corner);
+  }
+  if (start.at_rest()) throw BadInput("it is of a motion, and this is rest: leave it out");
+  const reduction::StopTimeGradient by = start.flow().stop_time_gradient(state);
+  const Varied varied{
+      .numbers = {{{"u0", state.u}, "", corner}, {{"v0", state.v}, "", corner}, {{"mu", system.mu()}, ""}},
+      .parts = {{"t_stop", "", "", by.tau}},
+      .system = system,
+      .samples = 10'000,
+      .slopes = [&](std::size_t place) -> std::optional<VectorXd> {
+        return VectorXd::Constant(1, std::array{by.by_u, by.by_v, by.by_mu}[place]);
+      },
+      .mu = [&](const auto& places, const VectorXd& values) { return places[0] == 2 ? values[0] : system.mu(); },
+      .at =
+          [&](const auto& places, const VectorXd& values, FlowsOfMu& flows) {
+            std::array numbers{state.u, state.v, system.mu()};
+            for (std::size_t i = 0; i < places.size(); ++i) numbers[places[i]] = values[static_cast<Index>(i)];
+            const auto [u, v, mu] = numbers;
+            if (!(mu > 0 && v >= 0)) throw std::domain_error("no such start");
+            return flows(mu, [u = u, v = v](const reduction::Flow& flow) -> VectorXd {
+              return VectorXd::Constant(1, flow.stop_time({u, v}).tau);
+            });
+          }};
+  return uncertainty_of(varied, read_spreads(typed, varied.numbers, {}), corner);
+}
+
+Json members_of(const KnownTo& known) {
+  Json quantiles = Json::array(), shares = Json::object();
+  for (std::size_t i = 0; i < known.quantiles.size(); ++i)
+    quantiles.push_back({{"probability", KnownTo::probabilities[i]}, {"value", known.quantiles[i]}});
+  for (const auto& [name, share] : known.shares) shares[name] = share;
+  return {
+      {"standard", known.standard}, {"quantiles", quantiles}, {"shares", shares}, {"first_order_holds", known.holds}};
+}
+
+Json members_of(const Uncertainty& uncertainty) {
+  Json members = Json::object();
+  for (const auto& [event, of, unit, value, known] : uncertainty.parts)
+    (of.empty() ? members[event] : members[event][of]) = members_of(known);
+  members.update({{"samples", uncertainty.samples}, {"outside", uncertainty.outside}});
+  return members;
+}
+
+std::string remarks_on(const Uncertainty& uncertainty) {
+  std::string text;
+  if (!std::ranges::all_of(uncertainty.parts, [](const auto& part) { return part.known.holds; }))
+    text = "the first order does not do here: it is off by more than a tenth of itself; take the samples\n";
+  if (uncertainty.outside > 0)
+    text += fmt::format("{:.2g} % of the samples were left out: no ball has such numbers\n", 100 * uncertainty.outside);
+  return text;
+}
+
+std::string text_of(const Uncertainty& uncertainty, const Digits& digits) {
+  if (std::ranges::all_of(uncertainty.parts, [](const auto& part) { return part.known.standard == 0; }))
+    return "known to: none of these numbers changes it\n" + remarks_on(uncertainty);
+  const TextTable::Column number = TextTable::right(digits.width());
+  TextTable table({TextTable::left(24), number, number, number, number});
+  table.add({"", "value", "+-", "95 % from", "to"});
+  for (const auto& [event, of, unit, value, known] : uncertainty.parts) {
+    if (known.standard == 0) continue;
+    table.add({label_of(event, of), digits(value), digits(known.standard), digits(known.quantiles.front()),
+               digits(known.quantiles.back()),
+               fmt::format("{}{}{}", unit.empty() ? "" : "  ", unit, known.holds ? "" : "  *")});
+  }
+  const std::string remarks = remarks_on(uncertainty);
+  return fmt::format("known to, one standard deviation to first order; 95 % of {} samples\n{}{}{}", uncertainty.samples,
+                     table.text(), remarks.starts_with("the first") ? "* " : "", remarks);
 }
 
 }  // namespace contensou::answers

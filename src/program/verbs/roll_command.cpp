@@ -205,7 +205,7 @@ class RollCommand final : public Verb {
   }
 
  private:
-  std::optional<RollUncertainty> read_uncertainty(const Roll& roll) const {
+  std::optional<Uncertainty> read_uncertainty(const Roll& roll) const {
     if (!uncertainty_.given()) return std::nullopt;
     if (roll.load) uncertainty_.reject("it is of a constant load: give --load a number");
     if (uncertainty_.text().find("fit") != std::string::npos) start_.tell_spreads_left_out(roll.experiment);

@@ -72,12 +72,12 @@ class StopCommand final : public Verb {
   }
 
  private:
-  std::optional<Spreads> read_uncertainty(const GivenStart& start) const {
+  std::optional<Uncertainty> read_uncertainty(const GivenStart& start) const {
     if (!uncertainty_.given()) return std::nullopt;
     if (start.experiment && uncertainty_.text().find("fit") != std::string::npos)
       start_.tell_spreads_left_out(*start.experiment);
     try {
-      return read_uncertain(uncertainty_.text(), start);
+      return stop_uncertainty(start, uncertainty_.text());
     } catch (const BadInput& error) {
       uncertainty_.reject(error.what());
     }

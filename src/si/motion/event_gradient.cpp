@@ -23,7 +23,7 @@ Experiment without_spreads(Experiment experiment) {
 
 }  // namespace
 
-EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& law, double rolling_below)
+EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& law, std::optional<double> rolling_below)
     : experiment_(without_spreads(experiment)),
       described_(describe(experiment_)),
       law_(law),
@@ -35,10 +35,13 @@ EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& l
   const auto add = [&](const char* event) {
     for (const auto& [of, unit] : {std::pair{"t", "s"}, {"x", "m"}, {"y", "m"}}) names_.push_back({event, of, unit});
   };
-  add(flat ? "rest" : "rolls_after");
-  add("spin_ends");
-  if (!flat && Motion::reduced(experiment_, flow_).finite().rest()) add("rest");
-  names_.insert(names_.end(), {{"slip_length", "", "m"}, {"turns", "", ""}, {"path", "", "m"}, {"t_stop", "", "s"}});
+  if (rolling_below) {
+    add(flat ? "rest" : "rolls_after");
+    add("spin_ends");
+    if (!flat && Motion::reduced(experiment_, flow_).finite().rest()) add("rest");
+    names_.insert(names_.end(), {{"slip_length", "", "m"}, {"turns", "", ""}, {"path", "", "m"}});
+  }
+  names_.push_back({"t_stop", "", "s"});
   for (const Component& each : uncertain_components()) {
     const bool fixed = flat && each.quantity == &angular_velocity && each.index < 2;
     if (described_.find(*each.quantity) && !fixed) components_.push_back(each);
@@ -63,7 +66,8 @@ Experiment EventNumbers::with(const std::vector<Component>& components, const Ve
 
 VectorXd EventNumbers::of(const Experiment& other, const reduction::Flow& flow) const {
   const Motion motion = Motion::reduced(other, flow).finite();
-  const Events events = motion.events(rolling_below_);
+  if (!rolling_below_) return VectorXd::Constant(1, motion.stop_time());
+  const Events events = motion.events(*rolling_below_);
   VectorXd values(static_cast<Index>(names_.size()));
   Index place = 0;
   const auto add = [&](const Event& event) {
@@ -92,7 +96,7 @@ std::optional<VectorXd> EventNumbers::slopes(const Component& by) const {
   // The slip is the length of a vector, with a corner at 0; other components have a corner at 0 of their own. All
   // components that move the slip have another one at the threshold of rolling. Steps must not cross a corner.
   constexpr double share = 1e-3, reach = 2.5 * share;
-  const double beyond = std::abs(slip_speed - (experiment_.ball.body.lies_flat() ? 0 : rolling_below_));
+  const double beyond = std::abs(slip_speed - (experiment_.ball.body.lies_flat() ? 0 : rolling_below_.value_or(0)));
   const double free = std::min(slip_speed, beyond / reach);
   double scale = std::abs(at);
   const auto limit = [&](double slip_by_it, double own) {

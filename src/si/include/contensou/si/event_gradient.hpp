@@ -22,9 +22,10 @@ struct EventNumber {
 /// friction or on a slope rest. Each has time and place. The other numbers are slip length, turns, path and stop time.
 class EventNumbers {
  public:
-  /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment
+  /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment. Empty: the stop time is
+  ///                       the only number
   /// @throws std::domain_error  as Motion::reduced and finite; for a ball at rest
-  EventNumbers(const Experiment& experiment, const reduction::Law& law, double rolling_below);
+  EventNumbers(const Experiment& experiment, const reduction::Law& law, std::optional<double> rolling_below);
 
   const std::vector<EventNumber>& names() const { return names_; }
   const Eigen::VectorXd& values() const { return values_; }
@@ -56,7 +57,7 @@ class EventNumbers {
   Experiment experiment_;
   Description described_;
   reduction::Law law_;
-  double rolling_below_;
+  std::optional<double> rolling_below_;
   reduction::Flow flow_;
   std::vector<EventNumber> names_;
   std::vector<Component> components_;
