@@ -4,11 +4,11 @@
 #include <cmath>
 #include <functional>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "answers/table/text_table.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/pgfplots.hpp"
 #include "contensou/reduction/infinity.hpp"
@@ -17,32 +17,29 @@ namespace contensou::answers {
 
 namespace {
 
-/// A line for the names and one for each row, every cell written by the caller.
-template <class Write>
-std::string table(const std::vector<Column>& columns, std::string_view separator, Write write) {
-  std::string text;
-  for (Eigen::Index row = -1; row < columns.front().values.size(); ++row) {
-    for (const Column& column : columns) {
-      row < 0 ? write(text, column.name) : write(text, column.values[row]);
-      text += &column == &columns.back() ? "\n" : separator;
-    }
-  }
-  return text;
-}
-
 std::string as_text(const std::vector<Column>& columns, Digits digits) {
-  return table(columns, "", [&](std::string& text, const auto& cell) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(cell)>, double>) {
-      fmt::format_to(std::back_inserter(text), "{:>{}.{}g}", cell, digits.width(), digits.count);
-    } else {
-      fmt::format_to(std::back_inserter(text), "{:>{}}", cell, digits.width());
-    }
-  });
+  TextTable table(std::vector(columns.size(), TextTable::right(digits.width())));
+  for (Eigen::Index row = -1; row < columns.front().values.size(); ++row) {
+    std::vector<std::string> cells;
+    for (const Column& column : columns) cells.push_back(row < 0 ? column.name : digits(column.values[row]));
+    table.add(std::move(cells));
+  }
+  return table.text();
 }
 
 std::string as_csv(const std::vector<Column>& columns) {
-  return table(columns, ",",
-               [](std::string& text, const auto& cell) { fmt::format_to(std::back_inserter(text), "{}", cell); });
+  std::string text;
+  for (Eigen::Index row = -1; row < columns.front().values.size(); ++row) {
+    for (const Column& column : columns) {
+      if (row < 0) {
+        text += column.name;
+      } else {
+        fmt::format_to(std::back_inserter(text), "{}", column.values[row]);
+      }
+      text += &column == &columns.back() ? '\n' : ',';
+    }
+  }
+  return text;
 }
 
 void append_fields(const Json& row, std::vector<std::string>& names, std::vector<std::string>& values) {

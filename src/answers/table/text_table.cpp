@@ -11,7 +11,8 @@ std::string TextTable::text() const {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::size_t gap = columns[i].width > 0 && columns[i].align == '>' && i > 0 ? 2 : 0;
     for (const auto& cells : lines_) {
-      if (i < cells.size()) columns[i].width = std::max(columns[i].width, cells[i].size() + gap);
+      if (i + 1 < cells.size() || (i < cells.size() && columns[i].align == '>'))
+        columns[i].width = std::max(columns[i].width, cells[i].size() + gap);
     }
   }
   std::string text;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "answers/input/parse.hpp"
 #include "answers/table/text_table.hpp"
 
 namespace contensou::answers {
@@ -207,15 +209,13 @@ std::string text_of_all(const Report& report, const Digits& digits) {
       table.text(), explanation);
 }
 
-/// Texts of several lines below a name.
-std::string block(const std::string& label, const std::vector<std::string>& texts) {
-  std::string all;
+/// Texts of several lines beside a name.
+std::string block(std::string label, const std::vector<std::string>& texts) {
+  TextTable table({TextTable::left(10)});
   for (const std::string& text : texts) {
-    all += fmt::format("{:<10}", all.empty() ? label : "");
-    for (char letter : text) all += letter == '\n' ? "\n" + std::string(10, ' ') : std::string(1, letter);
-    all += '\n';
+    for (std::string& line : split(text, '\n')) table.add({std::exchange(label, ""), std::move(line)});
   }
-  return all;
+  return table.text();
 }
 
 std::string text_of(const EngineWithBall& of, const Report& report, const Digits& digits) {

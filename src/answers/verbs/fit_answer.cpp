@@ -154,14 +154,16 @@ std::string noise_of(const fit::Fit& fit, bool planned) {
   const bool some_given = !std::ranges::all_of(fit.noise, &fit::Noise::estimated);
   if (!planned && some_given && fit.degrees_of_freedom > 0)
     text += fmt::format("reduced chi^2 {:.4g}, {} degrees of freedom\n", fit.reduced_chi2(), fit.degrees_of_freedom);
+  TextTable table({TextTable::left(6)});
   for (const fit::Noise& noise : fit.noise) {
     const auto& kind = fit::kind_of(noise.observable);
-    text += fmt::format("{:<6}{} values, sd {:.3g} {}{}\n", kind.name, noise.values, noise.sd, kind.unit,
-                        planned           ? ""
-                        : noise.estimated ? " (estimated)"
-                                          : fmt::format(" (given), residuals {:.3g}", noise.rms));
+    table.add({std::string(kind.name),
+               fmt::format("{} values, sd {:.3g} {}{}", noise.values, noise.sd, kind.unit,
+                           planned           ? ""
+                           : noise.estimated ? " (estimated)"
+                                             : fmt::format(" (given), residuals {:.3g}", noise.rms))});
   }
-  return text;
+  return text + table.text();
 }
 
 std::string ranking_of(const std::vector<fit::Fit>& fits) {

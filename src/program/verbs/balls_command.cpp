@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/table/text_table.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"
@@ -52,13 +53,15 @@ Answer list() {
   Answer answer = answer_of_rows("balls", ball_fields, si::catalogue());
   answer.beside = {"description", "sources"};
   answer.text = [rows = answer.rows](const Digits& digits) {
-    std::string text;
+    TextTable table({TextTable::left(15), TextTable::left(29)});
     for (const Json& ball : rows) {
       const auto word = [&](const char* name) { return ball[name].get<std::string>(); };
-      text += fmt::format("{:<14} {:<29}mu = {}\n", word("name"), word("description"), digits(ball["mu"]));
-      text += help_paragraph(word("sources"), 15);
+      table.add({word("name"), word("description"), "mu = " + digits(ball["mu"])});
+      std::string sources = help_paragraph(word("sources"), 15);
+      sources.pop_back();  // the end of its line
+      table.add({sources});
     }
-    return text;
+    return table.text();
   };
   return answer;
 }

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/table/text_table.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/portraits/paper_figures.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
@@ -137,30 +138,31 @@ void write_files(const Argument& out, const std::vector<File>& files) {
 }
 
 std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits) {
-  const int width = digits.width();
-  std::string text =
-      fmt::format("{:<7}{:<67}{:>{}}{:>{}}  verdict\n", "Zh98", "says", "printed", width, "computed", width);
+  const TextTable::Column number = TextTable::right(digits.width());
+  TextTable table({TextTable::left(7), TextTable::left(67), number, number});
+  table.add({"Zh98", "says", "printed", "computed", "  verdict"});
   std::string_view equation = "none";
   for (const StatementRow& row : rows) {
     const auto& [printed, computed, corrected, verdict] = row.found;
-    const std::string bound = (row.statement.allowed == lower_bound ? ">= " : "") + digits(printed);
-    text +=
-        fmt::format("{:<7}{:<67}{:>{}}{:>{}}  {}{}\n", row.statement.equation == equation ? "" : row.statement.equation,
-                    row.statement.says, bound, width, digits(computed), width, word(verdict),
-                    row.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", word(row.statement.recorded)));
+    table.add(
+        {std::string(row.statement.equation == equation ? "" : row.statement.equation), std::string(row.statement.says),
+         (row.statement.allowed == lower_bound ? ">= " : "") + digits(printed), digits(computed),
+         fmt::format("  {}{}", word(verdict),
+                     row.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", word(row.statement.recorded)))});
     equation = row.statement.equation;
     if (row.correction.empty()) continue;
-    const std::string arrow = "         -> " + row.correction;
-    text += corrected ? fmt::format("{:<74}{:>{}}\n", arrow, digits(*corrected), width) : arrow + "\n";
+    std::vector<std::string> correction{"", "  -> " + row.correction};
+    if (corrected) correction.push_back(digits(*corrected));
+    table.add(std::move(correction));
   }
   const auto count = [&](Verdict verdict) {
     return std::ranges::count_if(rows, [&](const StatementRow& row) { return row.found.verdict == verdict; });
   };
-  return text + fmt::format(
-                    "\nThe plane's statements and Fig. 4 are of the Pade law, as in the paper.\n"
-                    "{} statements: {} hold, {} are errata, {} are false; {} not as recorded\n",
-                    rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
-                    std::ranges::count(rows, false, &StatementRow::as_recorded));
+  return table.text() + fmt::format(
+                            "\nThe plane's statements and Fig. 4 are of the Pade law, as in the paper.\n"
+                            "{} statements: {} hold, {} are errata, {} are false; {} not as recorded\n",
+                            rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
+                            std::ranges::count(rows, false, &StatementRow::as_recorded));
 }
 
 std::vector<FieldText> paper_texts() { return texts_of_rows("claims", statement_fields); }
