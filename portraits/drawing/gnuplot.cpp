@@ -135,9 +135,17 @@ std::string quoted(const std::string& text) {
   using nlohmann::json;
   const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
   std::string result = "'";
+  char last = 0;
   for (char c : valid) {
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    // Two quotes stand for one. Gnuplot 5.4 does not read two of those in a row.
+    if (c == '\'' && last == c) {
+      result += "' . \"'\" . '";
+    } else if (c == '\'') {
+      result += "''";
+    } else {
+      result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    }
+    last = c;
   }
   return result + '\'';
 }

@@ -215,6 +215,13 @@ TEST_CASE("What gnuplot warns of is shown", "[domain]") {
   CHECK(shown.str() == "contensou: gnuplot drew the picture and said\n  line 3: warning: no such font\n");
 }
 
+TEST_CASE("two quotes in a row are drawn", "[domain]") {
+  portraits::Figure figure = sample();
+  figure.title = "x'' = y''' + 'z'";
+  CHECK(portraits::gnuplot_script(figure).find("x''' . \"'\" . ' = y") != std::string::npos);
+  CHECK(portraits::render(figure, PictureFormat::svg).find("<svg") != std::string::npos);
+}
+
 TEST_CASE("Text is data: nothing in it is run, and it cannot end its line", "[domain]") {
   portraits::Figure figure = sample();
   figure.title = "a`touch pwned`b\n!touch pwned\nquote ' and \" $(touch pwned)";
