@@ -51,7 +51,7 @@ class Sampler {
     try {
       const Vector2d value = field_(x);
       if (value.allFinite()) return value / value_;
-      remember(fmt::format("f({}, {}) = ({}, {})", x[0], x[1], value[0], value[1]));
+      remember(fmt::format("the field has no value at ({}, {})", x[0], x[1]));
     } catch (const std::exception& failure) {
       remember(failure.what());
     }

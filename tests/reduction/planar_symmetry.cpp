@@ -168,7 +168,8 @@ TEST_CASE("fields without values", "[planar][domain]") {
   const PlanarField friction = planar_field({PadeLaw{}, 0.3});
   CHECK_THROWS_WITH(symmetries([](const Vector2d&) -> Vector2d { throw std::runtime_error("no u here"); }),
                     Contains("0 of 128 points") && Contains("no u here"));
-  CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(not_a_number, 0); }), Contains("= (nan, 0)"));
+  CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(not_a_number, 0); }),
+                    Contains("the field has no value at ("));
   CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(0, 0); }), Contains("the field is 0"));
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(0, 0)), std::domain_error);
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(1, infinity)), std::domain_error);
