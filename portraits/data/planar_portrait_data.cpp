@@ -35,14 +35,7 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
             {"rays", rays}};
   if (!plane.scaling()) {
     json["form"] = plane.form().empty() ? Json() : Json(plane.form());
-    json["equilibria"] = Json::array();
-    for (const reduction::Equilibrium& each : portrait.equilibria) {
-      const auto [first, second] = each.eigenvalues();
-      json["equilibria"].push_back({{"u", each.x[0]},
-                                    {"v", each.x[1]},
-                                    {"kind", each.kind()},
-                                    {"eigenvalues", {{first.real(), first.imag()}, {second.real(), second.imag()}}}});
-    }
+    json["equilibria"] = equilibria_json<Json>(portrait.equilibria);
   }
   if (!source.version.empty()) json["version"] = source.version;
   return json;

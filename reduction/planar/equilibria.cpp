@@ -5,12 +5,73 @@
 #include <tuple>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 
+#include "contensou/reduction/planar_kinds.hpp"
+#include "numerics/epsilon.hpp"
 #include "planar/inverse_factor.hpp"
 
 namespace contensou::reduction {
 
+using Eigen::Matrix2d;
 using Eigen::Vector2d;
+
+namespace {
+
+/// One of the points of a square [-1, 1] x [-1, 1] (M. Roberts' R2).
+Vector2d spread(int i) {
+  constexpr double plastic = 1.32471795724474602596;
+  const auto side = [](double x) { return 2 * (x - std::floor(x)) - 1; };
+  return {side(i / plastic), side(i / (plastic * plastic))};
+}
+
+/// True if other zeros lie arbitrarily near to this one, at which the Jacobian has the null vector `along`.
+bool on_curve_of_zeros(const SmoothField& field, const Vector2d& zero, const Vector2d& along) {
+  // Newton's method comes to another zero at once; to a multiple one it takes many steps.
+  constexpr int steps = 3;
+  constexpr double left = 1e-12, apart = 0.5;
+  Vector2d x = zero + along;
+  for (int i = 0; i < steps; ++i) {
+    const auto here = jet_of(field, x);
+    if (!here) return false;
+    if (!here->f.isZero(0)) x -= here->slopes.completeOrthogonalDecomposition().solve(here->f);
+  }
+  const auto there = jet_of(field, x);
+  return there && (x - zero).norm() > apart * along.norm() &&
+         there->f.norm() <= left * there->slopes.norm() * along.norm();
+}
+
+}  // namespace
+
+std::vector<Reversor> find_reversors(const SmoothField& field, const Vector2d& around) {
+  const Reversor known[]{{"(u, -v)", Matrix2d{{1, 0}, {0, -1}}},
+                         {"(-u, v)", Matrix2d{{-1, 0}, {0, 1}}},
+                         {"(v, u)", Matrix2d{{0, 1}, {1, 0}}},
+                         {"(-v, -u)", Matrix2d{{0, -1}, {-1, 0}}},
+                         {"(-u, -v)", Matrix2d{{-1, 0}, {0, -1}}}};
+  constexpr int points = 60, least = 20;
+  const double large = around.lpNorm<Eigen::Infinity>(), small = around.cwiseAbs().minCoeff();
+  std::vector<Reversor> found;
+  for (const Reversor& reversor : known) {
+    int compared = 0;
+    const auto holds = [&](int i) {
+      const Vector2d x = (i % 2 == 0 || small == 0 ? large : small) * spread(i), image = reversor.matrix * x;
+      const auto here = jet_of(field, x), there = jet_of(field, image);
+      if (!here || !there) return !here && !there;
+      ++compared;
+      constexpr double roundings = 64;
+      const Vector2d allowed =
+          roundings * eps * (here->f.cwiseAbs() + there->f.cwiseAbs() + here->slopes.cwiseAbs() * x.cwiseAbs());
+      const Vector2d image_allowed = reversor.matrix.cwiseAbs() * allowed;
+      return ((there->f + reversor.matrix * here->f).cwiseAbs().array() <= image_allowed.array()).all();
+    };
+    bool all = true;
+    for (int i = 1; i <= points && all; ++i) all = holds(i);
+    if (all && compared >= least) found.push_back(reversor);
+  }
+  return found;
+}
 
 std::pair<std::complex<double>, std::complex<double>> Equilibrium::eigenvalues() const {
   const double half = slopes.trace() / 2, difference = (slopes(0, 0) - slopes(1, 1)) / 2;
@@ -23,15 +84,20 @@ std::string_view Equilibrium::kind() const {
   constexpr double rounding = 1e-10;
   const auto [first, second] = eigenvalues();
   const double zero = rounding * slopes.norm();
+  if (std::min(std::abs(first), std::abs(second)) <= zero) return planar_kind("degenerate");
   if (first.imag() != 0) {
-    return first.real() < -zero ? "stable focus" : first.real() > zero ? "unstable focus" : "center or focus";
+    return first.real() < -zero  ? planar_kind("stable focus")
+           : first.real() > zero ? planar_kind("unstable focus")
+           : on_axis             ? planar_kind("center")
+                                 : planar_kind("center or focus");
   }
-  if (std::abs(first.real()) <= zero || std::abs(second.real()) <= zero) return "degenerate";
-  return first.real() * second.real() < 0 ? "saddle" : second.real() < 0 ? "stable node" : "unstable node";
+  return first.real() * second.real() < 0 ? planar_kind("saddle")
+         : second.real() < 0              ? planar_kind("stable node")
+                                          : planar_kind("unstable node");
 }
 
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2d& low, const Vector2d& high) {
-  constexpr int across = 40, most = 30;
+  constexpr int across = 40, most = 100;  // to multiple zeros steps are only halved
   constexpr double same = 1e-6, exact = 1e-13;
   const Vector2d sides = high - low;
   const auto place = [&](const Vector2d& x) { return Vector2d((x - low).cwiseQuotient(sides)); };
@@ -60,8 +126,23 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
       break;
     }
   }
+  constexpr double beside = 0.02;
+  std::erase_if(found, [&](const Equilibrium& each) {
+    if (each.kind() != "degenerate") return false;
+    const Eigen::JacobiSVD<Matrix2d> svd(each.slopes, Eigen::ComputeFullV);
+    return on_curve_of_zeros(field, each.x, beside * sides.minCoeff() * svd.matrixV().col(1));
+  });
+  for (const Reversor& reversor : find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()))) {
+    if (reversor.matrix.determinant() > 0) continue;
+    for (Equilibrium& each : found) each.on_axis |= (reversor.matrix * each.x - each.x).norm() < same * sides.norm();
+  }
   std::ranges::sort(found, {}, [](const Equilibrium& each) { return std::pair(each.x[0], each.x[1]); });
   return found;
+}
+
+std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2d& start) {
+  const Vector2d corner = Vector2d::Constant(2.5 * start.lpNorm<Eigen::Infinity>());
+  return find_equilibria(field, -corner, corner);
 }
 
 }  // namespace contensou::reduction

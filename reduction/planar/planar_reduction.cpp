@@ -11,6 +11,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/planar_kinds.hpp"
 #include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/directions.hpp"
@@ -182,7 +183,7 @@ void ScalingSolution::make_strips() {
 
 std::string_view ScalingSolution::classify() const {
   const auto of_sign = [](bool all_in, bool all_out, std::string_view in, std::string_view out) {
-    return all_in ? in : all_out ? out : std::string_view("mixed");
+    return all_in ? in : all_out ? out : planar_kind("mixed");
   };
   if (directions.star) {
     bool all_in = true, all_out = true;
@@ -191,25 +192,29 @@ std::string_view ScalingSolution::classify() const {
       all_in &= !rates || rates->radial < 0;
       all_out &= !rates || rates->radial > 0;
     }
-    return of_sign(all_in, all_out, "stable star", "unstable star");
+    return of_sign(all_in, all_out, planar_kind("stable star"), planar_kind("unstable star"));
   }
   if (!undecided.empty()) return "";
   if (directions.dividing.empty()) {
     const double turn_growth = strips.front().turn();
-    return turn_growth < 0 ? "stable focus" : turn_growth > 0 ? "unstable focus" : "center";
+    return turn_growth < 0   ? planar_kind("stable focus")
+           : turn_growth > 0 ? planar_kind("unstable focus")
+                             : planar_kind("center");
   }
   const auto between_rays = [](const Direction& end) { return end.before.ray() && end.after.ray(); };
-  if (!std::ranges::all_of(directions.dividing, between_rays)) return "bordered";
+  if (!std::ranges::all_of(directions.dividing, between_rays)) return planar_kind("bordered");
   const auto all = [&](auto test) { return std::ranges::all_of(strips, test); };
   const auto comes_in = [](const Strip& strip) { return strip.limit() == Limit::centre; };
   const auto came_out = [](const Strip& strip) { return strip.origin() == Limit::centre; };
-  if (!std::ranges::all_of(rays, &PlanarRay::radial)) return "degenerate";
+  if (!std::ranges::all_of(rays, &PlanarRay::radial)) return planar_kind("degenerate");
   if (all([&](const Strip& strip) { return !comes_in(strip) && !came_out(strip); })) {
-    return strips.size() > 2 ? "saddle" : section.regular() ? "regular point" : "cusp";
+    return strips.size() > 2   ? planar_kind("saddle")
+           : section.regular() ? planar_kind("regular point")
+                               : planar_kind("cusp");
   }
   return of_sign(all([&](const Strip& strip) { return comes_in(strip) && !came_out(strip); }),
-                 all([&](const Strip& strip) { return !comes_in(strip) && came_out(strip); }), "stable node",
-                 "unstable node");
+                 all([&](const Strip& strip) { return !comes_in(strip) && came_out(strip); }),
+                 planar_kind("stable node"), planar_kind("unstable node"));
 }
 
 StripPlace ScalingSolution::place(const Vector2d& n) const {

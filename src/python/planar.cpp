@@ -4,11 +4,15 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 
 #include "answers/asked/planar_system.hpp"
+#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "planar.hpp"
@@ -115,6 +119,24 @@ void bind_planar(py::module_& module) {
              const PlanarReduction& plane = planar.solved();
              return at_points(u, v, [&](const Vector2d& x) { return plane.factor(x); });
            })
+      .def_property_readonly("equilibria",
+                             [](const Planar& planar) {
+                               py::list list;
+                               for (const auto& each : interruptible(
+                                        [&] { return reduction::find_equilibria(planar.field, planar.start); })) {
+                                 list.append(py::make_tuple(each.x[0], each.x[1], each.kind(), each.eigenvalues()));
+                               }
+                               return list;
+                             })
+      .def_property_readonly("reversors",
+                             [](const Planar& planar) {
+                               std::vector<std::string> names;
+                               for (const auto& [name, matrix] : interruptible(
+                                        [&] { return reduction::find_reversors(planar.field, planar.start); })) {
+                                 names.emplace_back(name);
+                               }
+                               return names;
+                             })
       .def_property_readonly("solved", [](const Planar& planar) { return planar.solved_plane.plane.has_value(); })
       .def_property_readonly("kind",
                              [](const Planar& planar) -> std::optional<std::string> {

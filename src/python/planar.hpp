@@ -30,7 +30,7 @@ auto interruptible(Function compute) {
 /// A planar system, its symmetries, and its motions if one of them is a scaling.
 class Planar {
  public:
-  Planar(reduction::SmoothField given, const Eigen::Vector2d& around) : field(std::move(given)) {
+  Planar(reduction::SmoothField given, const Eigen::Vector2d& around) : field(std::move(given)), start(around) {
     interruptible([&] {
       symmetries = reduction::find_symmetries(field.value, around);
       solved_plane = answers::solve_planar(field, symmetries, around);
@@ -43,6 +43,7 @@ class Planar {
   }
 
   reduction::SmoothField field;
+  Eigen::Vector2d start;
   reduction::PlanarSymmetries symmetries;
   answers::SolvedPlane solved_plane;
 };

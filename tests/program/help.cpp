@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "answers/verbs/reduce_answer.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/planar_kinds.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;
@@ -66,6 +68,26 @@ TEST_CASE("topics of help", "[cli]") {
   CHECK_THAT(run_program("help files").out, Contains("spin_deceleration") && Contains("[contact.hertz]"));
   CHECK_THAT(run_program("help roll").out, Contains("slip_length") && Contains("rolling-friction"));
   CHECK_THAT(run_program("help roll").out, Contains("squirt") && Contains("by the same threshold"));
+}
+
+TEST_CASE("every kind and every end that reduce prints stands in its help", "[cli]") {
+  // Of its columns only, with single blanks.
+  std::string help = run_program("help reduce").out;
+  help = std::regex_replace(help.substr(help.find("Columns and fields:")), std::regex("\\s+"), " ");
+  const auto listed = [&](const std::string& field) {
+    const std::size_t begin = help.find("every " + field + " ") + field.size() + 7, end = help.find(';', begin);
+    REQUIRE(end < help.size());
+    return ", " + help.substr(begin, end - begin) + ",";
+  };
+  const std::string kinds = listed("kind"), ends = listed("end");
+  for (const std::string_view kind : contensou::reduction::planar_kinds) {
+    CHECK_THAT(kinds, Contains(fmt::format(", {},", kind)));
+  }
+  CHECK(std::ranges::count(kinds, ',') == std::ssize(contensou::reduction::planar_kinds) + 1);
+  for (const std::string_view end : contensou::answers::named_ends()) {
+    CHECK_THAT(ends, Contains(fmt::format(", {},", end)));
+  }
+  CHECK(contensou::answers::named_ends().size() == 6);
 }
 
 TEST_CASE("help theory is one screen, whose equations are those of the program", "[cli]") {

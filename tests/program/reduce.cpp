@@ -276,3 +276,20 @@ TEST_CASE("reduce solves systems without a scaling by an inverse integrating fac
   CHECK(picture.status == 2);
   CHECK_THAT(picture.err, Contains("this system has none"));
 }
+
+TEST_CASE("reduce --system shows equilibria and reversors, solved or not", "[cli]") {
+  const Json pendulum = json_of_system("x'' = -sin(x)", {"--u0", "1.3", "--v0", "0"});
+  REQUIRE(pendulum["equilibria"].size() == 3);
+  const Json& middle = pendulum["equilibria"][1];
+  CHECK(std::hypot(middle["u"].get<double>(), middle["v"].get<double>()) < 1e-12);
+  CHECK(middle["kind"] == "center");
+  CHECK(middle["eigenvalues"] == Json::parse("[[0, -1], [0, 1]]"));
+  CHECK(pendulum["equilibria"][0]["kind"] == "saddle");
+  CHECK(pendulum["equilibria"][2]["u"].get<double>() == Approx(std::numbers::pi).epsilon(1e-13));
+  CHECK(pendulum["reversors"] == Json::array({"(u, -v)", "(-u, v)"}));
+  const Json van_der_pol = json_of_system("u' = v; v' = (1-u^2)*v-u");
+  CHECK(van_der_pol["equilibria"][0]["kind"] == "unstable focus");
+  CHECK(van_der_pol["reversors"].empty());
+  CHECK(json_of_system("u' = 1; v' = 2*v").at("equilibria").empty());
+  CHECK_FALSE(json_of("reduce --mu 0.3 --u0 1 --v0 1 --format json").contains("equilibria"));
+}

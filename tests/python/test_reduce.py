@@ -234,3 +234,13 @@ def test_what_is_not_solved_has_no_orbits_and_portraits_and_ctrl_c_ends_them():
     stopped = True
     with pytest.raises(KeyboardInterrupt):
         reduction.portrait(field="motion")
+
+
+def test_equilibria_and_reversors():
+    for system in ("x'' = -sin(x)", lambda u, v: (v, -math.sin(u))):
+        reduction = ct.reduce(system, u=1.3, v=0)
+        saddle, center, other = reduction.equilibria
+        assert (center.kind, saddle.kind, other.kind) == ("center", "saddle", "saddle")
+        assert other.u == pytest.approx(math.pi, rel=1e-12)
+        assert sorted(value.imag for value in center.eigenvalues) == pytest.approx([-1, 1], rel=1e-10)
+        assert reduction.reversors == ("(u, -v)", "(-u, v)")

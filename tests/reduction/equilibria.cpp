@@ -50,3 +50,49 @@ TEST_CASE("equilibria are found with their types", "[planar]") {
   REQUIRE(half.size() == 1);
   CHECK((half[0].x - Vector2d(1, 0)).norm() < 1e-12);
 }
+
+TEST_CASE("equilibria that are not isolated are left out", "[planar]") {
+  const auto count = [](auto f) { return find_equilibria({f}, {-3, -2}, {2, 3}).size(); };
+  // A line, a circle; a multiple zero is isolated.
+  CHECK(count([](const Vector2d& x) { return Vector2d(x[1], 0); }) == 0);
+  CHECK(count([](const Vector2d& x) { return Vector2d(x * (1 - x.squaredNorm())); }) == 1);
+  CHECK(count([](const Vector2d& x) { return Vector2d(x[0] * x[0], -x[1]); }) == 1);
+  CHECK(count([](const Vector2d& x) { return Vector2d(x[1], -std::pow(x[0], 3)); }) == 1);
+}
+
+TEST_CASE("a reflection that turns motions back proves a center, alone it proves nothing", "[planar]") {
+  const auto names = [](auto f, const Vector2d& around) {
+    std::vector<std::string_view> found;
+    for (const Reversor& each : find_reversors({f}, around)) found.push_back(each.name);
+    return found;
+  };
+  using Names = std::vector<std::string_view>;
+  const auto kinds = [](auto f) {
+    std::vector<std::string_view> found;
+    for (const Equilibrium& each : find_equilibria({f}, {-2, -2}, {2, 2})) found.push_back(each.kind());
+    return found;
+  };
+  const auto swap = [](const Vector2d& x) { return Vector2d(x[1], x[0]); };
+  CHECK(names(swap, {1, 2}) == Names{"(u, -v)", "(-u, v)"});
+  CHECK(kinds(swap) == Names{"saddle"});
+  const auto pendulum = [](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0])); };
+  CHECK(names(pendulum, {1, 0}) == Names{"(u, -v)", "(-u, v)"});
+  CHECK(kinds(pendulum) == Names{"center"});
+  const auto rabbits = [](const Vector2d& x) { return Vector2d(x[0] * (1 - x[1]), x[1] * (x[0] - 1)); };
+  CHECK(names(rabbits, {0.5, 2}) == Names{"(v, u)"});
+  CHECK(kinds(rabbits) == Names{"saddle", "center"});
+  CHECK(names([](const Vector2d& x) { return Vector2d(x[0] * x[1], 1 + x[0] * x[0]); }, {1, 1}) ==
+        Names{"(u, -v)", "(-u, -v)"});
+  CHECK(names([](const Vector2d& x) { return Vector2d(-x[0] + x[1], x[0] - x[1]); }, {1, 1}).empty());
+  CHECK(
+      names([](const Vector2d& x) { return Vector2d(x[0] - x[1] + x[0] * x[1] * x[1], x[0] - x[1]); }, {1, 1}).empty());
+  CHECK(names([](const Vector2d& x) { return Vector2d(x[0] + x[1] * x[1], -x[1] - x[0] * x[0]); }, {1, 1}) ==
+        Names{"(v, u)"});
+  // Imaginary eigenvalues and no reversor: the cubic terms decide.
+  const auto turning = [](const Vector2d& x) { return Vector2d(-x[1] - x[0] * x.squaredNorm(), x[0]); };
+  CHECK(kinds(turning) == Names{"center or focus"});
+  // The damping is small beside the other terms, yet not nothing.
+  CHECK(names([](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0]) - 1e-11 * x[1]); }, {1, 1}).empty());
+  // Values on one side only.
+  CHECK(names([](const Vector2d& x) { return Vector2d(x[1], -std::log(x[0])); }, {1, 1}) == Names{"(u, -v)"});
+}

@@ -11,8 +11,10 @@
 
 #include "answers/asked/planar_system.hpp"
 #include "answers/input/message.hpp"
+#include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
+#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
@@ -171,6 +173,34 @@ std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   return text;
 }
 
+/// The zeros of the field about the start, and the maps that turn its motions back.
+struct Equilibria {
+  std::vector<reduction::Equilibrium> zeros;
+  std::vector<reduction::Reversor> reversors;
+
+  Json members() const {
+    Json names = Json::array();
+    for (const auto& [name, matrix] : reversors) names.push_back(name);
+    return {{"equilibria", portraits::equilibria_json<Json>(zeros)}, {"reversors", names}};
+  }
+
+  std::string text(const Digits& digits) const {
+    std::string text;
+    for (const auto& each : zeros) {
+      const auto [first, second] = each.eigenvalues();
+      const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // no -0
+      text += fmt::format("equilibrium ({}, {}): {}, eigenvalues {}\n", part(each.x[0]), part(each.x[1]), each.kind(),
+                          first.imag() == 0   ? part(first.real()) + ", " + part(second.real())
+                          : first.real() == 0 ? fmt::format("+-{} i", part(second.imag()))
+                                              : fmt::format("{} +- {} i", part(first.real()), part(second.imag())));
+    }
+    for (const auto& [name, matrix] : reversors) {
+      text += fmt::format("{:<12}(u, v) -> {}, t -> -t\n", text.ends_with("-t\n") ? "" : "reversor", name);
+    }
+    return text;
+  }
+};
+
 /// Adds the members of a system that its scaling solves.
 /// @return their text
 std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const PlanarReduction& plane,
@@ -267,8 +297,7 @@ std::function<std::string(const Digits&)> end_of(Json& members, const PlanarRedu
   const PlanarEnd end = orbit.end();
   const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
-  // A limit cycle is no end that scripts know.
-  const bool named = end != PlanarEnd::undecided && end != PlanarEnd::cycle;
+  const bool named = std::ranges::count(named_ends(), name(end)) > 0;
   members.update({{"end", named ? Json(name(end)) : Json()}, {"tau_stop", unknown ? Json() : Json(tau_stop)}});
   const double error = std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
   if (error > 0) members["accuracy"] = error;
@@ -311,6 +340,16 @@ std::function<std::string(const Digits&)> end_of(Json& members, const PlanarRedu
 
 }  // namespace
 
+std::vector<std::string_view> named_ends() {
+  std::vector<std::string_view> names;
+  for (int i = 0; i < reduction::planar_ends; ++i) {
+    const auto end = static_cast<PlanarEnd>(i);
+    // A limit cycle is no end that scripts know.
+    if (end != PlanarEnd::undecided && end != PlanarEnd::cycle) names.push_back(name(end));
+  }
+  return names;
+}
+
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Vector2d& start) {
   if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
   const auto has_value = [&] {
@@ -336,6 +375,8 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
     }
     answer.members["tried"] = tried;
   }
+  const Equilibria equilibria{reduction::find_equilibria(field, start), reduction::find_reversors(field, start)};
+  answer.members.update(equilibria.members());
   std::function<std::string(const Digits&)> solution;
   if (solved.plane) {
     const PlanarReduction& plane = *solved.plane;
@@ -354,8 +395,9 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
     };
   }
   answer.text = [=, tried = solved.tried](const Digits& digits) {
-    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}{}", text, digits(start[0]), digits(start[1]),
-                       text_of(found, "t", digits), text_of(tried), solution ? solution(digits) : "");
+    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}{}{}", text, digits(start[0]), digits(start[1]),
+                       text_of(found, "t", digits), text_of(tried), equilibria.text(digits),
+                       solution ? solution(digits) : "");
   };
   answer.rows = {row_of(answer.members, found)};
   return {std::move(answer), solved.plane || !found.generators.empty()};
@@ -505,8 +547,14 @@ std::vector<FieldText> reduce_fields() {
       {"`first_integral`", "", "p less its value on one orbit"},
       {"JSON `rays` [{`k` or `angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
        "invariant rays: direction of the motion, eigenvalues along the ray and across, 2 for a double ray"},
-      {"`kind`, `undecided`", "",
-       "node, saddle, focus, ... of the blown-up centre; null if not decided, and the reason"},
+      {"`kind`, `undecided`", "", "type of the blown-up centre; null if not decided, and the reason"},
+      {"every `kind`", "",
+       fmt::format("{}; center: imaginary eigenvalues on the axis of a reversor",
+                   fmt::join(reduction::planar_kinds, ", "))},
+      {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
+       "isolated zeros of the field where |u| and |v| are at most 2.5 max(|u0|, |v0|); eigenvalues [[re, im], [re, im]] "
+       "of its derivatives"},
+      {"JSON `reversors`", "", "images of (u, v) under the maps that turn motions back, such as (u, -v)"},
       {"JSON `turn` {`factor`, `sigma`}", "", "a turn of a focus"},
       {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
        "orbit of the start, before and after it; turn by turn of a focus"},
@@ -514,7 +562,8 @@ std::vector<FieldText> reduce_fields() {
        "starts to which the symmetry moves this one; their orbits are the same strip, higher in p by ln of the factor"},
       {"`tau_stop`, `accuracy`", "speed, 1",
        "stop time, inf where the centre is not reached, null before a border or if not decided; its relative error"},
-      {"`end`", "", "centre, infinity, rest, border, periodic or equilibrium, with --system; null if not decided"},
+      {"`end`", "", "end of the motion, with --system"},
+      {"every `end`", "", fmt::format("{}; null if not decided", fmt::join(named_ends(), ", "))},
       {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
        "the stop time by each route; section as of --system"},
       {"`period`", "", "time after which the motion returns"},

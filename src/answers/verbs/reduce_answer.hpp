@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,9 @@ ReduceAnswer reduce_answer(const GivenStart& given);
 /// Reduces any field.
 /// @param text  of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
+
+/// Returns every value of the field `end`; where an orbit has another end, it is null.
+std::vector<std::string_view> named_ends();
 
 /// The fields of these answers.
 std::vector<FieldText> reduce_fields();

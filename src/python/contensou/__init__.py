@@ -22,10 +22,10 @@ from ._fit import Estimate, Fit, fit, fit_plan
 from ._flow import Check, Checks, End, Flow, FlowReduction, Orbit, Ray, SingularPoint, Terminal, check, stop_time
 from ._law import Law, law
 from ._portrait import Portrait, portrait
-from ._reduce import Generator, PlanarOrbit, PlanarRay, Reduction, reduce
+from ._reduce import Equilibrium, Generator, PlanarOrbit, PlanarRay, Reduction, reduce
 
 __all__ = [
-    "Ball", "Check", "Checks", "End", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
+    "Ball", "Check", "Checks", "End", "Equilibrium", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
     "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "Rolls", "SingularPoint", "Terminal", "__version__", "aim",
     "balls", "check", "engine", "engines", "fit", "fit_plan", "law", "portrait", "reduce", "stop_time",
 ]

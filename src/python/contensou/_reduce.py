@@ -32,6 +32,16 @@ class PlanarRay(NamedTuple):
     angular: float
 
 
+class Equilibrium(NamedTuple):
+    """An isolated zero of the field. kind is its type by the eigenvalues of the derivatives there; center, where a
+    reflection proves it."""
+
+    u: float
+    v: float
+    kind: str
+    eigenvalues: tuple[complex, complex]
+
+
 class Reduction:
     """The result of `reduce`.
 
@@ -81,6 +91,16 @@ class Reduction:
     def factor(self, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns an inverse integrating factor V, for which f . grad V = V div f; NaN where it is not known."""
         return self._core.factor(*together(u=u, v=v))[()]
+
+    @property
+    def equilibria(self) -> tuple[Equilibrium, ...]:
+        """Those where |u| and |v| are at most 2.5 times the larger of |u|, |v| of the start given to reduce."""
+        return tuple(Equilibrium(*each) for each in self._core.equilibria)
+
+    @property
+    def reversors(self) -> tuple[str, ...]:
+        """Images of (u, v) under the linear maps R that turn motions back, f(R x) = -R f(x), such as "(u, -v)"."""
+        return tuple(self._core.reversors)
 
     @property
     def rays(self) -> tuple[PlanarRay, ...]:

@@ -75,6 +75,21 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// centre null, form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}] and separatrices (orbits).
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
+/// Returns equilibria as members of JSON, as to_json has them.
+/// @tparam Json  nlohmann::ordered_json
+template <class Json>
+Json equilibria_json(const std::vector<reduction::Equilibrium>& equilibria) {
+  Json json = Json::array();
+  for (const reduction::Equilibrium& each : equilibria) {
+    const auto [first, second] = each.eigenvalues();
+    json.push_back({{"u", each.x[0]},
+                    {"v", each.x[1]},
+                    {"kind", each.kind()},
+                    {"eigenvalues", {{first.real(), first.imag()}, {second.real(), second.imag()}}}});
+  }
+  return json;
+}
+
 /// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or
 /// isochrone; tau is the time left.
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});

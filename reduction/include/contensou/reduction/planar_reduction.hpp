@@ -34,6 +34,8 @@ enum class PlanarEnd {
   cycle,        ///< a closed orbit, which it nears for ever
 };
 
+inline constexpr int planar_ends = 8;
+
 /// As its name in C++, such as "centre".
 std::string_view name(PlanarEnd end);
 
@@ -120,7 +122,7 @@ class PlanarReduction {
   /// Returns the turn of a field without rays, stars and borders; else null.
   const PlanarTurn* turn() const;
 
-  /// "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center", "stable star", "unstable
+  /// Returns one of planar_kinds: "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center", "stable star", "unstable
   /// star"; "regular point", which orbits pass, and "cusp", which they pass as well, where the field is 0 or has no value;
   /// "mixed" with sectors of several kinds; "degenerate" if all points of a ray are at rest; "bordered" if the field has
   /// values in a part of the plane, a pole or a jump that orbits do not cross; empty if it is not decided
