@@ -65,8 +65,10 @@ class Follower {
   using Panel = FactorOrbit::Motion::Panel;
 
  public:
-  Follower(const SmoothField& field, const InverseFactor& factor, FactorOrbit::Motion& motion)
+  Follower(const SmoothField& field, const SmoothField& fitted, const InverseFactor& factor,
+           FactorOrbit::Motion& motion)
       : field_(field),
+        fitted_(fitted),
         motion_(motion),
         x_(motion.start),
         form_(factor.form()),
@@ -252,8 +254,9 @@ class Follower {
       while (!ends_have_values() && box_.radii[i] > eps * std::abs(x_[i])) box_.radii[i] /= 2;
     }
     const auto last = std::exchange(factor_, {});
-    const bool lasts = form_ == FactorForm::affine && last && last->residual(x_, here) <= accurate_;
-    if (lasts && distance > 1) {
+    const auto of_form = holds_everywhere(form_) ? jet_of(fitted_, x_) : std::nullopt;
+    const bool lasts = of_form && last && last->residual(x_, *of_form) <= accurate_;
+    if (lasts && (distance > 1 || form_ == FactorForm::basis)) {
       factor_ = last;
       return true;
     }
@@ -264,7 +267,7 @@ class Follower {
     constexpr int halvings = 10;
     for (int i = 0; i <= halvings; ++i, box_.radii /= 2, fraction_ /= 2) {
       ++fits_;
-      const auto samples = sample(field_, box_);
+      const auto samples = sample(fitted_, box_);
       if (!samples) continue;
       const auto fit = fit_factor(form_, *samples);
       if (!fit || !fit->small) continue;
@@ -364,7 +367,7 @@ class Follower {
 
   /// Moves the point onto V = 0.
   void return_to_curve() {
-    const auto here = jet_of(field_, x_);
+    const auto here = jet_of(fitted_, x_);
     if (!here) return;
     const InverseFactor::Value v = (*factor_)(x_, *here);
 
@@ -408,6 +411,7 @@ class Follower {
   static constexpr double near_ = 1e-11, accurate_ = 1e-8, far_ = 1e6, least_length_ = 1e-150, small_ = 1e-4;
 
   const SmoothField& field_;
+  const SmoothField& fitted_;
   FactorOrbit::Motion& motion_;
   Vector2d x_;
   FactorForm form_;
@@ -427,11 +431,11 @@ class Follower {
 
 }  // namespace
 
-std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const InverseFactor& factor,
-                                                  const Vector2d& start, int most_parts) {
+std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
+                                                  const InverseFactor& factor, const Vector2d& start, int most_parts) {
   auto motion = std::make_shared<FactorOrbit::Motion>();
   motion->start = start;
-  Follower(field, factor, *motion).follow(most_parts);
+  Follower(field, fitted, factor, *motion).follow(most_parts);
   return motion;
 }
 

@@ -4,11 +4,13 @@
 #include <array>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "numerics/legendre_series.hpp"
+#include "planar/factor_formula.hpp"
 #include "planar/factor_orbit.hpp"
 #include "planar/solution.hpp"
 
@@ -16,11 +18,30 @@ namespace contensou::reduction {
 
 using Eigen::Vector2d;
 
+namespace {
+
+/// True unless V fails in wider boxes: in any box that is small a smooth V is near to a polynomial.
+bool holds_widely(const SmoothField& field, const FactorFit& fit) {
+  const bool of_basis = fit.factor.form() == FactorForm::basis;
+  return std::ranges::all_of(std::array{4., of_basis ? 2. : 64.}, [&](double factor) {
+    const auto samples = sample(field, widened(fit.factor.form(), fit.factor.box(), factor));
+    if (!samples) return true;  // the field has no values there
+    const auto again = fit_factor(fit.factor.form(), *samples);
+    return again && again->small;
+  });
+}
+
+}  // namespace
+
 struct FactorReduction::Solved {
   SmoothField field;
+  SmoothField fitted;  ///< for which the factor has its form: the same, or with its denominator cleared
   Vector2d start;
+  bool cleared = false;
   std::vector<TriedForm> tried = {};
   std::optional<InverseFactor> factor = {};
+
+  void look_for_factor();
 
   const InverseFactor& found() const {
     if (!factor) throw std::domain_error("FactorReduction: no inverse integrating factor was found");
@@ -30,14 +51,23 @@ struct FactorReduction::Solved {
   /// V at a point of the box; the field there.
   std::pair<double, Vector2d> at(const Vector2d& x) const {
     const InverseFactor& v = found();
-    if (v.form() != FactorForm::affine && !(v.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
+    if (!holds_everywhere(v.form()) && !(v.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
       throw std::domain_error(
           fmt::format("FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", x[0], x[1],
                       start[0], start[1], v.box().radii[0], v.box().radii[1]));
     }
     const auto f = value_of(field, x);
-    if (!f) throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", x[0], x[1]));
-    return {v(x, {*f, Eigen::Matrix2d::Zero()})[0], *f};
+    std::optional<Jet> of_form;
+    if (v.form() == FactorForm::basis) {
+      of_form = jet_of(fitted, x);
+    } else if (const auto g = cleared ? value_of(fitted, x) : f) {
+      of_form = {*g, Eigen::Matrix2d::Zero()};
+    }
+    if (!f || !of_form) {
+      throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", x[0], x[1]));
+    }
+    const double value = v(x, *of_form)[0];
+    return {cleared ? value * field.denominator(start)[0] / field.denominator(x)[0] : value, *f};
   }
 
   /// Integral of dH along a straight line.
@@ -60,36 +90,33 @@ struct FactorReduction::Solved {
   }
 };
 
-namespace {
-
-/// True unless V fails in wider boxes: in any box that is small a smooth V is near to a polynomial.
-bool holds_widely(const SmoothField& field, const FactorFit& fit) {
-  return std::ranges::all_of(std::array{4., 64.}, [&](double factor) {
-    const auto samples = sample(field, widened(fit.factor.form(), fit.factor.box(), factor));
-    if (!samples) return true;  // the field has no values there
-    const auto again = fit_factor(fit.factor.form(), *samples);
-    return again && again->small;
-  });
+void FactorReduction::Solved::look_for_factor() {
+  Box box = box_about(start);
+  std::optional<FieldSamples> samples;
+  // A small box would prove nothing: every smooth V is a polynomial there.
+  constexpr int halvings = 4;
+  for (int i = 0; i <= halvings && !samples; ++i, box.radii /= 2) samples = sample(fitted, box);
+  constexpr double large = 1e4;
+  const int first = fitted.basis.values ? factor_forms : 0, end = fitted.basis.values ? first + 1 : factor_forms;
+  for (int i = first; samples && i < end && !factor; ++i) {
+    const auto fit = fit_factor(static_cast<FactorForm>(i), *samples);
+    if (!fit) continue;
+    tried.push_back(fit->tried);
+    tried.back().cleared = cleared;
+    if (fit->small && fit->tried.gap >= large && holds_widely(fitted, *fit)) factor = fit->factor;
+  }
 }
-
-}  // namespace
 
 FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
   if (!start.allFinite() || !value_of(field, start)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
-  auto solved = std::make_shared<Solved>(Solved{std::move(field), start});
-  Box box = box_about(start);
-  std::optional<FieldSamples> samples;
-  // A small box would prove nothing: every smooth V is a polynomial there.
-  constexpr int halvings = 4;
-  for (int i = 0; i <= halvings && !samples; ++i, box.radii /= 2) samples = sample(solved->field, box);
-  constexpr double large = 1e4;
-  for (int i = 0; samples && i < factor_forms && !solved->factor; ++i) {
-    const auto fit = fit_factor(static_cast<FactorForm>(i), *samples);
-    if (!fit) continue;
-    solved->tried.push_back(fit->tried);
-    if (fit->small && fit->tried.gap >= large && holds_widely(solved->field, *fit)) solved->factor = fit->factor;
+  auto solved = std::make_shared<Solved>(Solved{field, field, start});
+  solved->look_for_factor();
+  if (!solved->factor && field.denominator) {
+    solved->fitted = with_cleared_denominator(field);
+    solved->cleared = true;
+    solved->look_for_factor();
   }
   solved_ = std::move(solved);
 }
@@ -123,6 +150,9 @@ struct FactorSolution final : PlanarReduction::Solution {
   FactorSolution(PlanarField of, FactorReduction by) : Solution(std::move(of), by.form()), reduction(std::move(by)) {}
 
   double factor(const Vector2d& x) const override { return reduction.factor(x); }
+  std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override {
+    return reduction.factor_pieces(low, high);
+  }
   double end_time_error(const Vector2d&) const override { return 1e-12; }
   std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override {
     return std::make_shared<const FactorMotion>(reduction.orbit(start));
@@ -141,13 +171,18 @@ struct FactorSolution final : PlanarReduction::Solution {
 }  // namespace
 
 FactorReduction FactorReduction::reversed() const {
-  SmoothField back{[f = solved_->field.value](const Vector2d& x) -> Vector2d { return -f(x); }};
-  if (solved_->field.jacobian) {
-    back.jacobian = [slopes = solved_->field.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
-  }
+  const auto back = [](const SmoothField& forth) {
+    SmoothField field = forth;
+    field.value = [f = forth.value](const Vector2d& x) -> Vector2d { return -f(x); };
+    if (forth.jacobian) {
+      field.jacobian = [slopes = forth.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
+    }
+    return field;
+  };
   FactorReduction other = *this;
   auto solved = std::make_shared<Solved>(*solved_);
-  solved->field = std::move(back);  // V is the same
+  solved->field = back(solved->field);  // V is the same
+  solved->fitted = back(solved->fitted);
   other.solved_ = std::move(solved);
   return other;
 }
@@ -157,11 +192,53 @@ PlanarReduction FactorReduction::reduction() const {
   return PlanarReduction(std::make_shared<const FactorSolution>(solved_->field.value, *this));
 }
 
+std::vector<FactorPiece> FactorReduction::factor_pieces(const Vector2d& low, const Vector2d& high) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const FactorForm form = solved_->found().form();
+  if (form == FactorForm::constant || form == FactorForm::product) return {};  // without zeros
+  if (holds_everywhere(form)) {
+    return {{low, high, [solved = solved_](const Vector2d& x) {
+               try {
+                 return solved->at(x).first;
+               } catch (const std::domain_error&) {
+                 return none;
+               }
+             }}};
+  }
+  std::vector<FactorPiece> pieces;
+  const auto add = [&](const auto& add_part, const Vector2d& from, const Vector2d& to, int halvings) -> void {
+    // A middle beside equilibria, which lie in the middle of many rectangles.
+    constexpr double aside = 0.03;
+    const Vector2d radii = (to - from) / 2;
+    const Vector2d middle = from + radii + aside * Vector2d(radii[0], -radii[1] / 2);
+    const auto samples = sample(solved_->fitted, {middle, (1 + aside) * radii});
+    const auto fit = samples ? fit_factor(form, *samples) : std::nullopt;
+    if (fit && fit->small) {
+      if (!fit->unique) return;
+      pieces.push_back({from, to, [v = fit->factor](const Vector2d& x) { return v(x, {})[0]; }});
+    } else if (halvings > 0) {
+      for (int i = 0; i < 4; ++i) {
+        const Vector2d part(i % 2, i / 2);
+        const Vector2d corner = from + part.cwiseProduct(radii);
+        add_part(add_part, corner, corner + radii, halvings - 1);
+      }
+    }
+  };
+  constexpr int most = 3;
+  add(add, low, high, most);
+  return pieces;
+}
+
+FactorFormula FactorReduction::formula() const {
+  solved_->found();
+  return recognised(solved_->fitted, solved_->start);
+}
+
 FactorOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
   if (!start.allFinite() || !value_of(solved_->field, start)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
-  return FactorOrbit(follow(solved_->field, solved_->found(), start, most_parts));
+  return FactorOrbit(follow(solved_->field, solved_->fitted, solved_->found(), start, most_parts));
 }
 
 }  // namespace contensou::reduction

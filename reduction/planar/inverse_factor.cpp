@@ -45,6 +45,8 @@ bool has_term(FactorForm form, int i, int j) {
       return i <= 2;
     case FactorForm::product:
       return i == 0 || j == 0;
+    case FactorForm::basis:
+      break;
   }
   return false;
 }
@@ -89,17 +91,32 @@ std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
     } catch (const std::exception&) {
       return std::nullopt;
     }
-    return jet.slopes.allFinite() ? std::optional(jet) : std::nullopt;
+  } else {
+    for (int i = 0; i < 2; ++i) {
+      constexpr double step = 1. / 32;
+      const auto found =
+          slope([&](const Vector2d& at) { return value_of(field, at); }, x, i, step * std::max(std::abs(x[i]), 1.));
+      if (!found) return std::nullopt;
+      jet.slopes.col(i) = found->value;
+      jet.error += found->error;
+    }
   }
-  for (int i = 0; i < 2; ++i) {
-    constexpr double step = 1. / 32;
-    const auto found =
-        slope([&](const Vector2d& at) { return value_of(field, at); }, x, i, step * std::max(std::abs(x[i]), 1.));
-    if (!found) return std::nullopt;
-    jet.slopes.col(i) = found->value;
-    jet.error += found->error;
-  }
+  if (field.basis.values) jet.basis = field.basis.values(x);
+  if (!jet.slopes.allFinite() || !jet.basis.allFinite()) return std::nullopt;
   return jet;
+}
+
+SmoothField with_cleared_denominator(const SmoothField& field) {
+  SmoothField cleared;
+  cleared.value = [f = field.value, d = field.denominator](const Vector2d& x) -> Vector2d { return d(x)[0] * f(x); };
+  cleared.basis = field.basis;
+  if (field.jacobian) {
+    cleared.jacobian = [=](const Vector2d& x) -> Eigen::Matrix2d {
+      const Eigen::RowVector3d d = field.denominator(x);
+      return d[0] * field.jacobian(x) + field.value(x) * d.tail<2>();
+    };
+  }
+  return cleared;
 }
 
 Box widened(FactorForm form, Box box, double factor) {
@@ -117,12 +134,14 @@ Box box_about(const Vector2d& x) {
 }
 
 std::string_view name(FactorForm form) {
-  constexpr std::array<std::string_view, factor_forms> names{
-      "constant", "affine", "polynomial", "linear in v", "quadratic in v", "linear in u", "quadratic in u", "product"};
+  constexpr std::array<std::string_view, factor_forms + 1> names{"constant",       "affine",         "polynomial",
+                                                                 "linear in v",    "quadratic in v", "linear in u",
+                                                                 "quadratic in u", "product",        "basis"};
   return names[static_cast<std::size_t>(form)];
 }
 
 InverseFactor::Terms<3> InverseFactor::terms(FactorForm form, const Box& box, const Vector2d& x, const Jet& jet) {
+  if (form == FactorForm::basis) return jet.basis;
   const Vector2d inside = box.inside(x);
   const Chebyshev a(inside[0]), b(inside[1]);
   Terms<3> terms(most, 3);
@@ -157,6 +176,7 @@ InverseFactor::Value InverseFactor::operator()(const Vector2d& x, const Jet& jet
 
 double InverseFactor::size(const Vector2d& x, const Jet& jet) const {
   if (form_ == FactorForm::product) return (*this)(x, jet)[0];
+  if (form_ == FactorForm::basis) return coefficients_.cwiseAbs().dot(jet.basis.col(0).cwiseAbs());
   const double largest = coefficients_.lpNorm<1>();
   return form_ == FactorForm::affine ? largest * jet.f.norm() * (1 + box_.inside(x).norm()) : largest;
 }
@@ -214,7 +234,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
   const double limit = std::clamp(8 * samples.error, level, loosest);
   TriedForm tried{name(form), 0, 0, 0};
   InverseFactor::Terms<1> coefficients;
-  bool vanishes = false;
+  bool vanishes = false, unique = true;
   VectorXd missed;
   double size = 1;
   if (log) {
@@ -240,13 +260,16 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     const VectorXd sigma = svd.singularValues().reverse();
     Index nullity = 1;
     for (Index i = 0; i < rank && (i == 0 || sigma[i - 1] <= limit); ++i) {
-      const double gap = i + 1 < rank ? sigma[i + 1] / std::max(sigma[i], smallest) : 1 / smallest;
+      const double gap = i + 1 < rank                  ? sigma[i + 1] / std::max(sigma[i], smallest)
+                         : i == 0 || sigma[i] <= limit ? 1 / smallest
+                                                       : 0;
       if (gap > tried.gap) {
         tried.gap = gap;
         nullity = i + 1;
       }
     }
     tried.singular_value = sigma[0];
+    unique = nullity == 1;
     MatrixXd null = MatrixXd::Zero(columns, nullity);
     null.topRows(rank) = triangle.solve(svd.matrixV().rightCols(nullity));
     null = (qr.colsPermutation() * null).eval();
@@ -264,7 +287,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
   }
   tried.residual = missed.tail(all - rows).cwiseAbs().maxCoeff() / size;
   FactorFit fit{InverseFactor(form, samples.box, coefficients), tried,
-                tried.singular_value <= limit && tried.residual <= accurate};
+                tried.singular_value <= limit && tried.residual <= accurate, unique};
   fit.factor.vanishes = vanishes;
   fit.factor.error = 8 * eps / (tried.gap * std::max(tried.singular_value, smallest));
   return fit;

@@ -17,11 +17,15 @@ struct Jet {
   Eigen::Vector2d f;
   Eigen::Matrix2d slopes;
   double error = 0;  ///< of the slopes, for differences
+  Eigen::MatrixX3d basis = {};
 };
 
 /// Return f, and f with its derivatives; none where the field has no value.
 std::optional<Eigen::Vector2d> value_of(const SmoothField& field, const Eigen::Vector2d& x);
 std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
+
+/// Returns D f of a field with a denominator D.
+SmoothField with_cleared_denominator(const SmoothField& field);
 
 struct Box {
   Eigen::Vector2d centre, radii;
@@ -33,8 +37,11 @@ struct Box {
 /// The box in which V is looked for.
 Box box_about(const Eigen::Vector2d& x);
 
-enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product };
-inline constexpr int factor_forms = 8;
+enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product, basis };
+inline constexpr int factor_forms = 8;  ///< that are tried; basis takes their place
+
+/// True of a form whose coefficients are those of a box everywhere.
+inline bool holds_everywhere(FactorForm form) { return form == FactorForm::affine || form == FactorForm::basis; }
 
 std::string_view name(FactorForm form);
 
@@ -44,7 +51,7 @@ Box widened(FactorForm form, Box box, double factor);
 /// V in a box.
 class InverseFactor {
  public:
-  static constexpr int most = 45;
+  static constexpr int most = Basis::most;
   template <int Columns>
   using Terms = Eigen::Matrix<double, Eigen::Dynamic, Columns, 0, most, Columns>;
 
@@ -57,7 +64,7 @@ class InverseFactor {
   /// Returns the functions that V, or ln V of a product, is a sum of, with their derivatives.
   static Terms<3> terms(FactorForm form, const Box& box, const Eigen::Vector2d& x, const Jet& jet);
 
-  /// @param jet  its slopes count only for the derivatives of an affine form
+  /// @param jet  its slopes count only for the derivatives of an affine form, its basis for that form
   Value operator()(const Eigen::Vector2d& x, const Jet& jet) const;
 
   /// Returns (R66), with the size of V in place of its mean square over the box.
@@ -98,7 +105,8 @@ std::optional<FieldSamples> sample(const SmoothField& field, const Box& box);
 struct FactorFit {
   InverseFactor factor;  ///< with V = 1 at the centre of the box if it does not vanish there
   TriedForm tried;
-  bool small;  ///< the singular value and the residual
+  bool small;   ///< the singular value and the residual
+  bool unique;  ///< except for a constant factor
 };
 
 /// Returns the best V of this form; none if all functions of the form vanish.

@@ -454,6 +454,10 @@ double PlanarReduction::factor(const Vector2d& x) const {
   return solution_->factor(x);
 }
 
+std::vector<FactorPiece> PlanarReduction::factor_pieces(const Vector2d& low, const Vector2d& high) const {
+  return solution_->factor_pieces(low, high);
+}
+
 PlanarCanonical PlanarReduction::canonical(const Vector2d& x) const {
   require_point(x);
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();

@@ -22,6 +22,7 @@ struct PlanarReduction::Solution {
   virtual ~Solution() = default;
 
   virtual double factor(const Eigen::Vector2d& x) const = 0;
+  virtual std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d&, const Eigen::Vector2d&) const { return {}; }
   virtual std::shared_ptr<const PlanarOrbit::Motion> orbit(const Eigen::Vector2d& start) const = 0;
   virtual std::shared_ptr<const PlanarOrbit::Motion> part_of_orbit(const Eigen::Vector2d& start) const {
     return orbit(start);

@@ -109,7 +109,7 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("tried",
                              [](const Planar& planar) {
                                py::list list;
-                               for (const auto& [form, value, gap, residual] : planar.solved_plane.tried) {
+                               for (const auto& [form, value, gap, residual, cleared] : planar.solved_plane.tried) {
                                  list.append(py::make_tuple(form, value, gap, residual));
                                }
                                return list;

@@ -271,6 +271,25 @@ class Typist {
 
 }  // namespace
 
+TEST_CASE("the common denominator of formulas", "[formula]") {
+  const Eigen::Vector2d x(1.3, 0.7);
+  const auto denominator = [&](const std::string& text) {
+    const contensou::reduction::SmoothField field = contensou::answers::parse_planar_system(text, {});
+    return field.denominator ? field.denominator(x) : Eigen::RowVector3d(1, 0, 0);
+  };
+  const auto is = [](const Eigen::RowVector3d& found, double value, double by_u, double by_v) {
+    return (found - Eigen::RowVector3d(value, by_u, by_v)).norm() < 1e-14;
+  };
+  const double u = x[0], v = x[1];
+  CHECK(is(denominator("y' = y/x"), u, 1, 0));
+  CHECK(is(denominator("y' = (x+y)/(x-y)^2 + 1/(x-y)"), (u - v) * (u - v), 2 * (u - v), -2 * (u - v)));
+  CHECK(is(denominator("u' = 1/(u*v); v' = -u/v"), u * v, v, u));
+  CHECK(is(denominator("y' = 1/(1 + 1/x)"), u + 1, 1, 0));
+  CHECK(is(denominator("y' = x^-2*y + (2/x)^3"), u * u * u, 3 * u * u, 0));
+  CHECK(is(denominator("y' = x/(y/(x+1))"), v, 0, 1));
+  CHECK(is(denominator("y' = y/2 + sin(1/x)*x"), 1, 0, 0));
+}
+
 TEST_CASE("20 000 random formulas have the values of their trees, to the last bit, and their slopes", "[formulas]") {
   Random random(20260711);
   Typist typed(random);

@@ -277,6 +277,59 @@ TEST_CASE("reduce solves systems without a scaling by an inverse integrating fac
   CHECK_THAT(picture.err, Contains("this system has none"));
 }
 
+TEST_CASE("reduce solves quotients with their denominator cleared", "[cli]") {
+  const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7"};
+  const Json plain = json_of_system("y' = x/y + 1/(x*y)", start);
+  CHECK_FALSE(plain["tried"].back().contains("cleared"));
+  // V D is a polynomial, V is not.
+  const Json reduced = json_of_system("y' = (y^2-3*x^2*y+x)/(x^3-2*x*y)", start);
+  CHECK(reduced["form"] == "constant");
+  CHECK(reduced["tried"].back()["cleared"] == true);
+  CHECK(reduced["factor"] == "1 divided by the denominator");
+  CHECK(reduced["by_steps"]["difference"] < 1e-9);
+}
+
+TEST_CASE("reduce recognises V and H", "[cli]") {
+  struct Case {
+    const char *system, *factor, *integral;
+  };
+  const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7"};
+  for (const auto& [system, factor, integral] :
+       {Case{"x'' = -sin(x)", "1", "-cos(u) + v^2/2"}, Case{"x'' = x - x^3", "1", "-u^2/2 + u^4/4 + v^2/2"},
+        Case{"u' = u*(1-v); v' = v*(u-1)", "u v", "-u + ln|u| - v + ln|v|"},
+        Case{"u' = -v+u*(1-u^2-v^2); v' = u+v*(1-u^2-v^2)", "(u^2 + v^2) (1 - u^2 - v^2)", ""},
+        Case{"u' = u*(1-u)*v; v' = v*(1-u)*(1+u)*0.3", "u v (1 - u)", "-3 u/10 - 3 ln|u|/10 + v"}}) {
+    INFO(system);
+    const Json reduced = json_of_system(system, start);
+    CHECK(reduced["factor"] == factor);
+    CHECK(reduced.value("integral", "") == integral);
+  }
+  // Coefficients that are not rational.
+  CHECK(json_of_system("u' = u*(1-v)+sqrt(2)*u^2; v' = v*(u-1)", start)["factor"] != "");
+  CHECK(json_of_system("y' = x - y**2", start)["factor"] == "quadratic in v, 1 at the start");
+}
+
+TEST_CASE("reduce looks for V in a basis of one's own", "[cli]") {
+  const Json reduced = json_of_system("u' = v; v' = -sin(u)", {"--u0", "1", "--v0", "1", "--basis", "1; u; exp(u)"});
+  CHECK(reduced["form"] == "basis");
+  CHECK(reduced["factor"] == "1");
+  CHECK(reduced["tried"].size() == 1);
+  // Kamke 1.114 is of no form that is tried.
+  const std::string equation = "y' = sqrt(x^2+y^2) + a*y/x";
+  const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7", "--param", "a=1"};
+  CHECK(json_of_system(equation, start)["form"].is_null());
+  std::vector<std::string> with_basis = start;
+  with_basis.insert(with_basis.end(), {"--basis", "1; x; y; a*sqrt(x^2+y^2)"});
+  const Json kamke = json_of_system(equation, with_basis);
+  CHECK(kamke["factor"] == "a*sqrt(x^2+y^2)");
+  CHECK(kamke["by_steps"]["difference"] < 1e-10);
+  const Run none = reduce("u' = v; v' = -sin(u)", {"--u0", "1", "--v0", "1", "--basis", "u; exp(u)"});
+  CHECK(none.status == 1);
+  const Run wrong = reduce("u' = v; v' = -sin(u)", {"--u0", "1", "--v0", "1", "--basis", "u; epx(u)"});
+  CHECK(wrong.status == 2);
+  CHECK_THAT(wrong.err, Contains("--basis: 'epx'") && Contains("at character 1 of 'epx(u)'"));
+}
+
 TEST_CASE("reduce --system shows equilibria and reversors, solved or not", "[cli]") {
   const Json pendulum = json_of_system("x'' = -sin(x)", {"--u0", "1.3", "--v0", "0"});
   REQUIRE(pendulum["equilibria"].size() == 3);

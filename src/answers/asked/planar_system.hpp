@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct FormulaField {
   };
   Equations equations;
   Formulas formulas;
+  std::vector<std::string> variables;
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& x) const;
 
@@ -36,6 +38,12 @@ struct FormulaField {
 /// @throws BadInput  as Formulas
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
 
+/// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)", in the variables of a system and its
+/// parameters.
+/// @throws BadInput  as Formulas; for more functions than Basis::most
+reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
+                             const std::map<std::string, double>& parameters);
+
 /// Whether a start is the centre of the scaling, but for rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
 
@@ -43,7 +51,8 @@ bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start
 struct SolvedPlane {
   std::optional<reduction::PlanarReduction> plane;
   std::string why_not;
-  std::vector<reduction::TriedForm> tried = {};  ///< forms of the factor, where it was looked for
+  std::vector<reduction::TriedForm> tried = {};            ///< forms of the factor, where it was looked for
+  std::function<reduction::FactorFormula()> formula = {};  ///< of the factor that solves it
 };
 
 /// @param found  of the same start

@@ -406,6 +406,86 @@ class Parser {
   std::vector<unsigned char> variables_;  ///< that each value on the stack depends on, as Step::left
 };
 
+using Steps = std::vector<Step>;
+
+/// A factor of a product.
+struct Factor {
+  Steps steps;
+  unsigned char variables;  ///< as Step::left
+
+  bool operator==(const Factor& other) const {
+    return std::ranges::equal(steps, other.steps, [](const Step& a, const Step& b) {
+      return a.kind == b.kind && (a.kind == Kind::number     ? a.number == b.number
+                                  : a.kind == Kind::variable ? a.variable == b.variable
+                                                             : a.function == b.function);
+    });
+  }
+};
+using Factors = std::vector<Factor>;
+
+/// A part of a formula as a product, and what it is divided by.
+struct Quotient {
+  Factor whole;
+  Factors over, under = {};
+};
+
+/// Appends the factors that depend on variables.
+void multiply(Factors& product, const Factors& by, int times = 1) {
+  for (const Factor& each : by) {
+    if (each.variables != 0) product.insert(product.end(), static_cast<std::size_t>(times), each);
+  }
+}
+
+/// Appends the factors that are missing in a multiple of both.
+void make_multiple(Factors& product, const Factors& of) {
+  for (auto each = of.begin(); each != of.end(); ++each) {
+    if (std::ranges::count(product, *each) < std::count(of.begin(), each + 1, *each)) product.push_back(*each);
+  }
+}
+
+/// Returns the divisors of a formula.
+Factors divisors(const Steps& formula) {
+  std::vector<Quotient> stack;
+  for (const Step& step : formula) {
+    const int operands = step.kind == Kind::number || step.kind == Kind::variable ? 0
+                         : step.kind == Kind::one                                 ? 1
+                         : step.kind == Kind::choose                              ? 3
+                                                                                  : 2;
+    const std::vector<Quotient> parts(stack.end() - operands, stack.end());
+    stack.resize(stack.size() - parts.size());
+    Quotient joined{{{}, static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0)}, {}};
+    for (const auto& [part, over, under] : parts) {
+      joined.whole.steps.insert(joined.whole.steps.end(), part.steps.begin(), part.steps.end());
+      joined.whole.variables |= part.variables;
+    }
+    joined.whole.steps.push_back(step);
+    joined.over = {joined.whole};
+    const bool of_quotients = step.kind == Kind::multiply || step.kind == Kind::divide;
+    if (of_quotients) {
+      const bool divides = step.kind == Kind::divide;
+      joined.over = parts[0].over;
+      joined.under = parts[0].under;
+      multiply(joined.over, divides ? parts[1].under : parts[1].over);
+      multiply(joined.under, divides ? parts[1].over : parts[1].under);
+    } else if (step.kind == Kind::add || step.kind == Kind::subtract ||
+               (step.kind == Kind::one && step.function == &negative)) {
+      // A sum stays one factor, which the divisors multiply.
+      for (const Quotient& part : parts) make_multiple(joined.under, part.under);
+      multiply(joined.over, joined.under);
+    } else if (step.kind == Kind::two && step.function == &power && parts[1].whole.variables == 0) {
+      const double exponent = run<0>(parts[1].whole.steps, nullptr)[0];
+      constexpr int highest = 8;
+      if (std::rint(exponent) == exponent && std::abs(exponent) <= highest) {
+        joined.over.clear();
+        multiply(joined.over, exponent > 0 ? parts[0].over : parts[0].under, static_cast<int>(std::abs(exponent)));
+        multiply(joined.under, exponent > 0 ? parts[0].under : parts[0].over, static_cast<int>(std::abs(exponent)));
+      }
+    }
+    stack.push_back(std::move(joined));
+  }
+  return stack.empty() ? Factors{} : stack.back().under;
+}
+
 /// Returns what stands before the equals sign, without blanks; an empty text if there is none.
 std::string left_side(std::string_view formula) {
   const std::size_t equals = formula.find('=');
@@ -453,7 +533,8 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
       const std::size_t equals = text.find('=', first);
       const std::string left = formula_parts::left_side(text.substr(first, end - first));
       const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
-      if (which == shape.left.size() || left.empty()) {
+      const bool bare = shape.left[0].empty() && equals == text.npos && !found[0];
+      if (!bare && (which == shape.left.size() || left.empty())) {
         const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
         if (!may_be_parameter(left) || !is_number(value)) {
           const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
@@ -463,7 +544,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
       } else if (found[which]) {
         reject_at(first, text, fmt::format("{} stands there twice: {}", left, shape.sentence));
       } else {
-        found[which] = {{equals + 1, end}};
+        found[which] = {{bare ? first : equals + 1, end}};
       }
     }
     begin = end + 1;
@@ -472,7 +553,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
   std::map<std::string, double> unused = parameters;
   Compiled compiled;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (shape.left[i].empty()) continue;
+    if (shape.left[i].empty() && !found[i]) continue;
     if (!found[i]) reject_at(text.size(), text, fmt::format("{} = is missing: {}", shape.left[i], shape.sentence));
     const auto& [from, to] = *found[i];
     compiled.formulas[i] = formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
@@ -487,6 +568,24 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
 std::array<double, 2> Formulas::operator()(std::initializer_list<double> values) const {
   const auto& [first, second] = compiled_->formulas;
   return {formula_parts::run<0>(first, values.begin())[0], formula_parts::run<0>(second, values.begin())[0]};
+}
+
+std::optional<Formulas> Formulas::denominator() const {
+  using formula_parts::Kind;
+  formula_parts::Factors all;
+  for (const auto& formula : compiled_->formulas) make_multiple(all, formula_parts::divisors(formula));
+  if (all.empty()) return std::nullopt;
+  Compiled compiled;
+  auto& [product, none] = compiled.formulas;
+  unsigned char before = 0;
+  for (const auto& [steps, variables] : all) {
+    product.insert(product.end(), steps.begin(), steps.end());
+    if (&steps != &all.front().steps) {
+      product.push_back({.kind = Kind::multiply, .left = before, .right = variables, .number = 0});
+    }
+    before |= variables;
+  }
+  return Formulas(std::make_shared<const Compiled>(std::move(compiled)));
 }
 
 template <std::size_t N>

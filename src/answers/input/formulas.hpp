@@ -5,7 +5,9 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace contensou::answers {
@@ -16,7 +18,8 @@ using Dual = std::array<double, N + 1>;
 
 /// The form of a pair of formulas, or of one.
 struct FormulaShape {
-  std::array<std::string, 2> left;                  ///< before the equals signs; the second is empty where one is due
+  /// Before the equals signs; the second is empty where one is due, both for one formula without an equals sign.
+  std::array<std::string, 2> left;
   std::vector<std::string> variables;               ///< of the formulas
   std::string sentence;                             ///< for messages, such as a system is "u' = F; v' = G"
   std::map<std::string, std::string> refused = {};  ///< names that no parameter has, either, and why
@@ -57,8 +60,14 @@ class Formulas {
   template <std::size_t N>
   std::array<Dual<N>, 2> with_slopes(const std::array<double, N>& values) const;
 
+  /// Returns the common denominator of the formulas, as the first of a pair: the product of the divisors that depend on
+  /// variables, each to its highest power, outside of functions. None if there is no such divisor.
+  std::optional<Formulas> denominator() const;
+
  private:
   struct Compiled;
+  explicit Formulas(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}
+
   std::shared_ptr<const Compiled> compiled_;
 };
 

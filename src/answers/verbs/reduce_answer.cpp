@@ -8,11 +8,13 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "answers/asked/planar_system.hpp"
 #include "answers/input/message.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
+#include "contensou/reduction/planar_kinds.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/infinity.hpp"
@@ -166,9 +168,10 @@ std::string difference(double one, double other) {
 /// The forms of V that were tried; the last holds if one does.
 std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   std::string text;
-  for (const auto& [form, value, gap, residual] : tried) {
-    text += fmt::format("{:<12}{}: least singular value {:.0e}, gap {:.0e}, residual {:.0e}\n",
-                        text.empty() ? "factor V" : "", form, value, gap, residual);
+  for (const auto& [form, value, gap, residual, cleared] : tried) {
+    text += fmt::format("{:<12}{}{}: least singular value {:.0e}, gap {:.0e}, residual {:.0e}\n",
+                        text.empty() ? "factor V" : "", form, cleared ? ", V times the denominator" : "", value, gap,
+                        residual);
   }
   return text;
 }
@@ -266,11 +269,18 @@ std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const
 }
 
 /// As solved_by_scaling, for a system that V alone solves.
-std::function<std::string(const Digits&)> solved_by_factor(Json& members, const PlanarReduction& plane) {
-  members.update({{"factor", fmt::format("{}, 1 at the start", plane.form())}, {"kind", Json()}});
-  return [=](const Digits&) {
-    return fmt::format("solution    by quadrature along H = constant, dH = (u' dv - v' du)/V; V is {}\n", plane.form());
-  };
+std::function<std::string(const Digits&)> solved_by_factor(Json& members, const SolvedPlane& solved) {
+  const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
+  const std::string_view form = solved.plane->form();
+  const std::string v = fmt::format("{}{}", form == "basis" ? "a sum of the basis" : form, divided);
+  const auto [factor, integral] = solved.formula();
+  members["factor"] = factor.empty() ? v + ", 1 at the start" : fmt::format("{}{}", factor, divided);
+  if (!integral.empty()) members["integral"] = integral;
+  members["kind"] = nullptr;
+  std::string lines = fmt::format("solution    by quadrature along H = constant, dH = (u' dv - v' du)/V; V is {}\n", v);
+  if (!factor.empty()) lines += fmt::format("            V = {}{}, up to a constant factor\n", factor, divided);
+  if (!integral.empty()) lines += fmt::format("            H = {}\n", integral);
+  return [=](const Digits&) { return lines; };
 }
 
 /// How far the state that the solution gives is from that of steps, relative to the way between, and when: at 95 % of a
@@ -370,8 +380,9 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
   answer.members["form"] = solved.plane ? Json(solved.plane->form()) : Json();
   if (!solved.tried.empty()) {
     Json tried = Json::array();
-    for (const auto& [form, value, gap, residual] : solved.tried) {
+    for (const auto& [form, value, gap, residual, cleared] : solved.tried) {
       tried.push_back({{"form", form}, {"singular_value", or_infinity(value)}, {"gap", or_infinity(gap)}});
+      if (cleared) tried.back()["cleared"] = true;
     }
     answer.members["tried"] = tried;
   }
@@ -383,7 +394,7 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
     const bool at_centre = plane.scaling() != nullptr && is_centre(*plane.scaling(), start);
     const PlanarOrbit orbit = plane.orbit(at_centre ? plane.centre() : start);
     solution = plane.scaling() ? solved_by_scaling(answer.members, plane, orbit, start, at_centre)
-                               : solved_by_factor(answer.members, plane);
+                               : solved_by_factor(answer.members, solved);
     if (!at_centre) {
       solution = [before = solution, after = end_of(answer.members, plane, orbit, start)](const Digits& digits) {
         return before(digits) + after(digits);
@@ -539,8 +550,11 @@ std::vector<FieldText> reduce_fields() {
       {"JSON `singular_values`", "", "singular values of the determining equations over the largest, ascending"},
       {"`level`, `gap`", "", "a singular value below level counts as 0; the others are larger by the factor gap"},
       {"`form`, `factor`", "",
-       "scaling, or form of the inverse integrating factor V that solves the system, null for none; V in words"},
-      {"JSON `tried` [{`form`, `singular_value`, `gap`}]", "", "forms of V in the order in which they were tried"},
+       "scaling, or form of the inverse integrating factor V that solves the system, null for none; V as a formula, up "
+       "to a constant factor, or in words"},
+      {"`integral`", "", "first integral H as a formula, if it is recognised"},
+      {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
+       "forms of V in the order in which they were tried; cleared is true for V times the denominator of the field"},
       {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
        "canonical coordinates of the start: v/u and ln v; with --system the angle of a direction, and ln of the "
        "distance, over those of the start"},

@@ -1,5 +1,8 @@
 #include "options/system_option.hpp"
 
+#include <map>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "answers/asked/planar_system.hpp"
@@ -13,13 +16,21 @@ void SystemOption::add(CLI::App& app) {
               "another system in place of (2.6), or \"y' = F(x, y)\", \"x'' = F(x, x')\": formulas in u and v with + - "
               "* / ^, |x|, hypot, sqrt, sign, exp, ...; "
               "--u0 and --v0 of either sign are its start");
+  basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
+             "functions whose sums with constant coefficients are tried as inverse integrating factor V of --system");
 }
 
 reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) const {
+  const Argument* reading = &system_;
   try {
-    return parse_planar_system(system_.text(), parameters.read());
+    const std::map<std::string, double> known = parameters.read();
+    const FormulaField field = parse_planar_system(system_.text(), known);
+    reduction::SmoothField smooth = field;
+    reading = &basis_;
+    if (basis_.given()) smooth.basis = parse_basis(basis_.text(), field, known);
+    return smooth;
   } catch (const BadInput& error) {
-    throw BadInput(fmt::format("--system: {}", error.what()));
+    throw BadInput(fmt::format("{}: {}", reading->name(), error.what()));
   }
 }
 

@@ -26,7 +26,7 @@ class SystemOption {
   reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;
 
  private:
-  Argument system_;
+  Argument system_, basis_;
 };
 
 }  // namespace contensou::program

@@ -14,11 +14,23 @@
 
 namespace contensou::reduction {
 
+/// Functions that V may be a sum of.
+struct Basis {
+  std::vector<std::string> names;
+  /// Returns the functions, as many as names, with their derivatives: rows of the value, d/du and d/dv.
+  std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> values = {};
+  static constexpr int most = 45;
+};
+
 /// A field with its Jacobian. Where it has no value it throws or returns what is not finite.
 struct SmoothField {
   PlanarField value;
   /// The derivatives, exact except for rounding; row 0 holds those of u'. If it is empty, differences take their place.
   std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
+  /// D with its derivatives by u and v, if the field is a quotient N/D: V D may have a form where V has none.
+  std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
+  /// If it is not empty, V is looked for among sums of these functions only.
+  Basis basis = {};
 };
 
 /// A form of V that was tried, and how well the best V of this form satisfies (R64).
@@ -27,6 +39,12 @@ struct TriedForm {
   double singular_value;  ///< the least: mean square of (R66) over the points of the fit
   double gap;             ///< ratio of the least singular value that counts as large to the largest that counts as 0
   double residual;        ///< largest (R66) at other points
+  bool cleared = false;   ///< the form is that of V times the denominator of the field
+};
+
+/// V and H as formulas in u and v, as people write them; empty where the numbers are not recognised.
+struct FactorFormula {
+  std::string factor, integral;
 };
 
 class FactorOrbit;
@@ -41,15 +59,16 @@ class FactorOrbit;
 /// Accuracy  relative 1e-12 of states and times, where the motion does not amplify rounding.
 class FactorReduction {
  public:
-  /// Looks for V in a box of 30 % about the start: form after form, the first that holds.
+  /// Looks for V in a box of 30 % about the start: form after form, the first that holds. If the field has a
+  /// denominator D and V has no form, V D follows, which is a factor of D f.
   /// @throws std::domain_error  unless the start is finite and the field has a value there
   FactorReduction(SmoothField field, const Eigen::Vector2d& start);
 
   bool found() const { return !form().empty(); }
 
-  /// Returns "constant" (div f = 0), "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v", "quadratic in v", "linear in
-  /// u", "quadratic in u" (coefficients are functions of the other coordinate) or "product" (V = A(u) B(v)); empty if none
-  /// was found.
+  /// Returns "constant" (div f = 0), "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v",
+  /// "quadratic in v", "linear in u", "quadratic in u" (coefficients are functions of the other coordinate), "product"
+  /// (V = A(u) B(v)) or "basis" (a sum of functions of the field's basis); empty if none was found.
   std::string_view form() const;
 
   /// Returns the forms in the order in which they were tried.
@@ -58,6 +77,14 @@ class FactorReduction {
   /// Returns V, which is 1 at the start unless the start lies on V = 0.
   /// @throws std::domain_error  if none was found; outside the box, unless V is affine
   double factor(const Eigen::Vector2d& x) const;
+
+  /// As PlanarReduction::factor_pieces.
+  /// @throws std::domain_error  if none was found
+  std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
+
+  /// Returns V, up to a constant factor, and H, up to constants, if V has rational coefficients: their residual (R66) is
+  /// below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
+  FactorFormula formula() const;
 
   /// Returns H, dH = (F dv - G du)/V, which is constant along orbits and 0 at the start.
   /// @throws std::domain_error  as factor; and if V vanishes between the start and x

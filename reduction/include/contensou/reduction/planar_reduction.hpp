@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -69,6 +70,12 @@ class UndecidedRays : public std::domain_error {
 
 class PlanarOrbit;
 
+/// V in a rectangle, except for a constant factor.
+struct FactorPiece {
+  Eigen::Vector2d low, high;
+  std::function<double(const Eigen::Vector2d& x)> value;  ///< NaN where V has no value
+};
+
 /// A planar system x' = f(x) reduced to quadratures, by a scaling X = c t d/dt + A (x - x_0) . d/dx, for which f on one
 /// closed curve about x_0 is all of f, or by an inverse integrating factor V alone (reduced_by_factor).
 ///
@@ -102,6 +109,11 @@ class PlanarReduction {
   /// Returns V, an inverse integrating factor: f . grad V = V div f. By a scaling it is f ^ (A (x - x_0)).
   /// @throws std::domain_error  if x is not finite, or V is not known there
   double factor(const Eigen::Vector2d& x) const;
+
+  /// Returns V in the parts of a rectangle in which it is known and may vanish: fitted anew there, where the form of V is
+  /// that of a box. Empty by a scaling, whose rays are the curves V = 0. Where several V of the form exist, each with
+  /// curves V = 0 of its own, only a V that is the same everywhere is returned.
+  std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
 
   /// Returns the scaling that solves it; null where V alone does. Without a scaling there are no centre, canonical
   /// coordinates, rays, sectors, turn and kind.

@@ -1,0 +1,432 @@
+// V and H as formulas. Null vectors of (R64) in functions that have names are brought to a row echelon form, whose entries
+// are rational if V has rational coefficients; then the coefficients are rounded, and (R66) is computed with these.
+#include "planar/factor_formula.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "planar/inverse_factor.hpp"
+
+namespace contensou::reduction {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using Whole = long long;
+
+constexpr double exact = 1e-12;
+
+/// A sum of functions with whole coefficients, divided by a whole number.
+struct Coefficients {
+  std::vector<Whole> above;
+  Whole below = 1;
+};
+
+/// Returns the fraction with the least denominator within the error.
+std::optional<std::pair<Whole, Whole>> fraction(double x, double error) {
+  constexpr Whole largest = 1000;
+  constexpr double highest = 1e6;
+  if (!(std::abs(x) <= highest)) return std::nullopt;
+  for (Whole below = 1; below <= largest; ++below) {
+    const double above = std::rint(x * static_cast<double>(below));
+    if (std::abs(x - above / static_cast<double>(below)) <= error) return std::pair(static_cast<Whole>(above), below);
+  }
+  return std::nullopt;
+}
+
+std::optional<Coefficients> rational(const VectorXd& values, double error) {
+  std::vector<std::pair<Whole, Whole>> all;
+  Coefficients result;
+  for (const double value : values) {
+    const auto found = fraction(value, error);
+    if (!found) return std::nullopt;
+    all.push_back(*found);
+    result.below = std::lcm(result.below, found->second);
+    constexpr Whole longest = 1000000;
+    if (result.below > longest) return std::nullopt;
+  }
+  for (const auto& [above, below] : all) result.above.push_back(above * (result.below / below));
+  return result;
+}
+
+/// "3 u^2/4" of 3, "u^2" and 4, without its sign.
+std::string term(Whole above, const std::string& name, Whole below) {
+  const Whole divisor = std::gcd(above, below), size = std::abs(above) / divisor;
+  const bool bare = name.empty() || name == "1";
+  std::string text = bare ? fmt::to_string(size) : size == 1 ? name : fmt::format("{} {}", size, name);
+  if (below != divisor) text += fmt::format("/{}", below / divisor);
+  return text;
+}
+
+/// A sum with its signs; "0" if it is empty.
+std::string sum(const std::vector<std::string>& names, const Coefficients& factors) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Whole above = factors.above[i];
+    if (above == 0) continue;
+    text += text.empty() ? (above < 0 ? "-" : "") : above < 0 ? " - " : " + ";
+    text += term(above, names[i], factors.below);
+  }
+  return text.empty() ? "0" : text;
+}
+
+std::string power(char name, int exponent) {
+  return exponent == 0 ? "" : exponent == 1 ? std::string(1, name) : fmt::format("{}^{}", name, exponent);
+}
+
+/// A polynomial in u and v.
+class Polynomial {
+ public:
+  static constexpr int degree = 4, side = degree + 1;
+
+  Whole& at(int i, int j) { return terms_[static_cast<std::size_t>(i * side + j)]; }
+  Whole at(int i, int j) const { return terms_[static_cast<std::size_t>(i * side + j)]; }
+
+  double operator()(const Vector2d& x) const {
+    double value = 0;
+    for (int i = degree; i >= 0; --i) {
+      double row = 0;
+      for (int j = degree; j >= 0; --j) row = row * x[1] + static_cast<double>(at(i, j));
+      value = value * x[0] + row;
+    }
+    return value;
+  }
+
+  /// Divides by a polynomial whose last term, in the order of u, then v, is not 0, if nothing is left.
+  bool divide(const Polynomial& by) {
+    const auto [m, n] = by.last();
+    Polynomial rest = *this, quotient;
+    for (int i = degree; i >= m; --i) {
+      for (int j = degree; j >= n; --j) {
+        const Whole factor = rest.at(i, j) / by.at(m, n);
+        if (factor == 0) continue;
+        quotient.at(i - m, j - n) = factor;
+        for (int k = 0; k <= m; ++k) {
+          for (int l = 0; l < side; ++l) {
+            if (by.at(k, l) == 0) continue;
+            if (j - n + l > degree) return false;
+            rest.at(i - m + k, j - n + l) -= factor * by.at(k, l);
+          }
+        }
+      }
+    }
+    if (std::ranges::any_of(rest.terms_, [](Whole each) { return each != 0; })) return false;
+    *this = quotient;
+    return true;
+  }
+
+  int total_degree() const {
+    int most = 0;
+    for (int i = 0; i < side; ++i) {
+      for (int j = 0; j < side; ++j) {
+        if (at(i, j) != 0) most = std::max(most, i + j);
+      }
+    }
+    return most;
+  }
+
+  /// Returns it with a sign so that the term of the lowest degree is positive.
+  std::string text() const {
+    std::vector<std::string> names;
+    Coefficients factors;
+    for (int total = 0; total <= 2 * degree; ++total) {
+      for (int i = std::min(total, degree); i >= 0 && total - i <= degree; --i) {
+        const int j = total - i;
+        if (at(i, j) == 0) continue;
+        const std::string of_u = power('u', i), of_v = power('v', j);
+        names.push_back(of_u + (of_u.empty() || of_v.empty() ? "" : " ") + of_v);
+        factors.above.push_back(at(i, j));
+      }
+    }
+    if (factors.above.front() < 0) {
+      for (Whole& each : factors.above) each = -each;
+    }
+    return sum(names, factors);
+  }
+
+ private:
+  std::pair<int, int> last() const {
+    for (int i = degree; i >= 0; --i) {
+      for (int j = degree; j >= 0; --j) {
+        if (at(i, j) != 0) return {i, j};
+      }
+    }
+    return {0, 0};
+  }
+
+  std::array<Whole, side* side> terms_ = {};
+};
+
+/// Returns it in factors with small coefficients, except for its sign.
+std::string factorised(Polynomial rest) {
+  std::vector<std::pair<std::string, int>> found;
+  constexpr int large = 10;
+  for (const int degree : {1, 2}) {  // lines, then conics and pairs of lines
+    for (int a = 0; a <= large; ++a) {
+      for (int b = a == 0 ? 1 : -large; b <= large; ++b) {
+        for (int c = -large; c <= large; ++c) {
+          if (std::gcd(std::gcd(a, b), c) != 1) continue;
+          Polynomial by;
+          by.at(degree, 0) = a;
+          by.at(0, degree) = b;
+          by.at(0, 0) = c;
+          int times = 0;
+          while (rest.total_degree() >= degree && rest.divide(by)) ++times;
+          if (times > 0) found.emplace_back(by.text(), times);
+        }
+      }
+    }
+  }
+  if (rest.total_degree() > 0 || found.empty()) found.emplace_back(rest.text(), 1);
+  std::ranges::sort(found, {}, [](const auto& each) { return std::pair(each.first.size(), each.first); });
+  if (found.size() == 1 && found[0].second == 1) return found[0].first;
+  std::string text;
+  for (const auto& [factor, times] : found) {
+    const bool bare = factor.find(' ') == factor.npos;
+    text += (text.empty() ? "" : " ") + (bare ? factor : "(" + factor + ")");
+    if (times > 1) text += fmt::format("^{}", times);
+  }
+  return text;
+}
+
+/// Values and derivatives of functions at a point: rows of value, d/du, d/dv.
+using Functions = std::function<Eigen::MatrixX3d(const Vector2d& x, const Jet& jet)>;
+
+/// Rows of (R64) in these functions, divided by 1/w of (R66) and by the size of the functions.
+MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
+  MatrixXd rows(std::ssize(samples.points), functions(samples.points[0], samples.jets[0]).rows());
+  for (Index k = 0; k < rows.rows(); ++k) {
+    const Jet& jet = samples.jets[static_cast<std::size_t>(k)];
+    const Eigen::MatrixX3d at = functions(samples.points[static_cast<std::size_t>(k)], jet);
+    const double size = jet.f.cwiseQuotient(samples.box.radii).lpNorm<1>() + std::abs(jet.slopes.trace());
+    rows.row(k) = (at.rightCols<2>() * jet.f - at.col(0) * jet.slopes.trace()).transpose() / (size > 0 ? size : 1);
+  }
+  return rows;
+}
+
+/// Returns the rational combination with the fewest functions that satisfies (R64).
+std::optional<Coefficients> null_combination(const Functions& functions, const FieldSamples& samples) {
+  MatrixXd rows = rows_of(functions, samples);
+  VectorXd sizes = VectorXd::Zero(rows.cols());
+  for (std::size_t k = 0; k < samples.points.size(); ++k) {
+    sizes = sizes.cwiseMax(functions(samples.points[k], samples.jets[k]).col(0).cwiseAbs());
+  }
+  if (!(sizes.minCoeff() > 0) || rows.rows() < rows.cols()) return std::nullopt;
+  for (Index i = 0; i < sizes.size(); ++i) sizes[i] = std::exp2(std::rint(std::log2(sizes[i])));
+  const MatrixXd scaled = rows * sizes.cwiseInverse().asDiagonal();
+  const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(scaled, Eigen::ComputeThinV);
+  const VectorXd& values = svd.singularValues();
+  const double mean = std::sqrt(static_cast<double>(rows.rows()));
+  const Index nullity = (values.array() <= exact * mean).count();
+  if (nullity == 0) return std::nullopt;
+  // To echelon form, the largest entries first.
+  MatrixXd basis = svd.matrixV().rightCols(nullity).transpose();
+  for (Index row = 0; row < nullity; ++row) {
+    Index pivot_row = 0, pivot = 0;
+    basis.bottomRows(nullity - row).cwiseAbs().maxCoeff(&pivot_row, &pivot);
+    basis.row(row).swap(basis.row(row + pivot_row));
+    basis.row(row) /= basis(row, pivot);
+    for (Index other = 0; other < nullity; ++other) {
+      if (other != row) basis.row(other) -= basis(other, pivot) * basis.row(row);
+    }
+  }
+  std::optional<Coefficients> best;
+  const auto terms = [](const Coefficients& all) {
+    return std::ranges::count_if(all.above, [](Whole x) { return x != 0; });
+  };
+  for (Index row = 0; row < nullity; ++row) {
+    VectorXd factors = basis.row(row).transpose();
+    for (double& factor : factors) factor = std::abs(factor) <= exact ? 0 : factor;
+    factors = factors.cwiseQuotient(sizes);
+    for (const double unit : VectorXd(factors)) {
+      if (unit == 0) continue;
+      auto found = rational(factors / unit, exact * std::max(1., (factors / unit).lpNorm<Eigen::Infinity>()));
+      if (!found) continue;
+      VectorXd rounded(factors.size());
+      for (Index i = 0; i < rounded.size(); ++i)
+        rounded[i] = static_cast<double>(found->above[static_cast<std::size_t>(i)]);
+      const double size = rounded.cwiseProduct(sizes).lpNorm<Eigen::Infinity>();
+      if ((rows * rounded).lpNorm<Eigen::Infinity>() > exact * size) continue;
+      const Whole common = std::accumulate(found->above.begin(), found->above.end(), Whole{0}, std::gcd<Whole, Whole>);
+      for (Whole& each : found->above) each /= common;
+      found->below = 1;
+      if (!best || terms(*found) < terms(*best)) best = found;
+      break;
+    }
+  }
+  return best;
+}
+
+/// u^i v^j up to a degree.
+Functions monomials(int degree) {
+  return [degree](const Vector2d& x, const Jet&) {
+    Eigen::MatrixX3d all((degree + 1) * (degree + 2) / 2, 3);
+    Index row = 0;
+    const auto raised = [](double base, int exponent) { return exponent < 0 ? 0 : std::pow(base, exponent); };
+    for (int i = 0; i <= degree; ++i) {
+      for (int j = 0; i + j <= degree; ++j) {
+        const double of_u = raised(x[0], i), of_v = raised(x[1], j);
+        all.row(row++) << of_u * of_v, i * raised(x[0], i - 1) * of_v, j * of_u * raised(x[1], j - 1);
+      }
+    }
+    return all;
+  };
+}
+
+/// The functions 1, u, v times u' and v'.
+Eigen::MatrixX3d affine(const Vector2d& x, const Jet& jet) {
+  Eigen::MatrixX3d all(6, 3);
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::RowVector2d slope = jet.slopes.row(k);
+    all.row(3 * k) << jet.f[k], slope;
+    all.row(3 * k + 1) << x[0] * jet.f[k], x[0] * slope + jet.f[k] * Eigen::RowVector2d(1, 0);
+    all.row(3 * k + 2) << x[1] * jet.f[k], x[1] * slope + jet.f[k] * Eigen::RowVector2d(0, 1);
+  }
+  return all;
+}
+
+/// The function of one variable whose values are given, as an integral.
+struct Known {
+  const char* integral;  ///< with {} for the variable
+  Whole below;
+  double (*value)(double);
+};
+constexpr Known known[]{{"{}", 1, [](double) { return 1.; }},
+                        {"{}^2", 2, [](double x) { return x; }},
+                        {"ln|{}|", 1, [](double x) { return 1 / x; }},
+                        {"cos({})", -1, [](double x) { return std::sin(x); }},
+                        {"sin({})", 1, [](double x) { return std::cos(x); }},
+                        {"exp({})", 1, [](double x) { return std::exp(x); }},
+                        {"exp(-{})", -1, [](double x) { return std::exp(-x); }},
+                        {"{}^3", 3, [](double x) { return x * x; }},
+                        {"{}^4", 4, [](double x) { return x * x * x; }},
+                        {"{}^5", 5, [](double x) { return x * x * x * x; }},
+                        {"{}^6", 6, [](double x) { return x * x * x * x * x; }},
+                        {"{}^-1", -1, [](double x) { return 1 / (x * x); }},
+                        {"{}^-2", -2, [](double x) { return 1 / (x * x * x); }}};
+constexpr std::size_t known_count = std::size(known);
+
+/// Returns the integral of a function of one variable as a sum of at most three known ones.
+std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, char name) {
+  if (values.isZero(0)) return "";
+  MatrixXd columns(x.size(), static_cast<Index>(known_count));
+  for (std::size_t i = 0; i < known_count; ++i) {
+    for (Index k = 0; k < x.size(); ++k) columns(k, static_cast<Index>(i)) = known[i].value(x[k]);
+  }
+  const auto fit = [&](const std::vector<std::size_t>& chosen) -> std::optional<std::string> {
+    MatrixXd part(x.size(), std::ssize(chosen));
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      part.col(static_cast<Index>(i)) = columns.col(static_cast<Index>(chosen[i]));
+    if (!part.allFinite()) return std::nullopt;
+    const VectorXd factors = part.colPivHouseholderQr().solve(values);
+    const double size = values.lpNorm<Eigen::Infinity>();
+    const auto found = rational(factors, exact * std::max(1., factors.lpNorm<Eigen::Infinity>()));
+    if (!found || std::ranges::count(found->above, 0) > 0) return std::nullopt;
+    VectorXd rounded(factors.size());
+    std::string text;
+    for (Index i = 0; i < rounded.size(); ++i) {
+      const Whole above = found->above[static_cast<std::size_t>(i)];
+      rounded[i] = static_cast<double>(above) / static_cast<double>(found->below);
+      const auto& [form, below, value] = known[chosen[static_cast<std::size_t>(i)]];
+      const Whole divisor = found->below * below, sign = (above > 0) == (divisor > 0) ? 1 : -1;
+      text += sign < 0 ? " - " : " + ";
+      text += term(std::abs(above), fmt::format(fmt::runtime(form), name), std::abs(divisor));
+    }
+    if ((part * rounded - values).lpNorm<Eigen::Infinity>() > exact * size) return std::nullopt;
+    return text;
+  };
+  for (std::size_t i = 0; i < known_count; ++i) {
+    if (auto found = fit({i})) return found;
+  }
+  for (std::size_t i = 0; i < known_count; ++i) {
+    for (std::size_t j = i + 1; j < known_count; ++j) {
+      if (auto found = fit({i, j})) return found;
+    }
+  }
+  for (std::size_t i = 0; i < known_count; ++i) {
+    for (std::size_t j = i + 1; j < known_count; ++j) {
+      for (std::size_t k = j + 1; k < known_count; ++k) {
+        if (auto found = fit({i, j, k})) return found;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// H of a field with F/V = a(v) and G/V = b(u).
+std::string separated_integral(const SmoothField& field, const Polynomial& v, const FieldSamples& samples) {
+  const Index count = 40;
+  VectorXd us(count), vs(count), of_u(count), of_v(count);
+  const auto divided = [&](const Vector2d& x) -> std::optional<Vector2d> {
+    const auto f = value_of(field, x);
+    if (!f || v(x) == 0) return std::nullopt;
+    return Vector2d(*f / v(x));
+  };
+  const Vector2d& start = samples.box.centre;
+  for (Index k = 0; k < count; ++k) {
+    const Vector2d& x = samples.points[static_cast<std::size_t>(k)];
+    const auto here = divided(x), across = divided({x[0], start[1]}), beside = divided({start[0], x[1]});
+    if (!here || !across || !beside) return "";
+    us[k] = x[0];
+    vs[k] = x[1];
+    of_u[k] = (*across)[1];
+    of_v[k] = (*beside)[0];
+    const double size = here->norm();
+    if (!(std::abs(of_u[k] - (*here)[1]) <= exact * size) || !(std::abs(of_v[k] - (*here)[0]) <= exact * size))
+      return "";
+  }
+  const auto first = integral(us, -of_u, 'u'), second = integral(vs, of_v, 'v');
+  if (!first || !second) return "";
+  const std::string text = *first + *second;
+  return text.starts_with(" + ") ? text.substr(3) : text.starts_with(" - ") ? "-" + text.substr(3) : text;
+}
+
+}  // namespace
+
+FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
+  const Box about = box_about(start);
+  const double scale = start.lpNorm<Eigen::Infinity>();
+  // Where powers of u and v differ most, if the field has values there.
+  std::optional<FieldSamples> samples;
+  for (const Box& box : {Box{start / 4, Vector2d::Constant(2 * scale)}, Box{start, 4 * about.radii}, about}) {
+    if (!samples) samples = sample(field, box);
+  }
+  if (!samples) return {};
+  FactorFormula formula;
+  if (field.basis.values) {
+    const auto found = null_combination([](const Vector2d&, const Jet& jet) { return jet.basis; }, *samples);
+    if (found) formula.factor = sum(field.basis.names, *found);
+    return formula;
+  }
+  for (int degree = 0; degree <= Polynomial::degree; ++degree) {
+    const auto found = null_combination(monomials(degree), *samples);
+    if (!found) continue;
+    Polynomial v;
+    std::size_t term = 0;
+    for (int i = 0; i <= degree; ++i) {
+      for (int j = 0; i + j <= degree; ++j) v.at(i, j) = found->above[term++];
+    }
+    formula.factor = factorised(v);
+    formula.integral = separated_integral(field, v, *samples);
+    return formula;
+  }
+  if (const auto found = null_combination(affine, *samples)) {
+    const std::vector<std::string> names{"u'", "u u'", "v u'", "v'", "u v'", "v v'"};
+    formula.factor = sum(names, *found);
+  }
+  return formula;
+}
+
+}  // namespace contensou::reduction
