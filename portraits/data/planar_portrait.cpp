@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "data/lists.hpp"
 #include "data/round_numbers.hpp"
 #include "data/widest_gaps.hpp"
+#include "data/zero_lines.hpp"
 
 namespace contensou::portraits {
 
@@ -561,6 +563,11 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
     trace(tracer);
     portrait.equilibria = reduction::find_equilibria({plane.field()}, portrait.window.low, portrait.window.high);
     portrait.separatrices = tracer.separatrices(portrait.equilibria);
+    const Vector2d& low = portrait.window.low;
+    const Vector2d sides = portrait.window.high - low;
+    for (const reduction::FactorPiece& piece : plane.factor_pieces(low, portrait.window.high)) {
+      std::ranges::move(zero_lines(piece, sides), std::back_inserter(portrait.invariant));
+    }
     return portrait;
   }
   const PlanarTracer tracer(portrait.plane, portrait.window);

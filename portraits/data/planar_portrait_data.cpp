@@ -54,6 +54,14 @@ std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source
   if (!portrait.highlight.empty()) json["highlight"] = json_of(portrait.highlight);
   if (!portrait.through.empty()) json["through"] = json_of(portrait.through);
   if (!portrait.separatrices.empty()) json["separatrices"] = json_of(portrait.separatrices);
+  for (const Polyline& line : portrait.invariant) {
+    Json curve{{"u", Json::array()}, {"v", Json::array()}};
+    for (const Point& at : line) {
+      curve["u"].push_back(at.x);
+      curve["v"].push_back(at.y);
+    }
+    json["invariant"].push_back(std::move(curve));
+  }
   return json_document(json);
 }
 
@@ -72,6 +80,9 @@ std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source)
   orbits("highlight", portrait.highlight);
   orbits("through", portrait.through);
   orbits("separatrix", portrait.separatrices);
+  for (std::size_t i = 0; i < portrait.invariant.size(); ++i) {
+    for (const Point& at : portrait.invariant[i]) row("invariant", i, at.x, at.y, infinity);
+  }
   for (std::size_t i = 0; i < portrait.isochrones.size(); ++i) {
     const auto& [time, u, v] = portrait.isochrones[i];
     for (Eigen::Index j = 0; j < u.size(); ++j) row("isochrone", i, u[j], v[j], time);

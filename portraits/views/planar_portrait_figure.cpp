@@ -132,6 +132,9 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     layers.add_directions(drift, "direction of the motion");
   }
   if (style.invariant && scaling) add_rays(layers, portrait, look.palette);
+  if (style.invariant && !portrait.invariant.empty()) {
+    layers.panel().lines.push_back({portrait.invariant, {look.palette.comparison, 3}, "invariant curves: V = 0"});
+  }
   if (style.invariant && !portrait.separatrices.empty()) {
     layers.add_plain(lines_of(portrait.separatrices), {look.palette.comparison, 2}, "separatrices of saddles");
   }

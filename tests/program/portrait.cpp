@@ -145,6 +145,36 @@ TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
   CHECK_THAT(script.out, Contains("through the points given") && Contains("direction of the motion"));
 }
 
+TEST_CASE("portrait draws the curves on which the inverse integrating factor vanishes", "[cli]") {
+  const auto invariant = [](const char* system) {
+    const auto json = nlohmann::json::parse(run_program({"portrait", "--system", system, "--window", "2,1.5",
+                                                         "--orbits", "3", "--format", "json", "-o", "-"})
+                                                .out);
+    return json.value("invariant", nlohmann::json::array());
+  };
+  const nlohmann::json cycle = invariant("u' = -v+u*(1-u^2-v^2); v' = u+v*(1-u^2-v^2)");
+  REQUIRE(cycle.size() == 1);
+  REQUIRE(cycle[0]["u"].size() > 300);
+  for (std::size_t i = 0; i < cycle[0]["u"].size(); ++i) {
+    CHECK(std::hypot(cycle[0]["u"][i].get<double>(), cycle[0]["v"][i].get<double>()) == Approx(1).epsilon(1e-8));
+  }
+  const nlohmann::json axes = invariant("u' = u*(1-v); v' = v*(u-1)");
+  REQUIRE_FALSE(axes.empty());
+  double longest = 0;
+  for (const nlohmann::json& line : axes) {
+    for (std::size_t i = 0; i < line["u"].size(); ++i) {
+      const double u = line["u"][i], v = line["v"][i];
+      CHECK(std::min(std::abs(u), std::abs(v)) < 1e-8);
+      longest = std::max(longest, std::abs(u) + std::abs(v));
+    }
+  }
+  CHECK(longest == Approx(2).epsilon(0.02));
+  CHECK(invariant("x'' = -sin(x)").empty());
+  CHECK(invariant("u' = v; v' = (1-u^2)*v-u").empty());
+  const Run script = run_program({"portrait", "--system", "u' = u*(1-v); v' = v*(u-1)", "--format", "gp", "-o", "-"});
+  CHECK_THAT(script.out, Contains("invariant curves: V = 0"));
+}
+
 TEST_CASE("portrait draws fields without a scaling, by quadrature or by steps", "[cli]") {
   const auto drawn = [](const char* system) {
     return nlohmann::json::parse(

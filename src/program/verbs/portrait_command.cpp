@@ -123,6 +123,7 @@ std::vector<FieldText> system_portrait_fields() {
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "states with the same time left"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
        "orbits of the start, of --through and of saddles, as those of orbits"},
+      {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor V is 0"},
   };
 }
 

@@ -40,6 +40,7 @@ struct PlanarPortrait {
   // Only without a scaling:
   std::vector<reduction::Equilibrium> equilibria = {};  ///< equilibria in the window
   std::vector<PlanarPortraitOrbit> separatrices = {};   ///< separatrices of the saddles
+  std::vector<Polyline> invariant = {};                 ///< curves on which the inverse integrating factor V is 0
 };
 
 /// The contents of a portrait.
@@ -72,7 +73,8 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
 /// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; if requested highlight and through (orbits). Without a scaling:
-/// centre null, form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}] and separatrices (orbits).
+/// centre null, form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}], separatrices (orbits)
+/// and invariant [{u, v}], the curves V = 0.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// Returns equilibria as members of JSON, as to_json has them.

@@ -1,0 +1,113 @@
+#include "data/zero_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace contensou::portraits {
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// The place of a zero between two corners of a square; none without one, and at a pole.
+std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, Vector2d from, Vector2d to, double at_from,
+                                     double at_to) {
+  if (!(std::abs(at_from) < INFINITY && std::abs(at_to) < INFINITY) || (at_from < 0) == (at_to < 0))
+    return std::nullopt;
+  const double least = std::min(std::abs(at_from), std::abs(at_to));
+  double left = at_from;
+  constexpr int halvings = 30;
+  Vector2d middle = (from + to) / 2;
+  for (int i = 0; i < halvings; ++i) {
+    middle = (from + to) / 2;
+    const double here = piece.value(middle);
+    if (here == 0) return middle;
+    ((here < 0) == (left < 0) ? from : to) = middle;
+    if ((here < 0) == (left < 0)) left = here;
+  }
+  return std::abs(piece.value(middle)) <= least + 1e-9 * std::max(std::abs(at_from), std::abs(at_to))
+             ? std::optional(middle)
+             : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vector2d& sides) {
+  constexpr double across = 160;
+  const Vector2d extent = piece.high - piece.low;
+  const int columns = std::max(1, static_cast<int>(std::lround(across * extent[0] / sides[0])));
+  const int rows = std::max(1, static_cast<int>(std::lround(across * extent[1] / sides[1])));
+  // Not evenly from end to end: axes and lines of round numbers would run along sides of squares.
+  const auto part = [](int i, int count) { return i == 0 ? 0 : i == count ? 1 : (i - 0.363) / count; };
+  const auto corner = [&](int i, int j) {
+    return Vector2d(piece.low + Vector2d(part(i, columns), part(j, rows)).cwiseProduct(extent));
+  };
+  std::vector<double> values;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) values.push_back(piece.value(corner(i, j)));
+  }
+  const auto value = [&](int i, int j) { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
+
+  // Sides of squares, by their first corner and their direction, with the zero on them and the sides it is joined to.
+  using Side = std::pair<std::pair<int, int>, bool>;
+  struct Crossing {
+    Vector2d at;
+    std::vector<Side> joined;
+  };
+  std::map<Side, Crossing> crossings;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) {
+      for (const bool up : {false, true}) {
+        const int k = up ? i : i + 1, l = up ? j + 1 : j;
+        if (k > columns || l > rows) continue;
+        if (const auto zero = zero_between(piece, corner(i, j), corner(k, l), value(i, j), value(k, l))) {
+          crossings[{{i, j}, up}] = {*zero, {}};
+        }
+      }
+    }
+  }
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      std::vector<Side> crossed;
+      for (const Side& side :
+           {Side{{i, j}, false}, Side{{i + 1, j}, true}, Side{{i, j + 1}, false}, Side{{i, j}, true}}) {
+        if (crossings.contains(side)) crossed.push_back(side);
+      }
+      // Counter-clockwise; of four crossings two curves cross each other.
+      const std::size_t lines = crossed.size() / 2;
+      for (std::size_t k = 0; k < lines; ++k) {
+        crossings[crossed[k]].joined.push_back(crossed[k + lines]);
+        crossings[crossed[k + lines]].joined.push_back(crossed[k]);
+      }
+    }
+  }
+  std::vector<Polyline> lines;
+  const auto follow = [&](Side side) {
+    Polyline line;
+    for (;;) {
+      Crossing& here = crossings[side];
+      line.push_back({here.at[0], here.at[1]});
+      if (here.joined.empty()) break;
+      const Side next = here.joined.back();
+      here.joined.pop_back();
+      std::erase(crossings[next].joined, side);
+      side = next;
+    }
+    // Where V only touches 0, rounding draws dots.
+    const double length = std::abs(line.front().x - line[line.size() / 2].x) / sides[0] +
+                          std::abs(line.front().y - line[line.size() / 2].y) / sides[1];
+    if (length * across > 1) lines.push_back(std::move(line));
+  };
+  // Ends first, and closed curves from any point.
+  for (const std::size_t ways : {std::size_t{1}, std::size_t{2}}) {
+    for (auto& [side, crossing] : crossings) {
+      if (crossing.joined.size() == ways) follow(side);
+    }
+  }
+  return lines;
+}
+
+}  // namespace contensou::portraits

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/portraits/figure.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+
+namespace contensou::portraits {
+
+/// Returns the curves on which a function changes its sign within its rectangle, by squares of 1/160 of a window.
+/// @param sides  of the window
+std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Eigen::Vector2d& sides);
+
+}  // namespace contensou::portraits
