@@ -52,11 +52,9 @@ std::string footer() {
   for (const VerbEntry& entry : verbs()) text += fmt::format("  {}\n", entry.example);
   return text + "\n" +
          help_paragraph(
-             "'contensou help VERB' lists the options of a verb, 'contensou help laws|views|units|files|fields|theory' "
-             "explains what they take.") +
-         help_paragraph(
-             "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot "
-             "failed.");
+             "'contensou help VERB' lists the options of a verb. 'contensou help "
+             "ball|laws|picture|output|views|units|files|fields|theory' explains a topic.") +
+         help_paragraph(exit_statuses);
 }
 
 /// The verbs as parts of the program's command line. Options are given to a verb when they are needed.
@@ -80,11 +78,11 @@ class Verbs {
     Part& part = *std::ranges::find(parts_, name, [](const Part& of) { return of.entry->name; });
     if (!part.verb) {
       part.app->footer(
-          [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(*entry); });
+          [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(*entry, false); });
       part.verb = part.entry->make();
       part.verb->add_options(*part.app);
       part.app->set_help_flag();  // so that it is the last
-      part.app->set_help_flag("-h,--help", "print this");
+      part.app->set_help_flag("-h,--help", "print this help");
     }
     return *part.verb;
   }
@@ -161,10 +159,10 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
 
 /// @param verb  becomes the name of the verb, once it is known
 ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
-  CLI::App app("A ball that slides and spins on a plane under combined dry friction.\n", "contensou");
+  CLI::App app("Motion of a ball or puck that slides and spins on a plane with dry friction.\n", "contensou");
   app.formatter(std::make_shared<HelpFormatter>());
   Verbs all(app);
-  app.set_version_flag("--version", "contensou " CONTENSOU_VERSION, "name the version");
+  app.set_version_flag("--version", "contensou " CONTENSOU_VERSION, "print the version");
   app.footer(footer);
   app.require_subcommand(0, 1)->allow_extras();
   const bool known = !arguments.empty() && all.has(arguments.front());

@@ -148,7 +148,7 @@ TEST_CASE("what the lines of aim's picture say is what its points need", "[figur
     }
   }
   for (int count : found) CHECK(count >= 4);
-  check_rejected("aim --ball pool --distance 0 --turns 0 -o x.svg", "a plane with a point in it");
+  check_rejected("aim --ball pool --distance 0 --turns 0 -o x.svg", "a picture needs a start that moves");
   check_rejected("aim --ball pool --distance 1 --turns 1 --size 80x60", "--size");
 }
 

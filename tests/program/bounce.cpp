@@ -80,8 +80,8 @@ TEST_CASE("stop and orbit follow a load that changes, as roll does", "[cli][load
   check_rejected("stop --ball steel --load " + table, "grows with the load");
   check_rejected("orbit --ball puck --slope -2 --load " + table, "a load and a slope exclude each other");
   check_rejected("orbit --ball pool --rolling-friction 0.01 --load " + table, "leave out the rolling friction");
-  check_rejected("stop --batch - --ball puck --load " + table, "--batch is of a constant load", "slip,spin\n1,2\n");
-  check_rejected("engine --ball puck --load " + table, "a load that changes is of roll, stop and orbit");
+  check_rejected("stop --batch - --ball puck --load " + table, "--batch needs a constant load", "slip,spin\n1,2\n");
+  check_rejected("engine --ball puck --load " + table, "only roll, stop and orbit take a load that changes");
   write_file(table, "t,load\n0,2\n0.1,0\n");
   check_rejected("stop --ball puck --load " + table, "the load ends at 0 before the motion does");
 }

@@ -214,7 +214,7 @@ TEST_CASE("a table is drawn against the law", "[cli]") {
   const Run run = run_program("check --ball pool --against - -o - --format svg", table);
   CHECK(run.status == 1);
   for (const char* words : {"<svg", "law exact", "nearest", "slip, m/s", "table"}) CHECK_THAT(run.out, Contains(words));
-  check_rejected("check --ball pool -o check.svg", "a picture is of a table: add --against FILE");
+  check_rejected("check --ball pool -o check.svg", "a picture compares with a table: add --against FILE");
   check_rejected("check --ball pool --against - --size 80mm", "--size", table);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,7 +20,19 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::vector<std::string> topics{"laws", "views", "units", "files", "fields", "theory"};
+const std::vector<std::string> topics{"ball",  "laws",  "picture", "output", "views",
+                                      "units", "files", "fields",  "theory"};
+
+/// The options that a text names at the beginning of its lines.
+std::set<std::string> options_of(const std::string& help) {
+  std::set<std::string> options;
+  const std::regex lines("\n +(-[^\n]*)"), names("--[a-z][a-z0-9-]*");
+  for (std::sregex_iterator line(help.begin(), help.end(), lines), none; line != none; ++line) {
+    const std::string text = line->str(1);
+    for (std::sregex_iterator name(text.begin(), text.end(), names); name != none; ++name) options.insert(name->str());
+  }
+  return options;
+}
 
 }  // namespace
 
@@ -38,6 +51,23 @@ TEST_CASE("every verb has help with an example", "[cli]") {
     CHECK_THAT(run_program("--help").out, Contains("\n  " + verb + " ") && Contains("contensou " + verb));
   }
   CHECK(run_program("help").out == run_program("--help").out);
+}
+
+TEST_CASE("the help of a verb is short: topics explain the options that verbs share", "[cli]") {
+  for (const std::string& verb : names_in_help("")) {
+    const std::string help = run_program(verb + " --help").out;
+    INFO(verb);
+    CHECK(std::ranges::count(help, '\n') <= 110);
+    const std::regex shared("\n[^\n]* \\('contensou help ([a-z]+)'\\):\n((  [^\n]*\n)+)");
+    for (std::sregex_iterator group(help.begin(), help.end(), shared), none; group != none; ++group) {
+      const std::set<std::string> named = options_of("\n" + group->str(2));
+      const std::set<std::string> explained = options_of(run_program("help " + group->str(1)).out);
+      INFO(group->str());
+      CHECK(!named.empty());
+      CHECK(std::ranges::includes(explained, named));
+    }
+  }
+  CHECK(options_of(run_program("stop --help").out).contains("--patch-radius"));
 }
 
 TEST_CASE("no line of help is longer than 80 columns", "[cli]") {
@@ -73,7 +103,7 @@ TEST_CASE("topics of help", "[cli]") {
 TEST_CASE("every kind and every end that reduce prints stands in its help", "[cli]") {
   // Of its columns only, with single blanks.
   std::string help = run_program("help reduce").out;
-  help = std::regex_replace(help.substr(help.find("Columns and fields:")), std::regex("\\s+"), " ");
+  help = std::regex_replace(help.substr(help.find("Columns and fields of reduce:")), std::regex("\\s+"), " ");
   const auto listed = [&](const std::string& field) {
     const std::size_t begin = help.find("every " + field + " ") + field.size() + 7, end = help.find(';', begin);
     REQUIRE(end < help.size());

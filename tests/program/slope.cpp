@@ -68,8 +68,8 @@ TEST_CASE("in pieces: a ball that rolling friction ceases to let turn", "[cli][s
   CHECK(number(stop.at("rest"), "t") == Approx(7.38007).epsilon(1e-6));
   CHECK_THAT(run_program("stop" + ball).out, Contains("rolling resistance keeps it from turning"));
   check_rejected("stop --route regularised" + ball, "which quadrature alone joins");
-  check_rejected("orbit --estimate" + ball, "--estimate is of one orbit");
-  check_rejected("orbit --reduction" + ball, "--reduction is of one orbit");
+  check_rejected("orbit --estimate" + ball, "--estimate needs one orbit");
+  check_rejected("orbit --reduction" + ball, "--reduction needs one orbit");
   check_rejected("reduce" + ball, "lets this ball turn for a part of its motion only");
   check_rejected("sweep --slip 0:1:3 --spin 0:9:3 -o a.svg --ball pool --rolling-friction 0.01", "write npy or csv");
 }

@@ -291,7 +291,7 @@ def test_a_ball_changes():
     (lambda: ct.Ball.pool(slope=90), "slope must be above -90 and below 90"),
     (lambda: ct.Ball.pool(slope=2, load=3), "a load and a slope exclude each other"),
     (lambda: ct.portrait(ball=ct.Ball.pool(slope=2)), "must slide straight down"),
-    (lambda: ct.engine("mujoco", ct.Ball.pool(slope=2)), "knows neither rolling friction nor a slope"),
+    (lambda: ct.engine("mujoco", ct.Ball.pool(slope=2)), "takes neither rolling friction nor a slope"),
     (lambda: ct.fit([0, 1], slip=[1, 0.5], ball=ct.Ball.pool(slope=2)), "slope must be 0, got 2 degrees"),
     (lambda: ct.Ball.steel().roll(load=([0, 1], [2, 4])), "grows with a load that changes"),
     (lambda: ct.Ball.puck(slope=-1).roll(load=([0, 1], [2, 4])), "leave out slope|exclude each other"),

@@ -428,7 +428,7 @@ TEST_CASE("a body that lies flat, and a law of its own", "[table]") {
   refused(with(flat, "friction", "law = \"unifrom\"\nfriction"), "no such law 'unifrom' (did you mean 'uniform'?)");
   refused(with(flat, "friction", "law = \"pressure:-2\"\nfriction"), "f:7:7: ");
   refused(with(flat, "[start]", "[contact.hertz]\nyoungs_modulus = [1, 1]\npoisson_ratio = [0.3, 0.3]\n[start]"),
-          "a disc lies flat: Hertz's formula is of a ball");
+          "a disc lies flat, and the formula of Hertz needs a ball");
   refused(with(with(flat, "slip = 1.0", "velocity = [1, 0]"), "spin = 100", "angular_velocity = [1, 0, 0]"),
           "turns about the vertical only");
 }

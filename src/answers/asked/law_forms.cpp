@@ -12,10 +12,10 @@ namespace contensou::answers {
 std::vector<std::pair<std::string, std::string>> law_forms() {
   // What the program has to add.
   const std::map<std::string_view, std::string_view> notes{
-      {"exact", "the default of a ball; also called hertz"},
+      {"exact", "default of a ball; also called hertz"},
       {"pade", cost_of_pade},
-      {"uniform", "the default of --body disc"},
-      {"ring", "the default of --body ring"},
+      {"uniform", "default of --body disc"},
+      {"ring", "default of --body ring"},
   };
   std::vector<std::pair<std::string, std::string>> forms;
   for (const std::string_view name : reduction::names_of_laws()) {
@@ -28,9 +28,9 @@ std::vector<std::pair<std::string, std::string>> law_forms() {
                        fmt::format("{}, {}", family.meaning, family.allowed));
   }
   forms.emplace_back("\"phi = F; psi = G\"",
-                     "your own force and moment: formulas in k = v/(mu |u|), with --param NAME=VALUE, or \"; NAME = "
-                     "VALUE\" behind them");
-  forms.emplace_back("FILE.csv", "your own pressure: columns rho,pressure, rho from 0 to 1");
+                     "own force and moment as formulas in k = v/(mu |u|); parameters by --param NAME=VALUE or by "
+                     "\"; NAME = VALUE\" at the end");
+  forms.emplace_back("FILE.csv", "own pressure, as a table with columns rho,pressure; rho from 0 to 1");
   return forms;
 }
 

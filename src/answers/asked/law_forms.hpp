@@ -8,7 +8,7 @@ namespace contensou::answers {
 
 /// The error of the Pade law of the paper: pool, steel and bowling ball of `balls`, by their length of slip.
 inline constexpr const char* cost_of_pade =
-    "in which the extra slip of a spinning ball is too long: pool 5, steel 129, bowling 470 times";
+    "whose extra slip of a spinning ball is too long: 5 times (pool), 129 (steel), 470 (bowling)";
 
 /// The forms of --law, each with its meaning.
 std::vector<std::pair<std::string, std::string>> law_forms();

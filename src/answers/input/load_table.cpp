@@ -42,7 +42,7 @@ std::string require_load_alone(const si::Experiment& experiment, const reduction
   const auto add = [&](const std::string& other) { others += (others.empty() ? "" : ", ") + other; };
   if (experiment.contact.rolling_friction > 0) add("the rolling friction");
   if (experiment.environment.slope != 0) add("the slope");
-  if (!others.empty()) throw BadInput(fmt::format("{} is of friction alone: leave out {}", no, others));
+  if (!others.empty()) throw BadInput(fmt::format("{} allows friction alone: leave out {}", no, others));
   if (experiment.ball.body.lies_flat()) return "";
   return fmt::format(
       "note: the patch stays at {:.6g} m while the load changes; that of an elastic ball goes with its cube root\n",

@@ -120,7 +120,7 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
   const double x = end.distance > 0 ? end.distance : straight.distance * squared(end.time / straight.time);
   const double y = end.turns > 0 ? end.turns : in_place.turns * squared(end.time / in_place.time);
   if (!(std::min(x, y) > 0))
-    throw std::domain_error("a picture is of a plane with a point in it: both are 0, the body rests");
+    throw std::domain_error("a picture needs a start that moves: both numbers are 0, so the body rests");
 
   portraits::Panel panel;
   panel.x = {"distance of the centre, m", x / around, x * around, true, {}};

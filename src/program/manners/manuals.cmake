@@ -1,5 +1,5 @@
 # Man pages from the program's own help, by help2man:
-#   cmake -D CONTENSOU=PROGRAM -D HELP2MAN=PROGRAM -D VERBS=NAMES -D OUT=FOLDER -P manuals.cmake
+#   cmake -D CONTENSOU=PROGRAM -D HELP2MAN=PROGRAM -D VERBS=NAMES -D TOPICS=NAMES -D OUT=FOLDER -P manuals.cmake
 function(contensou_help topic result)
   execute_process(COMMAND ${CONTENSOU} help ${topic} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   set(${result} "${text}" PARENT_SCOPE)
@@ -17,10 +17,9 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   if(verb)
     string(APPEND include "[see also]\n.BR contensou (1)\n")
   else()
-    foreach(topic IN ITEMS laws views units files fields theory)
-      contensou_help(${topic} text)
-      string(REPLACE "\n" "\n\\&" text "\n${text}")  # no line begins with a dot or an apostrophe
-      string(APPEND include "[${topic}]\n.nf${text}\n.fi\n")
+    string(APPEND include "[see also]\n")
+    foreach(topic IN LISTS TOPICS)
+      string(APPEND include ".BR contensou-${topic} (7)\n")
     endforeach()
   endif()
   file(WRITE ${OUT}/include "${include}")
@@ -32,3 +31,21 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   file(WRITE ${OUT}/${page}.1 "${manual}")
 endforeach()
 file(REMOVE ${OUT}/include)
+
+# The text of a topic has lines of up to 80 columns already: it is neither indented nor filled.
+foreach(topic IN LISTS TOPICS)
+  contensou_help(${topic} text)
+  string(REPLACE "\\" "\\e" text "${text}")
+  string(REPLACE "\n" "\n\\&" text "\n${text}")  # no line begins with a dot or an apostrophe
+  string(TOUPPER ${topic} title)
+  file(WRITE ${OUT}/../man7/contensou-${topic}.7 ".TH CONTENSOU-${title} 7 \"\" contensou \"Topics of contensou\"
+.SH NAME
+contensou-${topic} \\- topic ${topic} of contensou
+.SH DESCRIPTION
+.in 0
+.nf${text}
+.fi
+.SH \"SEE ALSO\"
+.BR contensou (1)
+")
+endforeach()

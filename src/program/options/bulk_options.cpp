@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "options/output_options.hpp"
 #include "platform/streams.hpp"
 
 namespace contensou::program {
@@ -14,11 +15,11 @@ constexpr long max_threads = 1024;
 }  // namespace
 
 void BulkOptions::add(CLI::App& app) {
-  app.option_defaults()->group("Computation");
-  threads_.add(app, "--threads", "N", "threads to compute with (default: all cores); the result does not depend on it",
+  app.option_defaults()->group(usual_group());
+  threads_.add(app, "--threads", "N", "number of threads (default: all cores); the result does not depend on it",
                whole_number(1, max_threads));
   progress_.add(app, "--progress", "WHEN",
-                "progress on standard error: auto (default: of long work, to a terminal), always or never",
+                "progress on standard error: always, never, or auto (default): only for long work and on a terminal",
                 one_of<std::optional<ShowProgress>>(
                     {{"auto", std::nullopt}, {"always", ShowProgress::always}, {"never", ShowProgress::never}}));
 }

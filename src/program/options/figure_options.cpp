@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "output/help.hpp"
 
 namespace contensou::program {
 
@@ -47,18 +48,20 @@ std::string parse_font(const std::string& typed) {
 
 }  // namespace
 
+std::string figure_group() { return shared_group("Size and font of the picture", "picture"); }
+
 void FigureOptions::add(CLI::App& app, bool several) {
-  app.option_defaults()->group("Picture");
+  app.option_defaults()->group(figure_group());
   size_.add(
       app, "--size", "WxH",
-      fmt::format("width and height in millimetres, each {} to {}; or single, double: a journal's column, {} or {} "
-                  "mm wide",
+      fmt::format("width and height in millimetres, each {} to {}; or single or double, the widths of a journal's "
+                  "column ({} mm) and page ({} mm)",
                   min_side, max_side, single_column, double_column),
       parse_size);
-  font_.add(app, "--font", "NAME", "font of svg, pdf, png, eps and gif (default: sans-serif)", parse_font);
+  font_.add(app, "--font", "NAME", "font of svg, pdf, png, eps and gif (default sans-serif)", parse_font);
   if (several) return;
-  title_.add(app, "--title", "TEXT", "title of the figure, or none: neither title nor subtitle");
-  dpi_.add(app, "--dpi", "N", "dots per inch of a png, 50 to 1200 (default 300)", whole_number(50, 1200));
+  title_.add(app, "--title", "TEXT", "title of the figure; none removes title and subtitle");
+  dpi_.add(app, "--dpi", "N", "resolution of a png in dots per inch, 50 to 1200 (default 300)", whole_number(50, 1200));
 }
 
 void require_picture(const std::string& names, const Output& output) {

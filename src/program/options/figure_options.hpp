@@ -11,6 +11,9 @@ namespace contensou::program {
 /// Throws BadInput unless a picture is written, or no options are named.
 void require_picture(const std::string& names, const Output& output);
 
+/// Name of the group of these options in the help.
+std::string figure_group();
+
 /// How a figure looks on a journal's page: --size, --font, --title and --dpi.
 class FigureOptions {
  public:

@@ -23,16 +23,16 @@ std::vector<std::string> names_of_forms() {
 
 }  // namespace
 
-void LawOption::add(CLI::App& app) {
+void LawOption::add(CLI::App& app, const std::string& note) {
   app.option_defaults()->group("Law of friction");
-  law_.add(app, "--law", "LAW",
-           fmt::format("{} (default: the body's own; exact, of a disc uniform, of a ring ring; 'contensou balls "
-                       "--format csv' has those built in). 'contensou help laws' explains them",
-                       fmt::join(names_of_forms(), ", ")));
+  law_.add(
+      app, "--law", "LAW",
+      "a name, formulas or FILE.csv (default: the law of the body); 'contensou help laws' lists all of them" + note);
   parameters_.add(app);
 }
 
 void LawOption::add_several(CLI::App& app, const std::string& value_name, const std::string& help) {
+  app.option_defaults()->group("Law of friction");
   law_.add(app, "--law", value_name, help);
   parameters_.add(app);
 }

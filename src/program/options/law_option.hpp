@@ -12,7 +12,8 @@ namespace contensou::program {
 /// --law, and --param for its formulas.
 class LawOption {
  public:
-  void add(CLI::App& app);
+  /// @param note  sentence that the help adds
+  void add(CLI::App& app, const std::string& note = "");
 
   /// Several laws, as read_several takes them.
   void add_several(CLI::App& app, const std::string& value_name, const std::string& help);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "output/help.hpp"
 #include "platform/output_file.hpp"
 #include "text/nearest_name.hpp"
 
@@ -76,6 +77,8 @@ std::string drawn(const std::vector<portraits::Figure>& figures, portraits::Pict
   }
 }
 
+std::string usual_group() { return shared_group("Output of every verb", "output"); }
+
 void OutputOptions::add(CLI::App& app) {
   app.option_defaults()->group("Output");
   const OutputKind& usual = kinds_.front();
@@ -88,12 +91,13 @@ void OutputOptions::add(CLI::App& app) {
     has_text = has_text || is_one_of(kind.formats, "text");
   }
   file_.add(app, "-o,--output", "FILE",
-            fmt::format("write to FILE, whole or not at all (default {}); its ending is one of {}",
+            fmt::format("output file (default {}); its ending is one of {}",
                         usual.path == "-" ? "-, standard output" : usual.path, endings));
-  format_.add(app, "--format", "FORMAT", "where no ending says it: " + formats);
+  format_.add(app, "--format", "FORMAT", "format of an output without an ending: " + formats);
+  app.option_defaults()->group(usual_group());
   if (!has_text) return;
   digits_.add(app, "--digits", "N",
-              fmt::format("significant digits of text and of a table in tex, 1 to 17 (default {})", standard_digits),
+              fmt::format("significant digits in text and in a table of tex, 1 to 17 (default {})", standard_digits),
               whole_number(1, 17));
 }
 
@@ -123,8 +127,7 @@ std::string OutputOptions::read_format(const OutputKind& kind, const std::string
   const std::string by_ending = ending == "txt" ? "text" : ending;
   const bool guessable = path == "-" || kind.formats.size() == 1 || is_one_of(kind.formats, "text");
   if (by_ending.empty() ? !format_.given() && !guessable : ending == "text" || !is_one_of(kind.formats, by_ending)) {
-    file_.reject(
-        fmt::format("{} is written as one of {}; {} is none of them", kind.noun, endings_of(kind), quotation(ending)));
+    file_.reject(fmt::format("{} is written as {}, not as {}", kind.noun, endings_of(kind), quotation(ending)));
   }
   if (by_ending.empty()) return format_.given() ? format_.text() : kind.standard;
   if (format_.given() && format_.text() != by_ending) {

@@ -43,6 +43,9 @@ struct Output {
 /// @throws FileFailure  if gnuplot is missing or fails
 std::string drawn(const std::vector<portraits::Figure>& figures, portraits::PictureFormat format);
 
+/// Name of the group of the options that many verbs have, whatever they write.
+std::string usual_group();
+
 /// -o, --format and --digits.
 class OutputOptions {
  public:

@@ -17,7 +17,7 @@ std::pair<std::string, double> parse_parameter(const std::string& typed) {
 }  // namespace
 
 void ParameterOptions::add(CLI::App& app) {
-  parameters_.add(app, "--param", "NAME=VALUE", "a parameter of the formulas; may be given often", parse_parameter,
+  parameters_.add(app, "--param", "NAME=VALUE", "value of a parameter in formulas; may be repeated", parse_parameter,
                   true);
 }
 

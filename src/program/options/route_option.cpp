@@ -70,7 +70,7 @@ void RouteOption::add(CLI::App& app, const std::vector<Route>& offered) {
   Choices<Route> choices;
   for (Route route : every_route()) choices.emplace_back(name(route), route);
   route_.add(app, "--route", "ROUTE",
-             fmt::format("{} (default: the first of them that the law has)", fmt::join(names_of(offered), ", ")),
+             fmt::format("method: {} (default: the first that the law has)", fmt::join(names_of(offered), ", ")),
              one_of(choices, "route"));
 }
 
@@ -99,7 +99,8 @@ OrbitColumns motion_at(const ReducedSystem& system, State start, Route route, co
 OrbitColumns motion_at_time_left(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& lefts) {
   const auto flow = flow_of(system, route);
   if (!flow)
-    throw BadInput("--time-left is of the routes closed and quadrature: a stepper knows the stop only by passing it");
+    throw BadInput(
+        "--time-left needs --route closed or quadrature: the other routes do not compute the stop in advance");
   const Orbit orbit = flow->orbit(start);
   OrbitColumns columns(lefts.size());
   for (Eigen::Index i = 0; i < lefts.size(); ++i) {
@@ -114,7 +115,7 @@ OrbitColumns motion_at_time_left(const ReducedSystem& system, State start, Route
 
 OrbitColumns motion_at_beta(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& betas) {
   const auto flow = flow_of(system, route);
-  if (!flow) throw BadInput("--beta is of the routes closed and quadrature: a stepper is asked by tau, as in --at");
+  if (!flow) throw BadInput("--beta needs --route closed or quadrature: give --at with the other routes");
   return reduction::at_betas(*flow, start, betas);
 }
 

@@ -11,6 +11,7 @@
 #include "answers/asked/formula_law.hpp"
 #include "answers/input/load_table.hpp"
 #include "contensou/si/scaling.hpp"
+#include "output/help.hpp"
 
 namespace contensou::program {
 
@@ -47,23 +48,23 @@ void BodyOptions::add_mu(CLI::App& app) {
     return parse_number(parts.front());
   };
   mu_.add(app, "--mu", takes_several_mu_ ? "M,..." : "M",
-          std::string("patch radius over R; of a ball 0 < M <= 1, of another body M > 0 (disc, ring: 1)") +
-              (takes_several_mu_ ? "; several, between commas: side by side, to compare" : ""),
+          std::string("patch radius divided by the radius R: 0 < M <= 1 for a ball, 1 for a disc or ring") +
+              (takes_several_mu_ ? "; several values give portraits side by side" : ""),
           read);
 }
 
 void BodyOptions::add_body(CLI::App& app) {
-  body_.add(
-      app, "--body", "BODY",
-      "ball (default), hollow-ball, disc (or puck) and ring, which lie flat (mu = 1), or CHI,GAMMA: chi = 1 + m R^2/J "
-      "about a horizontal axis (1: cannot roll), gamma = m R^2/J_z",
-      parse_body);
+  body_.add(app, "--body", "BODY",
+            "ball (default), hollow-ball, disc (or puck), ring, or two numbers CHI,GAMMA: chi = 1 + m R^2/J about a "
+            "horizontal axis (1: cannot roll), gamma = m R^2/J_z",
+            parse_body);
 }
 
 void BodyOptions::add_drive(CLI::App& app) {
+  app.option_defaults()->group("Start");
   drive_.add(app, "--drive", "RHO",
-             "constant drive along the slip, over f N, 0 or more and below 1: rolling resistance u_r/f of a ball that "
-             "rolls the way it slides, or a slope straight down, tan(angle)/(chi f) (default 0)",
+             "constant force along the slip divided by f N, from 0 to below 1 (default 0): u_r/f of rolling "
+             "resistance, or tan(angle)/(chi f) of a slope straight down",
              [](const std::string& typed) {
                const double drive = parse_number(typed);
                if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
@@ -91,19 +92,21 @@ const si::CatalogueEntry& require_ball(const std::string& name) {
   throw no_such("ball", name, names);
 }
 
+std::string ball_group() { return shared_group("Values that replace those of --ball", "ball"); }
+
 void StartOptions::add(CLI::App& app) {
   app.option_defaults()->group("Start");
   body_.add_mu(app);
-  u0_.add(app, "--u0", "U", "pivoting R omega_z at the start, either sign, in any unit of speed", number);
-  v0_.add(app, "--v0", "V", "sliding speed at the start, 0 or more, in the unit of --u0", number);
+  u0_.add(app, "--u0", "U", "spin R omega_z at the start, of either sign, in any unit of speed", number);
+  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0", number);
   body_.add_body(app);
-  add_ball(app, "instead of these four: a ball in SI units, built in or from a run file");
+  add_ball(app, "body in SI units, in place of the four options above");
 }
 
 void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer) {
   app.option_defaults()->group("Start");
-  ball_.add(app, "--ball", "NAME|FILE.toml", help + " ('contensou balls' lists them)");
-  app.option_defaults()->group("Ball (with --ball, in place of its own values)");
+  ball_.add(app, "--ball", "NAME|FILE.toml", help + ": a built-in one ('contensou balls') or a run file");
+  app.option_defaults()->group(ball_group());
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const si::Quantity& quantity = *si::quantities()[i];
     if (!offer(quantity)) continue;
@@ -111,7 +114,7 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
     const auto read = [&quantity, may_be_table](const std::string& typed) {
       if (&quantity == &si::load && names_a_file(typed, {".csv"})) {
         if (may_be_table) return std::vector<double>{};
-        throw NotAllowed("a load that changes is of roll, stop and orbit; here it is a number, in N");
+        throw NotAllowed("only roll, stop and orbit take a load that changes; give a number, in N");
       }
       const std::string components(quantity.components);
       const std::vector<double> values = quantity.count() == 1
@@ -128,7 +131,7 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
     const std::string value_name(quantity.count() > 1 ? quantity.components : dimension ? dimension->name : "X");
     values_[i].add(app, option_of(quantity), may_be_table ? value_name + "|FILE.csv" : value_name,
                    fmt::format("{}{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : "",
-                               may_be_table ? "; a table with columns t and load: one that changes" : ""),
+                               may_be_table ? "; FILE.csv with columns t and load is a load that changes" : ""),
                    read);
   }
 }

@@ -74,8 +74,7 @@ class StartOptions {
 
   /// --ball and its values alone, for a verb that is in SI units.
   /// @param offer  of the values
-  void add_ball(CLI::App& app, const std::string& help = "a ball in SI units, built in or from a run file",
-                Offer offer = all);
+  void add_ball(CLI::App& app, const std::string& help = "body in SI units", Offer offer = all);
 
   /// From here on --radius is a ball, too: for a verb that finds what else there is of it.
   void take_radius_for_ball() { radius_is_ball_ = true; }
@@ -179,6 +178,9 @@ class StartOptions {
   mutable std::optional<si::Description> own_;           ///< of --ball; a file is read once: it may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
+
+/// Name of the group of the options that replace values of a ball.
+std::string ball_group();
 
 /// A start at rest, for a verb that brings its own.
 si::Description at_rest(const std::string& source);

@@ -13,9 +13,8 @@ namespace contensou::program {
 void SystemOption::add(CLI::App& app) {
   app.option_defaults()->group("Another system");
   system_.add(app, "--system", "\"u' = F; v' = G\"",
-              "another system in place of (2.6), or \"y' = F(x, y)\", \"x'' = F(x, x')\": formulas in u and v with + - "
-              "* / ^, |x|, hypot, sqrt, sign, exp, ...; "
-              "--u0 and --v0 of either sign are its start");
+              "system to solve in place of (2.6), as formulas in u and v; also \"y' = F(x, y)\" or \"x'' = F(x, x')\"; "
+              "--u0 and --v0 of either sign are the start");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions whose sums with constant coefficients are tried as inverse integrating factor V of --system");
 }

@@ -4,12 +4,14 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace contensou::program {
 
 namespace {
 
 constexpr std::size_t margin = 22;  ///< where meanings begin
+constexpr const char* shared = " ('contensou help ";
 
 /// @param column  where the first line begins
 /// @param indent  where the others do
@@ -44,14 +46,35 @@ std::string help_entry(std::string_view name, std::string_view meaning) {
                      wrapped(meaning, margin, margin));
 }
 
-std::string help_on_fields(const VerbEntry& verb) {
+std::string shared_group(std::string_view title, std::string_view topic) {
+  return fmt::format("{}{}{}')", title, shared, topic);
+}
+
+std::string help_on_group(const CLI::App& app, const std::string& group) {
   std::string text;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() == group) text += HelpFormatter().make_option(option, false);
+  }
+  return text;
+}
+
+std::string help_on_fields(const VerbEntry& verb, bool all) {
+  std::string text;
+  std::vector<std::string_view> others;
   for (const auto& [option, fields] : verb.fields) {
+    if (!all && !option.empty()) {
+      others.push_back(option);
+      continue;
+    }
     text += fmt::format("\nColumns and fields of {}{}{}:\n", verb.name, option.empty() ? "" : " ", option);
     for (auto [names, unit, meaning] : fields()) {
       std::erase(names, '`');
       text += help_entry(names, unit.empty() ? meaning : fmt::format("{} ({})", meaning, unit));
     }
+  }
+  if (!others.empty()) {
+    text += "\n" + help_paragraph(fmt::format("'contensou help fields' also lists the columns and fields with {}.",
+                                              fmt::join(others, ", ")));
   }
   return text;
 }
@@ -64,6 +87,14 @@ HelpFormatter::HelpFormatter() {
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
   return CLI::detail::rtrim(text = CLI::detail::find_and_replace(text, "\n\n\n", "\n\n")) + "\n";
+}
+
+std::string HelpFormatter::make_group(std::string group, bool is_positional,
+                                      std::vector<const CLI::Option*> options) const {
+  if (group.find(shared) == std::string::npos) return CLI::Formatter::make_group(group, is_positional, options);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options) names.push_back(make_option_name(option, is_positional));
+  return fmt::format("\n{}:\n{}", group, help_paragraph(fmt::format("{}", fmt::join(names, ", ")), 2));
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -12,20 +13,32 @@ namespace contensou::program {
 
 inline constexpr std::size_t help_width = 80;
 
+inline constexpr std::string_view exit_statuses =
+    "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot failed.";
+
 /// Text in lines of at most 80 columns.
 std::string help_paragraph(std::string_view text, std::size_t indent = 0);
 
 /// A name and, beside or below it, what it means, in lines of at most 80 columns.
 std::string help_entry(std::string_view name, std::string_view meaning);
 
-/// The columns and fields of a verb; empty if it has none.
-std::string help_on_fields(const VerbEntry& verb);
+/// Returns the name of a group of options that several verbs share. The help of a verb lists their names alone, and
+/// 'contensou help TOPIC' explains them.
+std::string shared_group(std::string_view title, std::string_view topic);
+
+/// Returns the entries of the options that such a group has in a command line.
+std::string help_on_group(const CLI::App& app, const std::string& group);
+
+/// Returns the columns and fields of a verb; empty if it has none.
+/// @param all  true: also those with an option such as --batch; false: names these options
+std::string help_on_fields(const VerbEntry& verb, bool all);
 
 /// How CLI11 writes the help of a verb.
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter();
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+  std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override;
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_subcommand(const CLI::App* verb) const override;
 };

@@ -26,20 +26,20 @@ class AimCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     distance_.add(app, "--distance", "LENGTH",
-                  "of the centre from the start, when slip and spin end, with rolling friction when it rests",
+                  "distance of the centre from the start when slip and spin end, or with rolling friction at rest",
                   at_least_0("m"));
-    turns_.add(app, "--turns", "N", "about the vertical until then, of either sign", number);
-    time_.add(app, "--time", "TIME", "when slip and spin end; two of the three decide the start", at_least_0("s"));
+    turns_.add(app, "--turns", "N", "turns about the vertical until then, of either sign", number);
+    time_.add(app, "--time", "TIME", "time when slip and spin end; two of these three options decide the start",
+              at_least_0("s"));
     rolls_at_.add(app, "--rolls-at", "LENGTH",
-                  "in place of two of them, of a ball: where it is to begin to roll, its slip below 1 mm/s; the start "
-                  "whose slip is forwards (a ball struck with follow may have another)",
+                  "distance at which a ball begins to roll (slip below 1 mm/s), in place of these; only starts with "
+                  "forward slip are found",
                   at_least_0("m", true));
-    rolling_speed_.add(app, "--rolling-speed", "SPEED", "with --rolls-at: how fast it rolls on in the end; 0: it stays",
-                       at_least_0("m/s"));
+    rolling_speed_.add(app, "--rolling-speed", "SPEED",
+                       "speed of rolling after the spin, for --rolls-at; 0: the ball stays", at_least_0("m/s"));
     spin_.add(app, "--spin", "ROTATION",
-              "with --rolls-at: about the vertical at the start, of either sign (default: 0)", quantity("rad/s"));
-    start_.add_ball(app, "a ball in SI units, built in or from a run file; its own start does not count",
-                    StartOptions::no_start);
+              "spin about the vertical at the start, for --rolls-at, of either sign (default 0)", quantity("rad/s"));
+    start_.add_ball(app, "body in SI units, whose start is ignored", StartOptions::no_start);
     law_.add(app);
     figure_.add(app);
     output_.add(app);
@@ -62,7 +62,8 @@ class AimCommand final : public Verb {
       if (!others.empty()) throw BadInput(fmt::format("{} and {} exclude each other: leave one out", others, names));
       if (!rolls_at_.given() || !rolling_speed_.given())
         throw BadInput(fmt::format("{}: --rolls-at and --rolling-speed are needed together", names));
-      if (output.picture()) throw BadInput(fmt::format("{}: a picture is of --distance, --turns and --time", names));
+      if (output.picture())
+        throw BadInput(fmt::format("{}: a picture needs two of --distance, --turns and --time", names));
       output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
       return ExitStatus::done;
     }
@@ -84,9 +85,9 @@ class AimCommand final : public Verb {
   OutputOptions output_{{{"a start", with_pictures(answer_formats("text"))}}};
 };
 
-const RegisteredVerb<AimCommand> aim_verb(
-    Purpose::compute, "aim", "The start that goes so far, turns so often, lasts so long or rolls from there on",
-    "contensou aim --ball puck --distance 20m --turns 3", {{"", aim_fields}});
+const RegisteredVerb<AimCommand> aim_verb(Purpose::compute, "aim",
+                                          "Find the start that reaches a given distance, number of turns or time",
+                                          "contensou aim --ball puck --distance 20m --turns 3", {{"", aim_fields}});
 
 }  // namespace
 

@@ -71,7 +71,7 @@ std::vector<FieldText> balls_texts() { return texts_of_rows("balls", ball_fields
 class BallsCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    ball_.add(app, "NAME", "", "print this ball as a run file, to change and to give to --ball", find);
+    ball_.add(app, "NAME", "", "ball to print as a run file, for --ball (default: a list of all)", find);
     output_.add(app);
   }
 
@@ -101,7 +101,7 @@ class BallsCommand final : public Verb {
 };
 
 const RegisteredVerb<BallsCommand> balls_verb(Purpose::bodies, "balls",
-                                              "The built-in balls and their sources, or one of them as a run file",
+                                              "List the built-in balls, or print one as a run file",
                                               "contensou balls pool -o pool.toml", {{"", balls_texts}});
 
 }  // namespace

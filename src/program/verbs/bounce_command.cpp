@@ -14,31 +14,30 @@ namespace {
 class BounceCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    start_.add_ball(app, "a ball in SI units, built in or from a run file", [](const si::Quantity& of) {
+    start_.add_ball(app, "ball in SI units", [](const si::Quantity& of) {
       return &of != &si::slip && &of != &si::velocity && &of != &si::load && &of != &si::slope &&
              &of != &si::rolling_friction;
     });
     app.option_defaults()->group("Impact");
     speed_.add(app, "--speed", "SPEED",
-               "of the centre along the plane, along x, in metres per second (default: the ball's own)",
-               quantity("m/s"));
+               "velocity of the centre along x, in metres per second (default: that of the ball)", quantity("m/s"));
     CLI::Option* const normal =
-        normal_speed_.add(app, "--normal-speed", "SPEED", "towards the plane, in metres per second, above 0",
+        normal_speed_.add(app, "--normal-speed", "SPEED", "speed towards the plane, in metres per second, above 0",
                           [](const std::string& typed) {
                             const double speed = parse_quantity(typed, "m/s");
                             if (!(speed > 0)) throw NotAllowed("a speed above 0 is needed");
                             return speed;
                           });
     drop_
-        .add(app, "--drop", "LENGTH",
-             "in its place: the height of its lowest point from which it was let go, in metres, above 0",
+        .add(app, "--drop", "LENGTH", "height of the drop, in place of --normal-speed, in metres, above 0",
              [](const std::string& typed) {
                const double height = parse_quantity(typed, "m");
                if (!(height > 0)) throw NotAllowed("a height above 0 is needed");
                return height;
              })
         ->excludes(normal);
-    restitution_.add(app, "--restitution", "E", "which part of the normal speed it goes up with, 0 to 1",
+    restitution_.add(app, "--restitution", "E",
+                     "coefficient of restitution: normal speed after the impact divided by that before, 0 to 1",
                      [](const std::string& typed) {
                        const double part = parse_number(typed);
                        if (!(part >= 0 && part <= 1)) throw NotAllowed("0 to 1 is needed");
@@ -46,7 +45,7 @@ class BounceCommand final : public Verb {
                      });
     rolling_below_.add(
         app, "--rolling-below", "SPEED",
-        fmt::format("of the slip, in metres per second, below which it rolls (default {})", si::rolling_slip),
+        fmt::format("slip below which the ball rolls, in metres per second (default {})", si::rolling_slip),
         [](const std::string& typed) {
           const double speed = parse_quantity(typed, "m/s");
           if (speed < 0) throw NotAllowed("0 or more is needed");
@@ -90,7 +89,7 @@ class BounceCommand final : public Verb {
 };
 
 const RegisteredVerb<BounceCommand> bounce_verb(Purpose::compute, "bounce",
-                                                "A ball that hits the plane at a slant, spinning: how it leaves",
+                                                "Compute how a spinning ball bounces off the plane",
                                                 "contensou bounce --ball rubber --spin 200 --drop 1 --restitution 0.8",
                                                 {{"", bounce_fields}});
 

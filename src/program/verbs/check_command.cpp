@@ -28,18 +28,17 @@ class CheckCommand final : public Verb {
     app.option_defaults()->group("Against a table");
     against_.add(
         app, "--against", "FILE",
-        "with --ball: the motion in this CSV, of an engine or a camera, against that of the law; columns t (or "
-        "time), slip, spin (or wz), or of a rigid body vx, vy, wx, wy, wz in place of slip and spin, in SI units or "
-        "with a unit, as in 'wz [rpm]'; it starts as its first row, but for --slip and --spin; - is standard input; a "
-        "picture shows both");
-    tolerance_.add(
-        app, "--tolerance", "SHARE",
-        fmt::format("of slip and spin at the start, by which they may be off (default {})", standard_tolerance),
-        [](const std::string& typed) {
-          const double share = parse_number(typed);
-          if (!(share > 0)) throw NotAllowed("a share above 0 is needed");
-          return share;
-        });
+        "CSV of a motion by an engine or a camera, to compare with the law of --ball; - is standard input. Columns: t, "
+        "and slip,spin or vx,vy,wx,wy,wz, in SI units or as 'wz [rpm]'. The start is the first row, or --slip and "
+        "--spin");
+    tolerance_.add(app, "--tolerance", "SHARE",
+                   fmt::format("largest error that passes, as a share of slip and spin at the start (default {})",
+                               standard_tolerance),
+                   [](const std::string& typed) {
+                     const double share = parse_number(typed);
+                     if (!(share > 0)) throw NotAllowed("a share above 0 is needed");
+                     return share;
+                   });
     figure_.add(app);
     output_.add(app);
   }
@@ -49,7 +48,7 @@ class CheckCommand final : public Verb {
     figure_.require_picture(output);
     if (against_.given()) return compare(output);
     if (output.picture() && output.format != "tex")
-      throw BadInput("a picture is of a table: add --against FILE, or leave it out");
+      throw BadInput("a picture compares with a table: add --against FILE, or leave it out");
     if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
     const bool one_law = law_.given() || start_.brings_law();
@@ -104,7 +103,7 @@ class CheckCommand final : public Verb {
 };
 
 const RegisteredVerb<CheckCommand> check_verb(Purpose::check, "check",
-                                              "Every statement of the theory as a number that must be small",
+                                              "Check every statement of the theory, or a table of a motion",
                                               "contensou check --mu 0.1 --u0 1 --v0 1", {{"", check_fields}});
 
 }  // namespace

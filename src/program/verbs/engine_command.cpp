@@ -17,7 +17,7 @@ using si::Engine;
 class EngineCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    engine_.add(app, "NAME", "", "of the engine, for all that is known of it; without, a line for each", find);
+    engine_.add(app, "NAME", "", "engine to describe in full (default: one line for each engine)", find);
     start_.add_ball(app);
     law_.add(app);
     output_.add(app);
@@ -55,9 +55,9 @@ class EngineCommand final : public Verb {
   OutputOptions output_{{{"a table of engines", answer_formats("text")}}};
 };
 
-const RegisteredVerb<EngineCommand> engine_verb(
-    Purpose::bodies, "engine", "What to type into a physics engine for torsional friction, and what that does",
-    "contensou engine mujoco --ball pool", {{"", engine_fields}});
+const RegisteredVerb<EngineCommand> engine_verb(Purpose::bodies, "engine",
+                                                "Print the torsional friction settings of physics engines",
+                                                "contensou engine mujoco --ball pool", {{"", engine_fields}});
 
 }  // namespace
 

@@ -27,7 +27,7 @@ class ExploreCommand final : public Verb {
 };
 
 const RegisteredVerb<ExploreCommand> explore_verb(Purpose::draw, "explore",
-                                                  "A page to explore the phase plane: one HTML file, for any browser",
+                                                  "Write a page to explore the phase plane: one HTML file",
                                                   "contensou explore -o page.html");
 
 }  // namespace

@@ -89,39 +89,34 @@ class FitCommand final : public Verb {
     files_
         .add(
             app, "FILE", "",
-            "CSV, or text with tabs, with t (or time), or frame and --fps, and any of slip, spin (or wz), x, y, vx, "
-            "vy, "
-            "angle (or theta), in SI units (rad) or with a unit, as in 'spin [rpm]'; NAME_sd is the standard deviation "
-            "of "
-            "NAME, empty, nan or NA: not measured; - is standard input. Several files: one ball",
+            "CSV, or text with tabs; - is standard input. Columns: t, or frame with --fps; and any of slip, spin (wz), "
+            "x, y, vx, vy, angle (theta), in SI units or as 'spin [rpm]'. NAME_sd is the standard deviation of NAME. "
+            "Several files are films of one ball",
             [](const std::string& typed) { return typed; }, true)
         ->expected(1, -1)
         ->allow_extra_args();
     app.option_defaults()->group("Data");
-    from_.add(app, "--from", "TIME",
-              "where the motion begins, in seconds; earlier rows are left out (default: the first row)", quantity("s"));
-    until_.add(app, "--until", "TIME", "later rows are left out; with --plan the end of the film (default: the stop)",
+    from_.add(app, "--from", "TIME", "first instant of the motion, in seconds (default: the first row)", quantity("s"));
+    until_.add(app, "--until", "TIME", "last instant, in seconds (default: the last row, or with --plan the stop)",
                quantity("s"));
     noise_.add(app, "--noise", "NAME=SD,...",
-               "standard deviations of columns that have none, and of stop (default: estimated)", parse_noise);
-    stop_time_.add(app, "--stop-time", "TIME", "measured, in seconds from the start; with --noise stop=SD",
+               "standard deviations of columns and of stop (default: estimated from the residuals)", parse_noise);
+    stop_time_.add(app, "--stop-time", "TIME", "measured stop time, in seconds from the start; needs --noise stop=SD",
                    positive("time", "s"));
-    pixel_.add(app, "--pixel", "LENGTH", "size of a pixel, of columns in px or px/s, as in 'x [px]'",
-               positive("length", "m"));
-    start_.add_ball(
-        app, "radius and gravity, the values of what is not free, and rolling friction; --radius alone does, too");
+    pixel_.add(app, "--pixel", "LENGTH", "size of a pixel, for columns such as 'x [px]'", positive("length", "m"));
+    start_.add_ball(app, "ball with the values that are not free; --radius alone is enough, too");
     start_.take_radius_for_ball();
-    law_.add_several(app, "LAW,...", "one, or several to rank (default exact). 'contensou help laws' explains them");
+    law_.add_several(app, "LAW,...",
+                     "law, or several to rank (default exact); 'contensou help laws' lists all of them");
     app.option_defaults()->group("Estimate");
-    free_.add(
-        app, "--free", "NAMES",
-        "what is to be found, of friction,patch,rolling_friction,slip,spin (default: all, but for the patch of what "
-        "rests on its whole face, and rolling friction where the ball has none)",
-        parse_free);
-    app.add_flag("--robust", robust_, "Huber's loss: values that are far off count for less");
-    app.add_flag("--plan", plan_,
-                 "no FILE: the errors that a film with these --fps and --noise would give of the ball");
-    fps_.add(app, "--fps", "N", "pictures in a second, for --plan and for a column frame", parse_rate);
+    free_.add(app, "--free", "NAMES",
+              "numbers to find, of friction,patch,rolling_friction,slip,spin (default: all that the body has; never "
+              "the patch "
+              "of a disc or ring)",
+              parse_free);
+    app.add_flag("--robust", robust_, "give outliers less weight (Huber's loss)");
+    app.add_flag("--plan", plan_, "predict the errors of a film with --fps and --noise; takes no FILE");
+    fps_.add(app, "--fps", "N", "pictures per second, for --plan and for a column frame", parse_rate);
     figure_.add(app);
     output_.add(app);
   }
@@ -129,7 +124,7 @@ class FitCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read(plan_ ? 1 : 0);
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
-    if (plan_ && laws.size() > 1) law_.argument().reject("--plan is of one law");
+    if (plan_ && laws.size() > 1) law_.argument().reject("--plan takes one law");
     for (const reduction::Law& law : laws) {
       if (output.format == "toml" && !find_law_or_formulas(law.name()))
         law_.argument().reject(
@@ -140,7 +135,7 @@ class FitCommand final : public Verb {
     fit::FitRequest request{.ball = start_.read_ball(laws.front()), .law = laws.front(), .tracks = {}};
     if (const double slope = request.ball.environment.slope; slope != 0)
       throw BadInput(
-          fmt::format("fit is of a ball on a level plane, and this one is on a slope of {} degrees; --slope 0 "
+          fmt::format("fit needs a level plane, and this one has a slope of {} degrees; --slope 0 "
                       "leaves it out",
                       slope));
     request.robust = robust_;
@@ -225,11 +220,11 @@ class FitCommand final : public Verb {
     if (!unused.noise.empty()) {
       const std::string& name = unused.noise.begin()->first;
       noise_.reject(name == stop
-                        ? "stop is of --stop-time, which is not given"
+                        ? "stop is the noise of --stop-time, which is not given"
                         : fmt::format("no file has a column {0} without standard deviations of its own", name));
     }
     if (stop_time_.given()) {
-      if (tracks.size() > 1) stop_time_.reject("it is of one track, and there are several files");
+      if (tracks.size() > 1) stop_time_.reject("one stop time fits one file, and there are several");
       tracks.front().stop_time = stop_time();
     }
     return tracks;
@@ -237,7 +232,7 @@ class FitCommand final : public Verb {
 
   /// Tracks with the times and errors of a film of the ball.
   std::vector<fit::Track> planned_tracks(const fit::FitRequest& request) const {
-    if (files_.given()) throw BadInput("--plan is of a film that is not made yet: leave out FILE");
+    if (files_.given()) throw BadInput("--plan predicts a film that is not made yet: leave out FILE");
     if (from_.given()) from_.reject("a film that is planned begins with the motion: leave it out");
     if (pixel_.given()) pixel_.reject("--plan has its noise in SI units: leave it out");
     std::vector<std::string> missing;
@@ -277,8 +272,7 @@ class FitCommand final : public Verb {
       {{"a fit", with_pictures(answer_formats("text"), {"toml"})}, {"a plan", answer_formats("text")}}};
 };
 
-const RegisteredVerb<FitCommand> fit_verb(Purpose::bodies, "fit",
-                                          "Friction and patch radius of a ball, from a film of it",
+const RegisteredVerb<FitCommand> fit_verb(Purpose::bodies, "fit", "Fit friction and patch radius to a film of a ball",
                                           "contensou fit --plan --ball pool --fps 240 --noise slip=0.01,spin=1",
                                           {{"", fit_fields}});
 

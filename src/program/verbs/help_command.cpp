@@ -11,7 +11,11 @@
 #include "answers/table/answer.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/si/quantity.hpp"
+#include "options/bulk_options.hpp"
+#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
+#include "options/start_options.hpp"
 #include "output/help.hpp"
 #include "platform/output_file.hpp"
 #include "verb.hpp"
@@ -22,40 +26,40 @@ namespace {
 
 std::string laws() {
   std::string text = help_paragraph(
-      "Laws of friction (--law), by their pressure at rho, the distance from the centre "
-      "of the patch over its radius:");
+      "Laws of friction, for --law. A law is given by its pressure at rho, the distance from the centre of the patch "
+      "divided by the patch radius, or by its limit surface:");
   for (const auto& [name, meaning] : law_forms()) text += help_entry(name, meaning);
   return text + "\n" +
          help_paragraph(
-             "The pressure of FILE.csv is linear in rho^2 between two rows (uniform up to a step, two rows of one "
-             "rho); "
-             "annulus and soft are such tables. What that costs where the rows sample a smooth curve, stop says beside "
-             "its answer, by the same table with every other row left out.");
+             "The pressure of FILE.csv is linear in rho^2 between two rows; two rows of one rho make a step. The laws "
+             "annulus and soft are such tables. stop also prints the result of every other row, which shows the error "
+             "of interpolation.");
 }
 
 std::string views() {
   std::string text = help_paragraph(
-      "Views of a portrait (--view). u = R omega_z is the pivoting, v the sliding speed, "
-      "k = v/(mu |u|):");
+      "Views of a portrait, for --view. u = R omega_z is the spin as a speed, v the sliding speed, mu the patch radius "
+      "divided by R, and k = v/(mu |u|):");
   for (portraits::View view : portraits::views()) text += help_entry(name(view), axes(view));
   return text;
 }
 
 std::string units() {
   std::string text = help_paragraph(
-      "Options in SI units take a unit behind the number, as in --slip \"2 m/s\", --spin 300rpm, --radius \"2.25 in\"; "
-      "one behind a list is of all its numbers; in a range it stands before the count, --spin \"0:60 rpm:3\". A plain "
-      "number has the first of its kind. In run files such "
-      "values stand in quotes. Tables have plain numbers.");
+      "An option in SI units takes a unit behind its number, as in --slip \"2 m/s\", --spin 300rpm or --radius \"2.25 "
+      "in\". A number without a unit has the first unit of its kind. A unit behind a list is for all its numbers. In a "
+      "range the unit stands before the count: --spin \"0:60 rpm:3\". In run files such values stand in quotes.");
   for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
   return text + "\n" +
          help_paragraph(
-             "mu, u0 and v0 have no unit here: mu is the radius of the patch over that of the ball, u0 and v0 "
-             "are in any one unit of speed, and times are the paper's tau = (3 pi/2) f g t in that unit.");
+             "mu, u0 and v0 take no unit. mu is the patch radius divided by the radius of the body. u0 and v0 are in "
+             "any "
+             "common unit of speed, and times are then tau = (3 pi/2) f g t of the paper in that unit.");
 }
 
 std::string files() {
-  std::string text = help_paragraph("Run files (--ball FILE.toml), such as 'contensou balls pool' prints:");
+  std::string text =
+      help_paragraph("Run files, for --ball FILE.toml. 'contensou balls pool' prints one. Sections and keys:");
   std::string_view section;
   for (const si::Quantity* quantity : si::quantities()) {
     if (quantity->section != section) {
@@ -66,8 +70,8 @@ std::string files() {
                 help_entry("body", "text in quotes: ball (default), hollow-ball, disc, puck or ring");
       }
       if (quantity == &si::friction) {
-        text += help_entry("law", "text in quotes: the default of --law, a name or formulas") +
-                help_entry("param", "the numbers in its formulas, as in param = {a = 2}: the default of --param");
+        text += help_entry("law", "text in quotes: default of --law, a name or formulas") +
+                help_entry("param", "default of --param: parameters of the formulas, as in param = {a = 2}");
       }
     }
     const std::string vector = quantity->components.empty() ? "" : fmt::format(", as [{}]", quantity->components);
@@ -84,22 +88,15 @@ std::string files() {
       for (const si::Quantity* quantity : si::needed_of(way)) members.push_back(quantity->name);
       names.push_back(fmt::format("{}", fmt::join(members, " with ")));
     }
-    text += help_paragraph(
-        fmt::format("Give {}{}.", fmt::join(names, ", or "),
-                    ways.front().front() == &si::patch_radius ? "; a disc or ring has its whole face without" : ""));
+    text += help_paragraph(fmt::format(
+        "Give {}{}.", fmt::join(names, ", or "),
+        ways.front().front() == &si::patch_radius ? "; a disc or ring touches with its whole face by default" : ""));
   }
-  text += help_paragraph("mass may be left out. Energies, a load, moduli, a cue's stroke and engine need it.");
+  text += help_paragraph("mass is optional. Energies, a load, moduli, a stroke and the verb engine need it.");
   return text + "\n" +
          help_paragraph(
-             "Tables (--batch, --at, --against, --law FILE.csv): CSV with one header line; # begins a comment; - is "
-             "standard input. 'contensou help VERB' names the columns that it reads and writes.") +
-         "\n" +
-         help_paragraph(
-             "-o FILE is written whole or not at all, and replaces an older one; - is standard output. Its "
-             "ending decides the format, which --format names where there is none. csv and json have all "
-             "digits; text (ending txt) has --digits. npy is an array of NumPy's (sweep). Pictures are svg, "
-             "pdf, png, eps, tex (pgfplots), gp (a gnuplot script with its data) and, of roll, gif (it moves; "
-             "--samples N frames).");
+             "Tables (--batch, --at, --against, --law FILE.csv) are CSV with one header line. # begins a comment; - is "
+             "standard input. 'contensou help VERB' names the columns.");
 }
 
 std::string all_fields() {
@@ -108,7 +105,7 @@ std::string all_fields() {
       "that "
       "begin with # are comments. The members of an object are columns of their own. u, v and tau are in one unit of "
       "speed, which is m/s for a ball.");
-  for (const VerbEntry& entry : verbs()) text += help_on_fields(entry);
+  for (const VerbEntry& entry : verbs()) text += help_on_fields(entry, true);
   return text;
 }
 
@@ -172,14 +169,64 @@ constexpr std::string_view theory_words[]{"equations", "symmetry", "generator", 
 
 std::string theory() { return theory_text; }
 
-const Choices<std::string (*)()> topics{{"laws", laws},   {"views", views},       {"units", units},
-                                        {"files", files}, {"fields", all_fields}, {"theory", theory}};
+/// @param add  adds the options of a group to a command line
+template <class Add>
+std::string options(const std::string& words, const std::string& group, Add add) {
+  CLI::App app;
+  add(app);
+  return help_paragraph(words) + help_on_group(app, group);
+}
+
+std::string ball() {
+  StartOptions start;
+  start.take_load_history();
+  return options(
+      "Each of these options replaces a value of the body that --ball names. A verb offers those that it uses; its "
+      "help "
+      "lists them. 'contensou balls' lists the built-in bodies, 'contensou help files' the run files, 'contensou help "
+      "units' the units.",
+      ball_group(), [&](CLI::App& app) { start.add_ball(app); });
+}
+
+std::string picture() {
+  FigureOptions figure;
+  return options(
+      "Pictures are written as svg, pdf, png, eps, tex (pgfplots) and gp (a gnuplot script with its data); those "
+      "of roll also as gif. All but tex and gp are drawn by gnuplot. These options set size and font:",
+      figure_group(), [&](CLI::App& app) { figure.add(app); });
+}
+
+std::string output() {
+  OutputOptions output{{{"an answer", answer_formats("text")}}};
+  BulkOptions bulk;
+  std::string text = options(
+      "-o FILE names the output file, which is written whole or not at all; - is standard output. Its ending decides "
+      "the "
+      "format; --format decides if there is no ending. csv and json have all digits; npy is an array of NumPy. "
+      "Messages and progress go to "
+      "standard error.",
+      usual_group(), [&](CLI::App& app) {
+        output.add(app);
+        bulk.add(app);
+      });
+  return text + help_entry("-h, --help", "print the help of the verb") + "\n" + help_paragraph(exit_statuses);
+}
+
+const Choices<std::string (*)()> topics{{"ball", ball},     {"laws", laws},         {"picture", picture},
+                                        {"output", output}, {"views", views},       {"units", units},
+                                        {"files", files},   {"fields", all_fields}, {"theory", theory}};
+
+std::vector<std::string> names_of_topics() {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : topics) names.push_back(name);
+  return names;
+}
 
 class HelpCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     root_ = app.get_parent();
-    topic_.add(app, "TOPIC", "", "laws, views, units, files, fields, theory, or a verb (default: all verbs)",
+    topic_.add(app, "TOPIC", "", fmt::format("{}, or a verb (default: all verbs)", fmt::join(names_of_topics(), ", ")),
                [this](const std::string& typed) { return text_on(typed); });
   }
 
@@ -190,11 +237,10 @@ class HelpCommand final : public Verb {
 
  private:
   std::string text_on(const std::string& topic) const {
-    std::vector<std::string> names;
     for (const auto& [name, text] : topics) {
       if (name == topic) return text();
-      names.push_back(name);
     }
+    std::vector<std::string> names = names_of_topics();
     for (const CLI::App* verb : root_->get_subcommands([](const CLI::App*) { return true; })) {
       if (verb->get_name() == topic) return verb->help("contensou");
       names.push_back(verb->get_name());
@@ -207,7 +253,7 @@ class HelpCommand final : public Verb {
   ArgumentOf<std::string> topic_;
 };
 
-const RegisteredVerb<HelpCommand> help_verb(Purpose::help, "help", "What an option takes, or the options of a verb",
+const RegisteredVerb<HelpCommand> help_verb(Purpose::help, "help", "Explain a topic, or the options of a verb",
                                             "contensou help units");
 
 }  // namespace

@@ -36,11 +36,10 @@ class LawCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     law_.add(app);
-    app.option_defaults()->group("What to write");
+    app.option_defaults()->group("Ratios");
     CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf", parse_ratios);
-    batch_.add(app, "--batch", "FILE", "instead: CSV with a column k; - is standard input")->excludes(k);
-    app.add_flag("--surface", surface_,
-                 "with a picture as -o: the limit surface, force against moment, laws beside each other");
+    batch_.add(app, "--batch", "FILE", "CSV with a column k, in place of --k; - is standard input")->excludes(k);
+    app.add_flag("--surface", surface_, "draw the limit surface: force against moment, for several laws");
     figure_.add(app);
     output_.add(app);
   }
@@ -102,7 +101,7 @@ class LawCommand final : public Verb {
 };
 
 const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law",
-                                          "Friction force and moment against k: k,phi,psi, or the paper's Fig. 2",
+                                          "Compute or draw the force and moment of friction against k",
                                           "contensou law --law exact --k 0,0.5,1,2,inf", {{"", law_texts}});
 
 }  // namespace

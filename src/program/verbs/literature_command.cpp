@@ -85,7 +85,7 @@ class LiteratureCommand final : public Verb {
 };
 
 const RegisteredVerb<LiteratureCommand> literature_verb(Purpose::check, "literature",
-                                                        "Numbers that others published, beside ours",
+                                                        "Compare published numbers with computed ones",
                                                         "contensou literature", {{"", literature_texts}});
 
 }  // namespace

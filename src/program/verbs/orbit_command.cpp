@@ -89,13 +89,13 @@ class OrbitCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
     time_left_
         .add(app, "--time-left", "T1,T2,...|FILE",
-             "instead: so much tau before the stop (of a ball also in seconds, as in '1,2 s'), and a column tau_left; "
-             "FILE has that column",
+             "times before the stop, in place of --at; with --ball also '1,2 s'. Adds the column tau_left, which FILE "
+             "has, too",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
     beta_
         .add(app, "--beta", "B1,B2,...|FILE",
-             "instead: these regularised times >= 0 of (2.8), in any order; FILE has a column beta",
+             "regularised times beta >= 0 of (2.8), in place of --at; FILE has a column beta",
              [](const std::string& typed) {
                auto betas = InstantsOption::read_times(typed, "beta");
                if (betas.in_seconds) throw NotAllowed("beta has no unit: plain numbers are needed");
@@ -103,11 +103,11 @@ class OrbitCommand final : public Verb {
              })
         ->excludes(at);
     app.add_flag("--estimate", estimate_,
-                 "beside it the asymptotic solution for small mu: u_estimate, with a relative error of the order mu^4, "
-                 "v_estimate and ln_v_estimate, of the order mu^2");
+                 "add the asymptotic solution for small mu: u_estimate (relative error of the order mu^4), v_estimate "
+                 "and ln_v_estimate (mu^2)");
     app.add_flag("--reduction", reduction_,
-                 "and columns q = v/u, p = ln v, in which the symmetry shifts p alone, and integral, the first "
-                 "integral ln |u| - ln w(k)");
+                 "add the canonical coordinates q = v/u and p = ln v, and integral, the first integral ln |u| - ln "
+                 "w(k)");
     output_.add(app);
   }
 
@@ -166,7 +166,7 @@ class OrbitCommand final : public Verb {
  private:
   /// @throws BadInput  for what is of one orbit, where rolling friction makes the motion of several
   void require_one_orbit(reduction::Route route) const {
-    const char* const why = " is of one orbit, and rolling friction lets this ball turn for a part of its motion only";
+    const char* const why = " needs one orbit, and rolling friction divides this motion into several";
     if (route != reduction::Route::quadrature)
       throw BadInput(fmt::format("--route {}{}: leave it out", name(route), why));
     if (beta_.given()) throw BadInput(fmt::format("--beta{}: leave it out, or give --at", why));
@@ -191,7 +191,7 @@ class OrbitCommand final : public Verb {
     const auto clock = [&](double t) { return load ? load->clock(t) : t; };
     if (start.experiment) return times.values.unaryExpr(clock) / si::seconds(*start.experiment, 1);
     throw BadInput(
-        "times in seconds are of a ball: add --ball NAME|FILE.toml, or leave the unit out: tau is in that of --u0");
+        "times in seconds need a ball: add --ball NAME|FILE.toml, or leave the unit out; tau is in the unit of --u0");
   }
 
   static void add_estimate(OrbitReport& report) {
@@ -236,8 +236,7 @@ class OrbitCommand final : public Verb {
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 
-const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit",
-                                              "The state along the motion: tau,u,v,ln_v,k,beta (and t for a ball)",
+const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit", "Compute u and v at instants of the motion",
                                               "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50",
                                               {{"", orbit_texts}});
 

@@ -159,7 +159,7 @@ std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits)
     return std::ranges::count_if(rows, [&](const StatementRow& row) { return row.found.verdict == verdict; });
   };
   return table.text() + fmt::format(
-                            "\nThe plane's statements and Fig. 4 are of the Pade law, as in the paper.\n"
+                            "\nThe plane's statements and Fig. 4 use the Pade law, as the paper does.\n"
                             "{} statements: {} hold, {} are errata, {} are false; {} not as recorded\n",
                             rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
                             std::ranges::count(rows, false, &StatementRow::as_recorded));
@@ -171,7 +171,7 @@ class PaperCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     app.option_defaults()->group("Figures");
-    out_.add(app, "--out", "DIR", "write fig1 to fig4 into DIR as svg and pdf (default: the table alone)");
+    out_.add(app, "--out", "DIR", "folder for fig1 to fig4 as svg and pdf (default: only the table)");
     figure_.add(app, true);
     output_.add(app);
   }
@@ -198,7 +198,7 @@ class PaperCommand final : public Verb {
 };
 
 const RegisteredVerb<PaperCommand> paper_verb(Purpose::check, "paper",
-                                              "Every equation and claim of the paper recomputed; its four figures",
+                                              "Recompute every equation of the paper, and draw its figures",
                                               "contensou paper --out figures", {{"", paper_texts}});
 
 }  // namespace

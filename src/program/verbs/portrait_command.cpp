@@ -134,16 +134,14 @@ class PortraitCommand final : public Verb {
     start_.take_several_mu();
     start_.add(app);
     start_.add_drive(app);
-    law_.add(app);
-    CLI::Option* const law = app.get_option("--law");
-    law->description(law->get_description() + "; several, between commas: side by side, to compare");
+    law_.add(app, "; several names between commas give portraits side by side");
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);
     figure_.add(app);
     app.option_defaults()->group("Output");
     app.add_flag("--facts", facts_,
-                 "instead of the picture: regime, singular points with eigenvalues and kind, how orbits enter the "
-                 "origin; to standard output unless -o is given");
+                 "print a table in place of the picture: the regime, the singular points and how orbits enter the "
+                 "origin");
     output_.add(app);
   }
 
@@ -158,7 +156,7 @@ class PortraitCommand final : public Verb {
       std::ranges::move(start_.read_several(law), std::back_inserter(starts));
     }
     if (facts_) {
-      if (starts.size() > 1) throw BadInput("--facts are of one plane: give one --mu and one --law");
+      if (starts.size() > 1) throw BadInput("--facts describe one plane: give one --mu and one --law");
       return print_facts(starts.front().system);
     }
     const Output output = output_.read();
@@ -207,7 +205,7 @@ class PortraitCommand final : public Verb {
       } else {
         if (window_->low[1] < 0) window_argument_->reject("here v is 0 or more: the plane is a half-plane");
         if (!shows_window(request_.view.value_or(View::uv)))
-          window_argument_->reject("of this view it is U,V; U1:U2,V1:V2 is of uv, patch and pair");
+          window_argument_->reject("this view takes U,V; only uv, patch and pair take U1:U2,V1:V2");
         request_.part = {window_->low[0], window_->high[0], window_->low[1], window_->high[1]};
       }
     }
@@ -230,7 +228,7 @@ class PortraitCommand final : public Verb {
     if (facts_) others = with_name(others, "--facts");
     if (!others.empty()) {
       throw BadInput(fmt::format(
-          "--system and {} exclude each other: those are of (2.6). The plane of u and v is what is drawn; 'contensou "
+          "--system and {} exclude each other, because only (2.6) has them. The plane of u and v is drawn; 'contensou "
           "reduce --system' says which rays, kind and times there are",
           others));
     }
@@ -240,7 +238,7 @@ class PortraitCommand final : public Verb {
                                              .isochrones = request_.isochrones,
                                              .isochrone_times = request_.isochrone_times};
     if (style_.field == Style::Field::regularised) {
-      throw BadInput("--field regularised is of (2.7); with --system it is motion, or none");
+      throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
     start_.require_point_or_none();
     if (!start_.without_motion()) request.highlight = start_.read_point();
@@ -280,28 +278,29 @@ class PortraitCommand final : public Verb {
       views.emplace_back(name(view), view);
     }
     app.option_defaults()->group("Picture");
-    add("--view", "VIEW", fmt::format("{} (default uv). 'contensou help views' explains them", fmt::join(names, ", ")),
+    add("--view", "VIEW", fmt::format("{} (default uv); 'contensou help views' explains them", fmt::join(names, ", ")),
         into(request_.view, one_of(views, "view")));
     view_ = &looks_.back();
     add("--scale", "SCALE",
-        "of v in uv, patch and pair: linear, or bent, below the shading like v^s, on which every orbit runs straight "
-        "into the stop (default where the plane would be a comb, of the ball mu < 0.48)",
+        "scale of v in uv, patch and pair: linear, or bent, where the shaded part shows v^s and orbits are straight "
+        "(default for a ball with mu < 0.48)",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "show |u| <= U and 0 <= v <= V (default: chosen so that the plane is filled), of --system |v| <= V; or "
-        "U1:U2,V1:V2, in uv, patch, pair and of --system",
+        "part of the plane: |u| <= U and 0 <= v <= V (--system: |v| <= V), or U1:U2,V1:V2 in uv, patch, pair and with "
+        "--system",
         into(window_, parse_window));
     window_argument_ = &looks_.back();
     add("--orbits", "N",
-        fmt::format("orbits on each side of u = 0, 0 to {} (default 12); of --system all of them", max_orbits),
+        fmt::format("number of orbits on each side of u = 0, or of all with --system, 0 to {} (default 12)",
+                    max_orbits),
         into(request_.orbits_per_side, at_most(max_orbits)));
     add(
-        "--through", "U,V", "also the orbit through this point; may be repeated",
+        "--through", "U,V", "point of one more orbit; may be repeated",
         [this](const std::string& typed) { through_.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N|T1,T2,...",
-        fmt::format("so many isochrones of the stop time, 0 to {}, as nearly as round times allow (default about 7, in "
-                    "a column 4); or those of these times, of a ball in s; of one time: T,",
+        fmt::format("number of isochrones of the stop time, 0 to {} (about; default 7), or their times, with --ball in "
+                    "s; 'T,' is one time",
                     max_isochrones),
         [this, read = at_most(max_isochrones)](const std::string& typed) {
           if (typed.find(',') != std::string::npos) {
@@ -312,24 +311,24 @@ class PortraitCommand final : public Verb {
         })
         ->expected(0, 1);
     first_of_drawing_ = looks_.size();
-    add("--arrows", "WHERE", "arrows on orbits: at equal times (time, default), one on each, none",
+    add("--arrows", "WHERE", "arrows on orbits: time (default, at equal times), one (on each orbit), none",
         into(style_.arrows,
              one_of<Style::Arrows>(
                  {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}})));
-    add("--field", "FIELD", "the direction field, length by logarithm: motion (2.6), regularised (2.7), none (default)",
+    add("--field", "FIELD",
+        "direction field: motion (2.6), regularised (2.7), none (default); the logarithm of the speed is the length",
         into(style_.field, one_of<Style::Field>({{"none", Style::Field::none},
                                                  {"motion", Style::Field::motion},
                                                  {"regularised", Style::Field::regularised},
                                                  {"", Style::Field::motion}})))
         ->expected(0, 1);
-    add("--axes", "on|off", "the invariant axes and the invariant ray, which are the nullclines (default on)",
+    add("--axes", "on|off", "invariant axes and invariant ray, which are the nullclines (default on)",
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
-    add("--colour,--color", "BY", "orbits by the time left (time, default) or in one colour (none)",
+    add("--colour,--color", "BY", "colour of orbits: time (default, the time left) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
-    app.add_flag("--estimate", style_.estimate,
-                 "with --view time: beside each motion, dashed, the asymptotic solution for small mu");
-    against_.add_second(app, "--against", "LAW", "the same for another law, dashed, in the same figure");
-    add("--style", "STYLE", "print (default), or screen: light on dark, for a projector",
+    app.add_flag("--estimate", style_.estimate, "draw the asymptotic solution for small mu, dashed, in --view time");
+    against_.add_second(app, "--against", "LAW", "second law, whose orbits are dashed in the same figure");
+    add("--style", "STYLE", "print (default), or screen (light on dark, for a projector)",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
@@ -344,7 +343,7 @@ class PortraitCommand final : public Verb {
     if (std::string names = names_of_looks(0); against_.given() || !names.empty()) {
       if (against_.given()) names = with_name(names, against_.argument().name());
       throw BadInput(
-          fmt::format("--facts and {} exclude each other: facts are of the whole plane, and print no picture", names));
+          fmt::format("--facts and {} exclude each other: facts describe the whole plane, without a picture", names));
     }
     if (route_.given()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
     output_.read(1).write(phase_plane_answer(system));
@@ -370,8 +369,7 @@ class PortraitCommand final : public Verb {
 };
 
 const RegisteredVerb<PortraitCommand> portrait_verb(
-    Purpose::draw, "portrait", "A phase portrait: orbits, isochrones of the stop time, invariant axes",
-    "contensou portrait --mu 0.3 -o portrait.svg",
+    Purpose::draw, "portrait", "Draw a phase portrait", "contensou portrait --mu 0.3 -o portrait.svg",
     {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}});
 
 }  // namespace

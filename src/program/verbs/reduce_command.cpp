@@ -64,7 +64,7 @@ class ReduceCommand final : public Verb {
 };
 
 const RegisteredVerb<ReduceCommand> reduce_verb(Purpose::check, "reduce",
-                                                "The symmetry of a planar system found, its motion solved",
+                                                "Find the symmetry of a planar system and solve its motion",
                                                 "contensou reduce --mu 0.3 --u0 1 --v0 1", {{"", reduce_fields}});
 
 }  // namespace

@@ -101,46 +101,45 @@ class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.take_load_history();
-    start_.add_ball(app, "a ball in SI units, built in or from a run file");
-    app.option_defaults()->group("Stroke of a cue, along x (in place of the ball's own start)");
+    start_.add_ball(app);
+    app.option_defaults()->group("Stroke of a cue along x, in place of the start of the ball");
     strike_.add(app, "--strike", "SPEED",
-                "of the cue, in metres per second: an elastic impulse along it. Left out are squirt, miscues within "
-                "--tip's limit, the ball's bounce off the table and its friction there, and other balls (throw)",
+                "speed of the cue, in metres per second. The impulse is elastic and along the cue; squirt, miscues, "
+                "throw and a bounce off the table are left out",
                 quantity("m/s"));
     tip_.add(app, "--tip", "A,B",
-             fmt::format("where it strikes, to the right of and above the centre as seen along the cue, in radii, at "
-                         "most {} from it (default 0,0)",
+             fmt::format("point of contact to the right of and above the centre, seen along the cue, in radii; at most "
+                         "{} from the centre (default 0,0)",
                          si::largest_tip_offset),
              [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
-    elevation_.add(app, "--elevation", "ANGLE", "of the cue's butt, 0 to below 90 degrees (default 0)",
-                   quantity("deg"));
-    cue_mass_.add(app, "--cue-mass", "MASS", fmt::format("in kilograms (default {})", si::standard_cue_mass),
-                  quantity("kg"));
+    elevation_.add(app, "--elevation", "ANGLE",
+                   "angle by which the butt of the cue is raised, 0 to below 90 degrees (default 0)", quantity("deg"));
+    cue_mass_.add(app, "--cue-mass", "MASS",
+                  fmt::format("mass of the cue, in kilograms (default {})", si::standard_cue_mass), quantity("kg"));
     law_.add(app);
     integrated_.add(app, "--route", "ROUTE",
-                    "reduced: the similarity solution (default), or integrated: the five equations of motion (2.5)",
+                    "method: reduced (default, the similarity solution) or integrated (the five equations (2.5))",
                     one_of<bool>({{"reduced", false}, {"integrated", true}}, "route"));
     app.option_defaults()->group("Rolling");
     rolling_below_.add(
         app, "--rolling-below", "SPEED",
-        fmt::format(
-            "of the slip, in metres per second, below which it rolls (default {}); of the textbook's ball, too, "
-            "which at 0 rolls after 2 v/(7 f g) if homogeneous",
-            si::rolling_slip),
+        fmt::format("slip below which the ball rolls, in metres per second (default {}); also for the uncoupled model",
+                    si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     app.add_flag("--gradient", gradient_,
-                 "and how each number of an event changes with each of the ball and its start: derivatives");
-    uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of numbers of the ball and its start, such as slip=1%,friction=5%, or of "
-                     "vx, vy, wx, wy, wz, or fit, those of the run file: what the events are known to");
+                 "print the derivatives of each event by each number of the ball and its start, too");
+    uncertainty_.add(
+        app, "--uncertainty", "NAME=SPREAD,...",
+        "standard deviations of the input, such as slip=1%,friction=5%, or of vx, vy, wx, wy, wz; fit takes "
+        "those of the run file. Prints those of the events");
     CLI::Option* at = instants_.add(app, "t", "s", "");
-    until_.add(app, "--until", "TIME", "the last of them, in seconds (default: a little past the stop)", parse_end)
+    until_.add(app, "--until", "TIME", "last instant, in seconds (default: a little past the stop)", parse_end)
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV with columns slip,spin or vx,vy,wx,wy,wz in SI units, to which it adds the events; - is standard "
-               "input");
-    app.add_flag("--keep-going", keep_going_, "leave the results of a bad row empty and go on");
+               "CSV of starts with columns slip,spin or vx,vy,wx,wy,wz in SI units; - is standard input. Adds the "
+               "events");
+    app.add_flag("--keep-going", keep_going_, "continue after a bad row, with empty results");
     bulk_.add(app);
     figure_.add(app);
     output_.add(app);
@@ -164,7 +163,7 @@ class RollCommand final : public Verb {
     const double end = until_.value_or(roll.standard_end());
     roll.uncertainty = read_uncertainty(roll);
     if (gradient_ && (roll.load || output.picture()))
-      throw BadInput("--gradient is of numbers, under a constant load: leave it out");
+      throw BadInput("--gradient: not in a picture, and not with a load that changes; leave it out");
     if ((gradient_ || roll.uncertainty) && output.format == "text" && (instants_.given() || until_.given()))
       throw BadInput(
           fmt::format("{} is of the events, and with {} the text is a table of instants: leave one out, or take "
@@ -173,7 +172,7 @@ class RollCommand final : public Verb {
                       with_name(instants_.names(), until_.given() ? until_.name() : "")));
     if (gradient_) roll.gradient = gradient_of(roll);
     if (output.picture()) {
-      if (roll.uncertainty) throw BadInput("--uncertainty is of numbers: leave it out of a picture");
+      if (roll.uncertainty) throw BadInput("--uncertainty: not in a picture; leave it out");
       const bool moves = output.picture() == portraits::PictureFormat::gif;
       if (instants_.at() != nullptr || instants_.equidistant() || (instants_.asked() && !moves)) {
         throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
@@ -207,7 +206,7 @@ class RollCommand final : public Verb {
  private:
   std::optional<Uncertainty> read_uncertainty(const Roll& roll) const {
     if (!uncertainty_.given()) return std::nullopt;
-    if (roll.load) uncertainty_.reject("it is of a constant load: give --load a number");
+    if (roll.load) uncertainty_.reject("needs a constant load: give --load a number");
     if (uncertainty_.text().find("fit") != std::string::npos) start_.tell_spreads_left_out(roll.experiment);
     try {
       return roll_uncertainty(roll.experiment, roll.law, roll.rolling_below, uncertainty_.text());
@@ -235,7 +234,7 @@ class RollCommand final : public Verb {
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment still = start_.read_ball(law, at_rest("--batch"));
     require_rolling_options(still);
-    if (start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
+    if (start_.load_history()) throw BadInput("--batch needs a constant load: give --load a number");
     const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
     const si::Shots shots(still, law);
     const double rolling_below = rolling_below_.value_or(si::rolling_slip);
@@ -303,7 +302,7 @@ class RollCommand final : public Verb {
   si::Experiment read_shot(const reduction::Law& law) const {
     const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
-      if (!of_stroke.empty()) throw BadInput(fmt::format("{} is of a stroke: add --strike SPEED", of_stroke));
+      if (!of_stroke.empty()) throw BadInput(fmt::format("{} belongs to a stroke: add --strike SPEED", of_stroke));
       const si::Experiment experiment = start_.read_ball(law);
       require_rolling_options(experiment);
       return experiment;
@@ -340,7 +339,7 @@ class RollCommand final : public Verb {
 };
 
 const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",
-                                            "The whole motion of a ball or a puck: t,x,y,vx,vy,wx,wy,wz,slip,energy",
+                                            "Compute the whole motion of a ball or a puck in SI units",
                                             "contensou roll --ball gel --slip 0.5 --spin 300 --format text",
                                             {{"", answers::roll_fields}, {"--batch", roll_batch_texts}});
 

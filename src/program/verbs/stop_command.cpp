@@ -38,22 +38,20 @@ class StopCommand final : public Verb {
     start_.take_load_history();
     start_.add(app);
     start_.add_drive(app);
-    law_.add(app);
-    CLI::Option* const law = app.get_option("--law");
-    law->description(law->get_description() + "; with --batch several, between commas");
+    law_.add(app, "; with --batch also several names between commas");
     route_.add(app);
-    app.add_flag("--estimate", estimate_, "beside it the estimates for small mu, with their errors");
+    app.add_flag("--estimate", estimate_, "print the asymptotic estimates for small mu and their errors, too");
     app.add_flag("--gradient", gradient_,
-                 "and how tau_stop changes with u0, v0, mu, the body's chi and gamma, and a drive: exact derivatives");
-    uncertainty_.add(
-        app, "--uncertainty", "NAME=SPREAD,...",
-        "standard deviations of numbers of the start, such as slip=1%,friction=5%, or fit, those of the run file: "
-        "what the stop time is known to");
+                 "print the exact derivatives of tau_stop by u0, v0, mu, chi, gamma and the drive, too");
+    uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
+                     "standard deviations of the input, such as slip=1%,friction=5%; fit takes those of the run file. "
+                     "Prints that of "
+                     "the stop time");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV with columns mu,u0,v0, to which it adds tau_stop; with --ball columns slip,spin in m/s, rad/s and "
-               "t_stop in s; of several laws tau_stop_LAW, t_stop_LAW each; - is standard input");
-    app.add_flag("--keep-going", keep_going_, "leave the result of a bad row empty and go on");
+               "CSV of starts with columns mu,u0,v0, or with --ball slip,spin (m/s, rad/s); - is standard input. Adds "
+               "the column tau_stop or t_stop");
+    app.add_flag("--keep-going", keep_going_, "continue after a bad row, with an empty result");
     bulk_.add(app);
     output_.add(app);
   }
@@ -65,7 +63,7 @@ class StopCommand final : public Verb {
     const Output output = output_.read();
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const auto load = start_.load_history();
-    if (load && uncertainty_.given()) uncertainty_.reject("it is of a constant load: give --load a number");
+    if (load && uncertainty_.given()) uncertainty_.reject("needs a constant load: give --load a number");
     if (load) fmt::print(stderr, "{}", require_load_alone(*start.experiment, start.system.law()));
     output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start), load));
     return ExitStatus::done;
@@ -95,7 +93,7 @@ class StopCommand final : public Verb {
     if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
     if (uncertainty_.given()) throw BadInput("--uncertainty is for one start: leave it or --batch out");
     if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
-    if (has_ball && start_.load_history()) throw BadInput("--batch is of a constant load: give --load a number");
+    if (has_ball && start_.load_history()) throw BadInput("--batch needs a constant load: give --load a number");
     const Output out = output_.read(1);
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     const auto ball = has_ball ? std::optional(start_.read_ball(laws.front(), at_rest("--batch"))) : std::nullopt;
@@ -163,8 +161,7 @@ class StopCommand final : public Verb {
   OutputOptions output_{{{"a stop time", answer_formats("text")}, {"a table of stop times", {"csv"}}}};
 };
 
-const RegisteredVerb<StopCommand> stop_verb(Purpose::compute, "stop",
-                                            "When the ball stops sliding and spinning, and how it rolls then",
+const RegisteredVerb<StopCommand> stop_verb(Purpose::compute, "stop", "Compute when slip and spin end",
                                             "contensou stop --ball pool --slip 2",
                                             {{"", stop_fields}, {"--batch", stop_batch_texts}});
 

@@ -271,13 +271,13 @@ class SweepCommand final : public Verb {
       };
     };
     app.option_defaults()->group("Start");
-    mu_.add(app, "--mu", "M|MIN:MAX:N", "patch radius over R, 0 < M <= 1, or N values of it", read(""));
-    u0_.add(app, "--u0", "MIN:MAX:N", "N values of the pivoting R omega_z, MIN and MAX among them", read(""));
+    mu_.add(app, "--mu", "M|MIN:MAX:N", "patch radius divided by R, 0 < M <= 1, or N values", read(""));
+    u0_.add(app, "--u0", "MIN:MAX:N", "N values of the spin R omega_z, from MIN to MAX", read(""));
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed, MIN >= 0", read(""));
-    app.add_flag("--log", log_, "values in equal ratios instead of equal steps; MIN > 0");
+    app.add_flag("--log", log_, "values at equal ratios, not at equal steps; MIN > 0");
     body_.add_body(app);
     body_.add_drive(app);
-    ball_.add_ball(app, "instead of these: a ball in SI units, with --spin and --slip; times in seconds",
+    ball_.add_ball(app, "body in SI units, in place of the options above, with --spin and --slip; times are in seconds",
                    StartOptions::no_start);
     spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
               read(si::spin.unit));
@@ -296,7 +296,7 @@ class SweepCommand final : public Verb {
     const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : body.inertia;
     const double drive = grid.ball ? ball_.drive_along_x(*grid.ball) : body_.drive().value_or(0);
     if (out.picture()) {
-      bulk_.refuse("npy and csv: a picture is of few starts, leave it out");
+      bulk_.refuse("npy and csv: a picture has few starts, leave it out");
       out.write(
           {figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out.format)});
       return ExitStatus::done;
@@ -368,7 +368,7 @@ class SweepCommand final : public Verb {
     constexpr double max_drawn = 1e6;
     if (grid.ball && grid.ball->contact.rolling_friction != 0) {
       throw BadInput(
-          "a picture is of one system, and with rolling friction there are two: write npy or csv, or add "
+          "a picture shows one system, and with rolling friction there are two: write npy or csv, or add "
           "--rolling-friction 0");
     }
     if (grid.mu_is_range) mu_.reject("a picture shows one mu: give --mu M, or write npy or csv");
@@ -412,8 +412,7 @@ class SweepCommand final : public Verb {
   OutputOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
 };
 
-const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep",
-                                              "A map of stop times over starts, of any size: numbers or a picture",
+const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep", "Compute stop times on a grid of starts",
                                               "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy",
                                               {{"", sweep_texts}});
 

@@ -15,11 +15,11 @@ namespace {
 class TerminalCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    app.option_defaults()->group("System");
+    app.option_defaults()->group("Start");
     body_.add_mu(app);
-    law_.add(app);
     body_.add_body(app);
     body_.add_drive(app);
+    law_.add(app);
     figure_.add(app);
     output_.add(app);
   }
@@ -47,9 +47,10 @@ class TerminalCommand final : public Verb {
   OutputOptions output_{{{"a terminal ratio", with_pictures(answer_formats("text"))}}};
 };
 
-const RegisteredVerb<TerminalCommand> terminal_verb(
-    Purpose::compute, "terminal", "What k = v/(mu |u|) tends to at the stop: 0, an invariant ray, infinity",
-    "contensou terminal --law uniform --body disc", {{"", terminal_fields}});
+const RegisteredVerb<TerminalCommand> terminal_verb(Purpose::compute, "terminal",
+                                                    "Compute the limit of k = v/(mu |u|) at the stop",
+                                                    "contensou terminal --law uniform --body disc",
+                                                    {{"", terminal_fields}});
 
 }  // namespace
 

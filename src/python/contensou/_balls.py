@@ -242,7 +242,7 @@ class Ball:
                 ball = ball.but(velocity=core.start[0], angular_velocity=core.start[1])
             return Roll(ball, *core.start, ball._law(law), below, friction, load=history)
         if load is not None:
-            raise ValueError("load: one that changes is of one start, these are several")
+            raise ValueError("load: a load that changes needs one start, and these are several")
         if strike is not None:
             columns = [np.broadcast_to(value, (count, *_widths[name][0])) for name, value in start.items()]
             starts = _core.struck_starts(self._experiment, np.column_stack(columns))
@@ -280,7 +280,7 @@ class Ball:
             raise ValueError("load: the patch of Young's moduli grows with a load that changes, and the motion is then "
                              "no other one's copy: give patch_radius")
         if ball.slope or friction:
-            raise ValueError("load: one that changes is of friction alone: leave out slope and rolling_friction")
+            raise ValueError("load: a load that changes allows friction alone: leave out slope and rolling_friction")
         return (t, newtons), ball
 
     def evolve(
@@ -494,7 +494,7 @@ class Roll:
 
     def _undisturbed(self, asked: str) -> _Undisturbed:
         if self.textbook or self.load is not None:
-            raise ValueError(f"{asked} is of this motion under a constant load, and not of the textbook's")
+            raise ValueError(f"{asked} needs a constant load and the coupled model")
         return self.ball.but(rolling_friction=self.rolling_friction)._experiment, self.law._core, self.rolling_below
 
 

@@ -162,9 +162,9 @@ void require_experiment(const Experiment& experiment) {
                                           experiment.ball.body.name, experiment.contact.rolling_friction));
     }
     if (std::holds_alternative<HertzModuli>(experiment.contact.patch)) {
-      throw std::domain_error(
-          fmt::format("a {} lies flat: Hertz's formula is of a ball; give patch_radius, or nothing for the whole face",
-                      experiment.ball.body.name));
+      throw std::domain_error(fmt::format(
+          "a {} lies flat, and the formula of Hertz needs a ball; give patch_radius, or nothing for the whole face",
+          experiment.ball.body.name));
     }
     const Eigen::Vector2d turning = velocities_of(experiment.start).angular_velocity.head<2>();
     if (turning != Eigen::Vector2d::Zero()) {

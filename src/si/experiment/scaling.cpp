@@ -91,7 +91,7 @@ void require_stop(const Experiment& experiment) {
 void require_undriven(const Experiment& experiment, std::string_view what) {
   if (!is_driven(experiment)) return;
   throw std::domain_error(
-      fmt::format("{} knows neither rolling friction nor a slope: rolling_friction and slope must be 0, got {} and {} "
+      fmt::format("{} takes neither rolling friction nor a slope: rolling_friction and slope must be 0, got {} and {} "
                   "degrees",
                   what, experiment.contact.rolling_friction, experiment.environment.slope));
 }

@@ -36,7 +36,7 @@ void require_goal(const Goal& goal) {
 void require_level(const Experiment& experiment) {
   if (experiment.environment.slope == 0) return;
   throw std::domain_error(
-      fmt::format("aim knows no slope: on one of {} degrees a ball may roll for ever, and one distance may have "
+      fmt::format("aim takes no slope: on one of {} degrees a ball may roll for ever, and one distance may have "
                   "several starts; --slope 0 leaves it out",
                   experiment.environment.slope));
 }
@@ -199,7 +199,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
     throw std::domain_error("a body that lies flat never rolls: give two of distance, turns and time");
   if (experiment.contact.rolling_friction != 0) {
     throw std::domain_error(
-        "aim knows where a ball begins to roll without rolling friction only; --rolling-friction 0 leaves it out");
+        "aim finds where a ball begins to roll only without rolling friction; --rolling-friction 0 leaves it out");
   }
   reduction::require_monotone(flow.system().law());
   // Returns the speed that the slip at the start adds to the centre.

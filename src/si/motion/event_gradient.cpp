@@ -31,7 +31,7 @@ EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& l
       flow_(undriven_system(experiment, law)) {
   const bool flat = experiment.ball.body.lies_flat();
   if (slip_at_start(experiment) == 0 && spin_at_start(experiment) == 0)
-    throw std::domain_error("it is of a motion, and this is rest");
+    throw std::domain_error("a body at rest has no events");
   const auto add = [&](const char* event) {
     for (const auto& [of, unit] : {std::pair{"t", "s"}, {"x", "m"}, {"y", "m"}}) names_.push_back({event, of, unit});
   };

@@ -28,22 +28,22 @@ inline constexpr Quantity mass{"mass", "kg", "mass of the ball", Quantity::Range
 inline constexpr Quantity radius{"radius", "m", "radius of the ball", Quantity::Range::positive, "ball"};
 inline constexpr Quantity inertia_factor{
     "inertia", "",
-    "moment of inertia over m R^2, of a ball (2/5 if homogeneous, 2/3 if hollow) or, of what "
-    "lies flat, about the vertical (disc 1/2, ring 1)",
+    "moment of inertia divided by m R^2: of a ball 2/5 (homogeneous) or 2/3 (hollow), of a disc 1/2 and of a ring 1 "
+    "about the vertical",
     Quantity::Range::positive, "ball"};
 inline constexpr Quantity friction{"friction", "", "coefficient of dry friction", Quantity::Range::positive, "contact"};
 inline constexpr Quantity rolling_friction{
     .name = "rolling_friction",
     .unit = "",
     .meaning =
-        "rolling resistance, in what it slows a ball down that rolls without slip, over gravity (pool 0.005 to 0.015)",
+        "coefficient of rolling resistance: deceleration of a rolling ball divided by gravity (pool 0.005 to 0.015)",
     .range = Quantity::Range::not_negative,
     .section = "contact",
     .standard = 0};
 inline constexpr Quantity patch_radius{"patch_radius", "m", "radius of the contact patch", Quantity::Range::positive,
                                        "contact"};
 inline constexpr Quantity spin_deceleration{"spin_deceleration", "rad/s^2",
-                                            "measured deceleration of a ball that spins in place",
+                                            "measured angular deceleration of a ball that spins in place",
                                             Quantity::Range::positive, "contact"};
 inline constexpr Quantity youngs_modulus{
     "youngs_modulus", "Pa", "Young's moduli of ball and plane", Quantity::Range::positive, "contact.hertz", "E1,E2"};
@@ -53,7 +53,7 @@ inline constexpr Quantity poisson_ratio{
 inline constexpr Quantity counter_radius{
     .name = "counter_radius",
     .unit = "m",
-    .meaning = "radius of the surface below, for the patch alone: of another ball above 0, of a dish below 0",
+    .meaning = "radius of the surface below, which changes the patch alone: > 0 for another ball, < 0 for a dish",
     .range = Quantity::Range::not_zero,
     .section = "contact.hertz",
     .standard = std::numeric_limits<double>::infinity()};
@@ -62,7 +62,7 @@ inline constexpr Quantity slip{"slip", "m/s", "sliding speed of the contact poin
 inline constexpr Quantity spin{"spin", "rad/s", "angular velocity about the vertical", Quantity::Range::any, "start"};
 inline constexpr Quantity velocity{"velocity",           "m/s",   "velocity of the centre, x and y",
                                    Quantity::Range::any, "start", "VX,VY"};
-inline constexpr Quantity angular_velocity{"angular_velocity",   "rad/s", "angular velocity, x, y and z (up)",
+inline constexpr Quantity angular_velocity{"angular_velocity",   "rad/s", "angular velocity about x, y and z (up)",
                                            Quantity::Range::any, "start", "WX,WY,WZ"};
 inline constexpr Quantity gravity{.name = "gravity",
                                   .unit = "m/s^2",
@@ -70,11 +70,11 @@ inline constexpr Quantity gravity{.name = "gravity",
                                   .range = Quantity::Range::positive,
                                   .section = "environment",
                                   .standard = 9.80665};
-inline constexpr Quantity load{"load", "N", "force that presses the ball on the plane, in place of its weight",
+inline constexpr Quantity load{"load", "N", "normal force on the plane, in place of the weight",
                                Quantity::Range::positive, "environment"};
 inline constexpr Quantity slope{.name = "slope",
                                 .unit = "deg",
-                                .meaning = "angle of the plane, which rises along x: positive uphill",
+                                .meaning = "angle of the plane against the horizontal; above 0 the plane rises along x",
                                 .range = Quantity::Range::tilt,
                                 .section = "environment",
                                 .standard = 0};
