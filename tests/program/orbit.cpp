@@ -73,7 +73,7 @@ TEST_CASE("the state by the time left", "[cli]") {
   check_rejected("orbit --mu 1e-155 --u0 1 --v0 1", "of mu = 1e-155: 1e-300 to 1e+250 is allowed");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --samples 3", "exclude each other");
   check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --at 1", "exclude each other");
-  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --route direct", "closed and quadrature");
+  check_rejected("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1 --route direct", "--route closed or quadrature");
 }
 
 TEST_CASE("beside the state what it is for small mu", "[cli]") {
@@ -211,7 +211,7 @@ TEST_CASE("instants by the regularised time", "[cli]") {
   check_rejected(start + "--beta 1 --at 1", "exclude each other");
   check_rejected(start + "--beta 1 --samples 3", "--beta and --samples, --equidistant exclude each other");
   check_rejected(start + "--beta 1 --time-left 1", "--time-left and --beta exclude each other");
-  check_rejected(start + "--beta 1 --route direct", "--beta is of the routes closed and quadrature");
+  check_rejected(start + "--beta 1 --route direct", "--beta needs --route closed or quadrature");
 }
 
 TEST_CASE("at rest k is what it tends to", "[cli]") {
