@@ -16,17 +16,15 @@
 
 namespace contensou::fit {
 
-/// The numbers that a motion may be asked for, those of the contact first, which all tracks share, then those of the
-/// start of each track.
-///
-/// A ball with rolling friction rolls the way it slides, or does not roll at first: in place of vx and vy it has the speed
-/// at which it rolls along the slip.
+/// The numbers that a fit can find. The first ones, of the contact, are shared by all tracks; the others belong to the
+/// start of each track. `rolling`, the rolling speed along the slip, replaces vx and vy for a ball with rolling
+/// friction, which rolls in the direction in which it slides, or not at all.
 enum class Parameter { friction, patch_radius, rolling_friction, slip, spin, direction, vx, vy, x, y, angle, rolling };
-inline constexpr int contact_parameters = 2;  ///< the first, which are searched by their logarithms
+inline constexpr int contact_parameters = 2;  ///< the first two, which are searched by their logarithms
 inline constexpr int shared_parameters = 3;
 inline constexpr int start_parameters = 9;
 
-/// What a parameter is called, its unit, and what it is.
+/// The name of a parameter, its unit and its meaning.
 struct ParameterKind {
   std::string_view name;
   std::string_view unit;
@@ -34,8 +32,8 @@ struct ParameterKind {
 };
 const ParameterKind& kind_of(Parameter parameter);
 
-/// Which numbers the data decide; the others keep the ball's values. What only places a track on the plane (direction,
-/// velocity, position and angle at the start) is always free where the data have it.
+/// The numbers to find; the others have the ball's values. Numbers that only place a track on the plane (direction,
+/// velocity, position and angle at the start) are always free if the data contain them.
 struct Free {
   bool friction = true;
   bool patch_radius = true;
@@ -44,18 +42,18 @@ struct Free {
   bool rolling_friction = false;
 };
 
-/// What is searched where nothing else is asked for: all, but for the patch of a body that rests on its whole face, and
-/// rolling friction where the ball has none.
+/// Returns the numbers that are free by default: all except the patch of a body that rests on its whole face, and
+/// rolling friction of a ball without it.
 Free usually_free(const si::Experiment& ball);
 
-/// What is fitted to which films.
+/// The films, the model and the free numbers of a fit.
 struct FitRequest {
-  si::Experiment ball;  ///< radius, gravity, and the values of what is not free
+  si::Experiment ball;  ///< radius, gravity, and the values of numbers that are not free
   reduction::Law law;
   std::vector<Track> tracks;
   Free free = {};
-  bool robust = false;                     ///< Huber's loss: values far off count for less
-  std::function<void()> each_search = {};  ///< called at each of the many searches for a least sum of squares
+  bool robust = false;                     ///< true: Huber's loss, by which outliers count less
+  std::function<void()> each_search = {};  ///< called at each of the many minimisations
 };
 
 /// A range of a number.
@@ -64,25 +62,26 @@ struct Interval {
   double high;
 };
 
-/// What the data say of one parameter.
+/// The estimate of one parameter.
 struct Estimate {
   Parameter parameter;
-  std::size_t track;      ///< of a number of a start: of which track
-  double value;           ///< SI; any of many where the data do not decide it
-  double standard_error;  ///< infinite where the data do not decide it; 0 where it is not free
-  Interval interval;      ///< of 95 % confidence: an end that the data do not set is that of what the number can be
+  std::size_t track;      ///< index of the track, for a number of a start
+  double value;           ///< SI units; one of many values if the number is not determined
+  double standard_error;  ///< infinite if the number is not determined; 0 if it is not free
+  Interval interval;      ///< 95 % confidence; an end that the data do not determine is the limit of the number
   bool free;
 
   bool determined() const { return std::isfinite(standard_error); }
 
-  /// Whether one end of the interval is more than twice as far as the other: then no single error tells it.
+  /// Returns true if one end of the interval is more than twice as far from the value as the other. One error is then
+  /// not enough.
   bool skewed() const {
     const double below = value - interval.low, above = interval.high - value;
     return std::max(below, above) > 2 * std::min(below, above);
   }
 };
 
-/// Where a value is that is far off.
+/// The place of an outlier.
 struct Outlier {
   std::size_t track;
   double t;  ///< s
@@ -91,102 +90,101 @@ struct Outlier {
 /// The noise of an observable.
 struct Noise {
   Observable observable;
-  Eigen::Index values;            ///< how many were measured
-  double rms;                     ///< of the residuals, SI
-  double sd;                      ///< that the weights have, of their root mean square
-  bool estimated;                 ///< from the residuals
-  std::vector<Outlier> outliers;  ///< farther off than six standard deviations, by the median of the residuals
+  Eigen::Index values;            ///< number of measured values
+  double rms;                     ///< root mean square of the residuals, SI units
+  double sd;                      ///< standard deviation that the weights imply, as a root mean square
+  bool estimated;                 ///< true if sd is estimated from the residuals
+  std::vector<Outlier> outliers;  ///< values more than six standard deviations off, by the median of the residuals
 };
 
-/// The only combination f^a eps^b that the data decide: friction, patch radius, their product or their ratio.
+/// The only combination f^a eps^b that the data determine: friction, patch radius, their product or their ratio.
 struct Combination {
   double friction_power, patch_power;
-  double value;           ///< SI
-  double relative_error;  ///< standard error over value
-  Interval interval;      ///< of 95 % confidence
+  double value;           ///< SI units
+  double relative_error;  ///< standard error divided by the value
+  Interval interval;      ///< 95 % confidence
 
-  /// "the product friction patch_radius", "friction", ...
+  /// Returns the name, such as "the product friction patch_radius" or "friction".
   std::string name() const;
-  std::string unit() const;  ///< "m", "1/m" or none
+  std::string unit() const;  ///< returns "m", "1/m" or an empty text
 };
 
-/// How far whole turns of an angle may be mistaken.
+/// Possible errors of an angle by whole turns.
 struct Turns {
-  /// The spin, rad/s, with which a mark turns by half a turn from picture to picture: beyond it, turns are found by trial.
-  /// Infinite where no angle is seen, or the spin, too.
+  /// Spin, rad/s, at which a mark turns by half a turn between two pictures. Above it, turns are found by trial.
+  /// Infinite if the film shows no angle, or also the spin.
   double half_turn_spin = INFINITY;
-  std::vector<double> other_spins = {};  ///< at the start, which explain the data as well
+  std::vector<double> other_spins = {};  ///< spins at the start that fit the data equally well
 };
 
-/// Another motion that explains the data as well: of a puck seen by x and y, say, one with less spin and less friction.
+/// Another motion that fits the data equally well, such as one of a puck with less spin and less friction.
 struct OtherMotion {
-  std::size_t track;            ///< its start is what differs
-  double friction, slip, spin;  ///< SI; the last two at the start of the track
+  std::size_t track;            ///< the track whose start differs
+  double friction, slip, spin;  ///< SI units; slip and spin are those at the start of the track
   double chi2_more;             ///< difference of the sums of squares
 };
 
-/// Rolling friction that was not searched, and by which the data would be explained better by far: by one step from a fit
-/// without it.
+/// Rolling friction that was not free, but would fit the data far better, from one step of a fit without it.
 struct RollingFrictionSeen {
   double value, standard_error;
-  double friction;   ///< what the coefficient of sliding friction would be then
-  double chi2_less;  ///< by how much the sum of squares would be less
+  double friction;   ///< coefficient of sliding friction in that case
+  double chi2_less;  ///< decrease of the sum of squares
 };
 
-/// What a fit has found.
+/// The result of a fit.
 struct Fit {
   std::string law;
   si::Experiment ball;  ///< with the fitted contact and the start of the first track
-  /// Friction, patch_radius, rolling_friction where the ball has it or it was searched, then slip, spin and the placing
-  /// ones of each track.
+  /// Friction, patch_radius, and rolling_friction if the ball has it or it was free; then for each track slip, spin and
+  /// the numbers that place it.
   std::vector<Estimate> estimates;
-  Eigen::MatrixXd correlation;  ///< of those that are free, in that order
+  Eigen::MatrixXd correlation;  ///< correlations of the free numbers, in this order
   std::vector<Noise> noise;
-  Eigen::Index values = 0;  ///< measured ones
+  Eigen::Index values = 0;  ///< number of measured values
   double chi2 = 0;
   double degrees_of_freedom = 0;
-  double aic = 0;                                      ///< Akaike's criterion: the smaller, the better the law
-  std::optional<Combination> only = {};                ///< where the data do not decide friction and patch radius each
-  bool robust = false;                                 ///< whether by Huber's loss
-  bool profiled = false;                               ///< whether the intervals are by profile likelihood
-  std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< of each track, each series: what the fitted motion gives
+  double aic = 0;                        ///< Akaike's criterion; smaller for a better law
+  std::optional<Combination> only = {};  ///< set if the data do not determine friction and patch radius separately
+  bool robust = false;                   ///< true for Huber's loss
+  bool profiled = false;                 ///< true if the intervals are by profile likelihood
+  std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< values of the fitted motion for each track and series
 
-  /// Why this is not the motion of the data, in words; empty where it may be.
+  /// Reasons, in words, why the data do not show this motion; empty if they may.
   std::vector<std::string> misfits = {};
-  std::vector<Turns> turns = {};                ///< of each track
-  std::vector<OtherMotion> other_motions = {};  ///< minima apart from the estimate; the intervals contain them
+  std::vector<Turns> turns = {};                ///< one for each track
+  std::vector<OtherMotion> other_motions = {};  ///< minima other than the estimate; the intervals contain them
   std::optional<RollingFrictionSeen> rolling_friction_seen = {};
 
   const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
-  bool rolls_with_friction() const;  ///< whether rolling friction is among the estimates
+  bool rolls_with_friction() const;  ///< true if rolling friction is among the estimates
   std::vector<const Estimate*> free_estimates() const;
-  double correlation_of_contact() const;  ///< of friction and patch radius; 0 unless both are free
-  /// Returns the spins at the start that explain the data as well, by other turns of an angle or by another motion.
+  double correlation_of_contact() const;  ///< correlation of friction and patch radius; 0 unless both are free
+  /// Returns the spins at the start that fit the data equally well, by other turns of an angle or by another motion.
   std::vector<double> other_spins(std::size_t track) const;
   bool fits() const { return misfits.empty(); }
   double reduced_chi2() const { return chi2 / degrees_of_freedom; }  ///< NaN or infinite without degrees of freedom
 };
 
-/// Weighted least squares: the motion that the data are most probably of, where their errors are independent and normal.
+/// Finds the motion of the highest likelihood for independent normal errors, by weighted least squares.
 ///
-/// A start for the search is found from the data. Standard deviations that a series does not have are estimated from its
-/// residuals. The model is the closed orbit, to 1e-9 of its speeds. Of a body that lies flat the velocity of the centre is
-/// the slip: no velocity of its own is searched. A ball with rolling friction, its own or one that is searched, rolls
-/// the way it slides, or does not roll at first.
+/// The data give a start for the search. Unknown standard deviations of a series are estimated from its residuals. The
+/// model is the closed orbit, to 1e-9 of its speeds. For a body that lies flat the velocity of the centre is the slip,
+/// so no other velocity is free. A ball with rolling friction, given or free, rolls in the direction in which it
+/// slides, or not at first.
 ///
-/// @throws std::domain_error   on a slope; for rolling friction of a body that lies flat, or of a ball that begins to roll
-///                             another way than it slides; for a track as checked, where fewer values than 10 have no standard deviations, or
-///                             where nothing is free, or where a friction or patch radius that is not searched is
-///                             beyond what the model allows: friction 1e-4 to 10, patch radius 8.3e-7 R to R, and of a
-///                             ball none under which the law has an invariant ray
+/// @throws std::domain_error   on a slope; for rolling friction of a body that lies flat, or of a ball that first rolls
+///                             in another direction than it slides; for a track that `require` rejects; if fewer than
+///                             10 values have no standard deviation; if no number is free; if a friction or patch
+///                             radius that is not free is outside the model: friction 1e-4 to 10, patch radius 8.3e-7 R
+///                             to R, for a ball one without an invariant ray
 /// @throws std::runtime_error  if the search does not converge
 Fit fit(const FitRequest& asked);
 
-/// The same by several laws, the best by Akaike's criterion first.
+/// Fits several laws; the best by Akaike's criterion comes first.
 std::vector<Fit> fit_laws(const FitRequest& request, const std::vector<reduction::Law>& laws);
 
-/// What a film would give of the ball's own motion (Cramer and Rao's bound): the estimates with the errors that tracks
-/// with these times and standard deviations have; their values are not read.
+/// Returns the estimates, with their errors by the bound of Cramer and Rao, that a film of the ball's own motion would
+/// give. The tracks give times and standard deviations; their values are not used.
 /// @throws std::domain_error  as fit, and for a series without standard deviations
 Fit plan(const FitRequest& asked);
 
