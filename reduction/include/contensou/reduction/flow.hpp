@@ -27,7 +27,7 @@ struct StopTime {
 /// A body slides at the speed v and pivots at the speed u = R omega_z on a circular contact patch of radius mu R. Dry
 /// friction, Phi and Psi of the Law, slows both until they vanish at one time, the stop time, Zh98 (2.6):
 ///   dv/dtau = -(2 chi/(3 pi)) Phi(k),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|)
-/// The time tau is (3 pi/2) f g t, with the coefficient of friction f; chi and gamma are those of Inertia. The equations
+/// The time tau is (3 pi/2) f g t with the coefficient of friction f; chi and gamma are those of Inertia. The equations
 /// keep their form when u, v and tau are multiplied by one factor. So every motion is a scaled copy of one of a few
 /// curves (SimilaritySolution). A Flow contains these curves, by quadrature or in closed form, and returns the stop
 /// time and the state at any time without steps in time.
