@@ -540,8 +540,7 @@ std::vector<FieldText> reduce_fields() {
       {"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "",
        "law of friction; patch radius over R; 1 + m R^2/J, m R^2/J_z; not with --system"},
       {"`system`", "", "the system as typed, with --system"},
-      {"`u0`, `v0`", "speed", "the start"},
-      {"`drive`", "", "drive over f N, with --drive"},
+      {"`u0`, `v0`, `drive`", "speed, speed, 1", "the start; drive over f N, with --drive"},
       {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, "
        "`b2`",
        "",

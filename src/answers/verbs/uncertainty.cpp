@@ -191,13 +191,15 @@ struct Varied {
 /// multiples of powers of 1/x, x^(n + 1) = x + 1.
 /// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
 VectorXd normal_numbers(Index count, long point) {
+  // Boost's tables of long double abort the start of the program under valgrind.
+  constexpr boost::math::policies::policy<boost::math::policies::promote_double<false>> plain;
   double x = 2;
   for (int i = 0; i < 30; ++i) x = std::pow(1 + x, 1 / static_cast<double>(count + 1));
   VectorXd numbers(count);
   double step = static_cast<double>(point);
   for (double& number : numbers) {
     step /= x;
-    number = std::sqrt(2.0) * boost::math::erf_inv(2 * (0.5 + step - std::floor(0.5 + step)) - 1);
+    number = std::sqrt(2.0) * boost::math::erf_inv(2 * (0.5 + step - std::floor(0.5 + step)) - 1, plain);
   }
   return numbers;
 }
