@@ -29,7 +29,7 @@ struct AimReport {
 
 constexpr Field<AimReport> aim_row[]{
     {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
-    {"ball", "", "as of stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
+    {"ball", "", "body, as in stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
      [](const AimReport& r) -> Json { return r.slip; }},
     {"spin", "1/s", "the start: about the vertical",
@@ -45,14 +45,14 @@ constexpr Field<AimReport> aim_row[]{
        return {w.x(), w.y(), w.z()};
      },
      ",wy,", 0, " [x, y, z]"},
-    {"distance", "m", "of the centre, when slip and spin end, with rolling friction at rest",
+    {"distance", "m", "distance of the centre from the start, when slip and spin end (with rolling friction at rest)",
      [](const AimReport& r) -> Json { return r.distance; }},
-    {"turns", "", "about the vertical, until then", [](const AimReport& r) -> Json { return r.turns; }},
-    {"time", "s", "when slip and spin end, with rolling friction all motion",
+    {"turns", "", "turns about the vertical until then", [](const AimReport& r) -> Json { return r.turns; }},
+    {"time", "s", "time when slip and spin end (with rolling friction all motion)",
      [](const AimReport& r) -> Json { return r.time; }},
-    {"final_velocity", "m/s", "of a ball without rolling friction: how fast it rolls then",
+    {"final_velocity", "m/s", "speed of rolling after that, without rolling friction",
      [](const AimReport& r) { return r.is_ball() && !r.rest ? Json(r.final.velocity.x()) : Json(); }},
-    {"rolls_after", "s, m, m, m/s", "of a ball: when and where its slip is below the threshold",
+    {"rolls_after", "s, m, m, m/s", "time and place at which the slip of a ball falls below the threshold",
      [](const AimReport& r) -> Json {
        if (!r.rolls) return {};
        Json members = members_of(*r.rolls);
@@ -60,10 +60,10 @@ constexpr Field<AimReport> aim_row[]{
        return members;
      },
      "", 0, " {`t`, `x`, `y`, `threshold`}"},
-    {"rest", "s, m, m", "of a ball with rolling friction: when and where its centre rests",
+    {"rest", "s, m, m", "time and place at which the centre rests, with rolling friction",
      [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
     {"strike", "m/s; 1; kg",
-     "of a ball: the level stroke that starts it, of a cue of this mass; right of the centre and above it in radii",
+     "level stroke of a cue of this mass that gives the start; right of and above the centre in radii",
      [](const AimReport& r) -> Json {
        if (!r.strike) return {};
        const auto& [speed, right, above, elevation, mass] = *r.strike;

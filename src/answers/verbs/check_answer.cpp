@@ -41,12 +41,13 @@ Json of_deviation(const CheckedLaw& row, double Deviation::*number) {
 using Row = CheckedLaw;
 constexpr Field<Row> row_fields[]{
     {"law", "", "name of the law of friction", [](const Row& row) -> Json { return row.law; }},
-    {"check", "", "what is checked", [](const Row& row) -> Json { return row.check.name; }},
+    {"check", "", "name of the check", [](const Row& row) -> Json { return row.check.name; }},
     {"measured", "", "the worst; it must not exceed allowed",
      [](const Row& row) -> Json { return or_infinity(row.check.measured); }},
-    {"allowed", "", "what it may be", [](const Row& row) -> Json { return row.check.allowed; }},
+    {"allowed", "", "limit of the measured value", [](const Row& row) -> Json { return row.check.allowed; }},
     {"", "", "ok or FAIL", [](const Row& row) -> Json { return verdict(row.check); }, "verdict"},
-    {"passed", "", "whether it holds", [](const Row& row) -> Json { return row.check.passed(); }, ""},
+    {"passed", "", "true if measured is at most allowed", [](const Row& row) -> Json { return row.check.passed(); },
+     ""},
     {"error", "m/s or rad/s", "largest error in the table of --against",
      [](const Row& row) { return of_deviation(row, &Deviation::error); }},
     {"t", "s", "time of that error", [](const Row& row) { return of_deviation(row, &Deviation::t); }},

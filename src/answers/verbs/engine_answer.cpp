@@ -71,19 +71,22 @@ Json list_of_texts(const std::vector<std::string_view>& texts) {
 }
 
 constexpr Field<Contact> setting_fields[]{
-    {"setting", "", "of the engine, that nearest to the law first", [](const Contact& of) -> Json { return of.label; }},
+    {"setting", "", "settings of the engine, nearest to the law first",
+     [](const Contact& of) -> Json { return of.label; }},
     {"cone", "", "elliptic, box, pyramid, points or none", [](const Contact& of) -> Json { return of.cone; }},
     {"moment_arm", "m", "the greatest moment over the load", [](const Contact& of) -> Json { return of.moment_arm; }},
-    {"t_slip", "s", "until 1e-3 of the slip is left in that engine",
+    {"t_slip", "s", "time until 1e-3 of the slip is left in the engine",
      [](const Contact& of) -> Json { return of.fade.slip; }},
-    {"t_spin", "s", "until 1e-3 of the spin is", [](const Contact& of) -> Json { return of.fade.spin; }},
+    {"t_spin", "s", "time until 1e-3 of the spin is left in the engine",
+     [](const Contact& of) -> Json { return of.fade.spin; }},
     {"slip_length", "m", "that the contact slides in all",
      [](const Contact& of) -> Json { return of.fade.slip_length; }},
-    {"turns", "", "about the vertical, in all", [](const Contact& of) -> Json { return of.fade.turns; }},
+    {"turns", "", "turns about the vertical in the engine", [](const Contact& of) -> Json { return of.fade.turns; }},
 };
 
 constexpr Field<EngineWithBall> name_fields[]{
-    {"name", "", "as the verb takes it", [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
+    {"name", "", "name of the engine, as the verb takes it",
+     [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
 };
 constexpr Field<EngineWithBall> moment_fields[]{
     {"", "", "the last of parameters",
@@ -94,10 +97,11 @@ constexpr Field<EngineWithBall> moment_fields[]{
      "parameter,value"},
 };
 constexpr Field<EngineWithBall> text_fields[]{
-    {"title", "", "its own name", [](const EngineWithBall& of) -> Json { return of.engine->title; }, ""},
-    {"repository", "", "of github.com", [](const EngineWithBall& of) -> Json { return of.engine->repository; }, ""},
+    {"title", "", "full name", [](const EngineWithBall& of) -> Json { return of.engine->title; }, ""},
+    {"repository", "", "repository on github.com",
+     [](const EngineWithBall& of) -> Json { return of.engine->repository; }, ""},
     {"version", "", "that was read", [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
-    {"parameters", "", "what to type in, that of the moment last",
+    {"parameters", "", "parameters to type in; the last one is that of the moment",
      [](const EngineWithBall& of) {
        Json parameters = Json::object();
        for (const auto& [name, unit, value] : of.use->parameters) {
@@ -106,8 +110,9 @@ constexpr Field<EngineWithBall> text_fields[]{
        return parameters;
      },
      "", 0, " {NAME {`value`, `unit`, `formula`}}"},
-    {"limit", "", "of the moment in that engine", [](const EngineWithBall& of) -> Json { return of.use->limit; }, ""},
-    {"combination", "", "of the numbers of two bodies",
+    {"limit", "", "limit of the moment in the engine", [](const EngineWithBall& of) -> Json { return of.use->limit; },
+     ""},
+    {"combination", "", "rule for the numbers of two bodies",
      [](const EngineWithBall& of) -> Json { return of.engine->combination; }, ""},
     {"needs", "", "switches without which the numbers do nothing",
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
@@ -118,9 +123,9 @@ constexpr Field<EngineWithBall> text_fields[]{
        return settings;
      },
      "", 0, " [...]"},
-    {"remarks", "", "what goes wrong", [](const EngineWithBall& of) { return list_of_texts(of.engine->remarks); }, ""},
-    {"sources", "", "where that is read", [](const EngineWithBall& of) { return list_of_texts(of.engine->sources); },
-     ""},
+    {"remarks", "", "known faults", [](const EngineWithBall& of) { return list_of_texts(of.engine->remarks); }, ""},
+    {"sources", "", "sources of these statements",
+     [](const EngineWithBall& of) { return list_of_texts(of.engine->sources); }, ""},
 };
 
 Json members_of_engine(const EngineWithBall& engine) {
@@ -131,11 +136,11 @@ Json members_of_engine(const EngineWithBall& engine) {
 
 constexpr Field<Report> report_fields[]{
     {"law", "", "name of the law of friction", [](const Report& r) -> Json { return r.law.name(); }},
-    {"ball", "", "its name", [](const Report& r) -> Json { return r.experiment.ball.name; }, ""},
+    {"ball", "", "name of the ball", [](const Report& r) -> Json { return r.experiment.ball.name; }, ""},
     {"body", "", "ball, hollow-ball, disc, puck or ring",
      [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},
-    {"radius", "m", "of the ball", [](const Report& r) -> Json { return r.contact.radius; }, ""},
-    {"mass", "kg", "of the ball", [](const Report& r) -> Json { return r.experiment.ball.mass; }, ""},
+    {"radius", "m", "radius of the ball", [](const Report& r) -> Json { return r.contact.radius; }, ""},
+    {"mass", "kg", "mass of the ball", [](const Report& r) -> Json { return r.experiment.ball.mass; }, ""},
     {"load", "N", "that presses it on the plane", [](const Report& r) -> Json { return load_of(r.experiment); }, ""},
     {"friction", "", "f", [](const Report& r) -> Json { return r.contact.friction; }, ""},
     {"patch_radius", "m", "a", [](const Report& r) -> Json { return r.contact.patch_radius; }, ""},
@@ -144,12 +149,14 @@ constexpr Field<Report> report_fields[]{
      [](const Report& r) -> Json { return r.own.moment_arm; }, ""},
     {"slip", "m/s", "at the start", [](const Report& r) -> Json { return si::slip_at_start(r.experiment); }, ""},
     {"spin", "1/s", "at the start", [](const Report& r) -> Json { return si::spin_at_start(r.experiment); }, ""},
-    {"t_slip", "s", "until 1e-3 of the slip is left under the law",
+    {"t_slip", "s", "time until 1e-3 of the slip is left under the law",
      [](const Report& r) -> Json { return r.own.fade.slip; }, "law_t_slip"},
-    {"t_spin", "s", "until 1e-3 of the spin is", [](const Report& r) -> Json { return r.own.fade.spin; }, "law_t_spin"},
+    {"t_spin", "s", "time until 1e-3 of the spin is left under the law",
+     [](const Report& r) -> Json { return r.own.fade.spin; }, "law_t_spin"},
     {"slip_length", "m", "that the contact slides in all",
      [](const Report& r) -> Json { return r.own.fade.slip_length; }, "law_slip_length"},
-    {"turns", "", "about the vertical, in all", [](const Report& r) -> Json { return r.own.fade.turns; }, "law_turns"},
+    {"turns", "", "turns about the vertical under the law", [](const Report& r) -> Json { return r.own.fade.turns; },
+     "law_turns"},
     {"engines", "", "each with the fields from name on",
      [](const Report& r) {
        Json engines = Json::array();

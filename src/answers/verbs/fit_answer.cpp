@@ -18,11 +18,12 @@ using fit::Parameter;
 constexpr Field<Estimate> estimate_fields[]{
     {"value", "", "estimate; where the data do not determine it, any of many",
      [](const Estimate& of) -> Json { return of.value; }},
-    {"standard_error", "", "inf where the data do not determine it",
+    {"standard_error", "", "standard error; inf if the data do not determine the number",
      [](const Estimate& of) -> Json { return of.standard_error; }},
     {"low", "", "", [](const Estimate& of) -> Json { return of.interval.low; }},
     {"high", "", "ends of the 95 % interval", [](const Estimate& of) -> Json { return of.interval.high; }},
-    {"determined", "", "whether the data determine it", [](const Estimate& of) -> Json { return of.determined(); }},
+    {"determined", "", "true if the data determine the number",
+     [](const Estimate& of) -> Json { return of.determined(); }},
 };
 Json members_of_estimate(const Estimate& estimate) { return members_of(estimate_fields, estimate); }
 constexpr const char* of_estimate = " {`value`, `standard_error`, `low`, `high`, `determined`}";
@@ -198,7 +199,7 @@ constexpr Field<FitReport> answer_fields[]{
      [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::slip)); }, "", 0, of_estimate},
     {"spin", "1/s", "spin at the start of the first track",
      [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::spin)); }, "", 0, of_estimate},
-    {"correlation", "", "of friction and patch_radius",
+    {"correlation", "", "correlation of friction and patch_radius",
      [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }, ""},
     {"reduced_chi2", "", "1 where the noise is estimated",
      [](const FitReport& r) {
@@ -208,12 +209,11 @@ constexpr Field<FitReport> answer_fields[]{
      ""},
     {"degrees_of_freedom", "", "measured values less the numbers that were found",
      [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }, ""},
-    {"profiled", "", "whether the intervals are by profile likelihood",
+    {"profiled", "", "true if the intervals are profile likelihood intervals",
      [](const FitReport& r) -> Json { return r.best.profiled; }, ""},
-    {"fits", "", "whether this may be the motion of the data", [](const FitReport& r) -> Json { return r.best.fits(); },
-     ""},
+    {"fits", "", "true if the data may show this motion", [](const FitReport& r) -> Json { return r.best.fits(); }, ""},
     {"misfits", "", "and if not why (status 1)", [](const FitReport& r) -> Json { return r.best.misfits; }, ""},
-    {"remarks", "", "what else is to be known",
+    {"remarks", "", "further remarks",
      [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }, ""},
     {"rolling_friction", "1", "rolling friction, of a ball that has it, or where it was searched",
      [](const FitReport& r) {
@@ -254,7 +254,7 @@ constexpr Field<FitReport> answer_fields[]{
        return list;
      },
      "", 0, " [{`file`, `start`, `slip`, ...}]"},
-    {"noise", "", "of each column; `outliers_at` [{`file`, `t`}] is where they are (s)",
+    {"noise", "", "noise of each column; `outliers_at` [{`file`, `t`}] lists the outliers (s)",
      [](const FitReport& r) {
        Json noise = Json::object();
        for (const auto& [observable, values, rms, sd, estimated, outliers] : r.best.noise) {

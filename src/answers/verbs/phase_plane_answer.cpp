@@ -62,7 +62,7 @@ End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
 constexpr Field<ReducedSystem> system_fields[]{
     {"law", "", "name of the law of friction", [](const ReducedSystem& system) -> Json { return system.law().name(); }},
     {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
-    {"drive", "", "with --drive; then r_high is of (Phi - drive)/(k Psi)",
+    {"drive", "", "force along the slip divided by f N; r_high then belongs to (Phi - drive)/(k Psi)",
      [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
 };
 constexpr Field<TerminalRatios> regime_fields[]{
@@ -74,10 +74,11 @@ constexpr Field<TerminalRatios> regime_fields[]{
 constexpr Field<End> end_fields[]{
     {"limit", "", "zero, ray or infinity: of k, for most starts; CSV has a row for each end",
      [](const End& end) -> Json { return text_of(limits, end.ratio.regime); }},
-    {"k_star", "", "what k tends to", [](const End& end) -> Json { return end.ratio.k; }},
-    {"k_star_accuracy", "", "its relative error", [](const End& end) -> Json { return end.accuracy; }, nullptr, 1},
+    {"k_star", "", "limit of k", [](const End& end) -> Json { return end.ratio.k; }},
+    {"k_star_accuracy", "", "relative error of k_star", [](const End& end) -> Json { return end.accuracy; }, nullptr,
+     1},
     {"k_from", "", "the starts that end there: from this k", [](const End& end) -> Json { return end.ratio.from; }},
-    {"k_to", "", "to this", [](const End& end) -> Json { return end.ratio.to; }},
+    {"k_to", "", "largest k of these starts", [](const End& end) -> Json { return end.ratio.to; }},
 };
 constexpr Field<TerminalRatios> list_fields[]{
     {"rays", "", "all k at which a half-line is an orbit",
@@ -116,15 +117,15 @@ constexpr Field<SingularPoint> point_fields[]{
     {"half_line", "", "u = 0, v = 0 or the ray",
      [](const SingularPoint& point) -> Json { return name(point.direction); }},
     {"place", "", "origin or infinity", [](const SingularPoint& point) -> Json { return name(point.place); }},
-    {"k", "", "of the half-line", [](const SingularPoint& point) -> Json { return point.k; }},
+    {"k", "", "ratio k on the half-line", [](const SingularPoint& point) -> Json { return point.k; }},
     {"q", "", "v/abs(u)", [](const SingularPoint& point) -> Json { return point.q; }},
-    {"eigenvalues", "", "of (2.7), along the half-line and across",
+    {"eigenvalues", "", "eigenvalues of (2.7), along the half-line and across",
      [](const SingularPoint& point) -> Json {
        return {{"radial", point.radial}, {"angular", point.angular}};
      },
      nullptr, 0, " {`radial`, `angular`}"},
     {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return name(point.kind); }},
-    {"separatrix", "", "whether the half-line is one",
+    {"separatrix", "", "true if the half-line is a separatrix",
      [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
 };
 constexpr Field<ReducedSystem> body_fields[]{
@@ -150,7 +151,7 @@ constexpr Field<PhasePlane> plane_fields[]{
        return tangents;
      },
      "", 0, " [{`half_line`, `k`, `contact_order`}]"},
-    {"singular_points", "", "of the regularised plane; a row of CSV each",
+    {"singular_points", "", "singular points of the regularised plane, one row of CSV each",
      [](const PhasePlane& plane) {
        Json points = Json::array();
        for (const SingularPoint& point : plane.points) points.push_back(members_of(point_fields, point));

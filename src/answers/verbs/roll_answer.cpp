@@ -38,12 +38,12 @@ constexpr Field<Roll> start_fields[]{
      [](const Roll& roll) -> Json { return roll.integrated || !roll.whole.is_reduced() ? "integrated" : "reduced"; }},
     {"mu", "", "patch radius over R",
      [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
-    {"ball", "", "as of stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
+    {"ball", "", "body, as in stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
     {"velocity", "m/s", "at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},
     {"angular_velocity", "1/s", "at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).angular_velocity); }},
-    {"t_stop", "s", "when slip and spin end", [](const Roll& roll) -> Json { return roll.whole.stop_time(); }},
+    {"t_stop", "s", "time when slip and spin end", [](const Roll& roll) -> Json { return roll.whole.stop_time(); }},
     {"load", "s, N", "in: columns `t`, `load` of the table of --load, where it is one",
      [](const Roll& roll) { return roll.load ? members_of(*roll.load) : Json(); }, nullptr, 0,
      " {`t` [...], `load` [...]}"},
@@ -57,8 +57,7 @@ struct RollEvents {
 };
 
 constexpr Field<RollEvents> event_fields[]{
-    {"rolls_after", "s, m, m, m/s",
-     "when and where the slip is below the threshold: --rolling-below, 0.001 m/s unless it is given",
+    {"rolls_after", "s, m, m, m/s", "time and place at which the slip falls below --rolling-below (default 0.001 m/s)",
      [](const RollEvents& events) -> Json {
        if (events.lies_flat) return {};
        Json members = members_of(events.of.rolls);
@@ -66,33 +65,32 @@ constexpr Field<RollEvents> event_fields[]{
        return members;
      },
      nullptr, 0, " {`t`, `x`, `y`, `threshold`}"},
-    {"spin_ends", "s, m, m", "0 without spin", [](const RollEvents& events) { return members_of(events.of.spin_ends); },
-     nullptr, 0, " {`t`, `x`, `y`}"},
+    {"spin_ends", "s, m, m", "time and place at which the spin ends; 0 without spin",
+     [](const RollEvents& events) { return members_of(events.of.spin_ends); }, nullptr, 0, " {`t`, `x`, `y`}"},
     {"rest", "s, m, m",
-     "of the centre, with --rolling-friction, or on a slope if it rests: it turns no more and slides below 0.0001 "
-     "m/s; of a puck, in place of rolls_after",
+     "time and place at which the centre rests: turning has ended and the slip is below 0.0001 m/s. With rolling "
+     "friction or on a slope; for a puck in place of rolls_after",
      [](const RollEvents& events) {
        if (events.lies_flat) return members_of(events.of.rolls);
        return events.of.rest ? members_of(*events.of.rest) : Json();
      },
      nullptr, 0, " {`t`, `x`, `y`}"},
-    {"slip_length", "m", "slid by the contact point",
+    {"slip_length", "m", "length that the contact point slides",
      [](const RollEvents& events) -> Json { return events.of.slip_length; }},
-    {"turns", "", "about the vertical", [](const RollEvents& events) -> Json { return events.of.turns; }},
-    {"path", "m", "of the centre until it rolls or rests",
+    {"turns", "", "turns about the vertical", [](const RollEvents& events) -> Json { return events.of.turns; }},
+    {"path", "m", "path of the centre until it rolls or rests",
      [](const RollEvents& events) -> Json { return events.of.path; }},
 };
 
 constexpr Field<Roll> rest_of_roll_fields[]{
-    {"creeps", "",
-     "with --rolling-friction or --slope: the ratio v/(patch radius abs(wz)) that it tends to while it spins",
+    {"creeps", "", "limit of v/(patch radius abs(wz)) while the ball spins, with --rolling-friction or --slope",
      [](const Roll& roll) -> Json {
        const auto k = roll.whole.creep_ratio();
        return k ? Json{{"k", *k}} : Json();
      },
      nullptr, 0, " {`k`}"},
     {"integrated", "s; m; 1; 1",
-     "with --route integrated, by it; its rows are, too, and all other events of the reduced route",
+     "results of --route integrated, which also gives the rows; other events are those of the reduced route",
      [](const Roll& roll) -> Json {
        if (!roll.in_steps) return {};
        const si::Motion& motion = *roll.in_steps;
@@ -103,9 +101,9 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      },
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
     {"energy_balance", "J",
-     "if the mass is known; kept: for rolling; `lost_rolling` with --rolling-friction; `gained_on_slope` with --slope; "
-     "where it rolls down "
-     "for ever, until slip and spin end",
+     "energies, if the mass is known; kept is that of rolling; `lost_rolling` with --rolling-friction; "
+     "`gained_on_slope` "
+     "with --slope. A ball that rolls down for ever: until slip and spin end",
      [](const Roll& roll) -> Json {
        if (!si::mass_is_known(roll.experiment.ball)) return {};
        const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();
@@ -115,17 +113,17 @@ constexpr Field<Roll> rest_of_roll_fields[]{
        return members;
      },
      nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
-    {"textbook", "", "the same events, by the same threshold, where slip and spin do not know of each other",
+    {"textbook", "", "same events under the uncoupled model, by the same threshold",
      [](const Roll& roll) {
        return members_of(event_fields, RollEvents{roll.theirs(), roll.lies_flat()});
      }},
     {"gradient", "SI",
-     "with --gradient: how each number of an event changes with each of the ball and its start, the others kept; "
-     "without those at which it has a corner",
+     "partial derivatives of each number of an event by each number of the ball and its start, with --gradient; those "
+     "that do not exist are left out",
      [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
     {"uncertainty", "as the event",
-     "with --uncertainty: of each number of an event as of stop; `t_stop`, `samples`, `outside`",
+     "uncertainty of each number of an event, with --uncertainty, as in stop; `t_stop`, `samples`, `outside`",
      [](const Roll& roll) { return roll.uncertainty ? members_of(*roll.uncertainty) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {`standard`, `quantiles` [...], `shares`, ...}, ...}, ...}"},
 };

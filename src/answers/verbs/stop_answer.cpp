@@ -148,14 +148,14 @@ constexpr Field<StopReport> fields[]{
        return {{"chi", chi}, {"gamma", gamma}};
      },
      nullptr, 1, " {`chi`, `gamma`}"},
-    {"drive", "", "with --drive, rolling friction or a slope",
+    {"drive", "", "force along the slip divided by f N, with --drive, rolling friction or a slope",
      [](const StopReport& r) -> Json {
        const double drive = r.start.system.drive();
        return drive > 0 ? Json(drive) : Json();
      },
      nullptr, 4},
     {"pieces", "speed, 1",
-     "of a ball that rolling friction ceases to let turn, or begins to: from which tau on it turns",
+     "parts of a motion whose turning rolling friction stops or starts: their first tau, and whether the ball turns",
      [](const StopReport& r) -> Json {
        const auto pieces = r.start.pieces();
        if (pieces.size() < 2) return {};
@@ -167,13 +167,13 @@ constexpr Field<StopReport> fields[]{
      "", 0, " [{`tau`, `turns`, `drive`}]"},
     {"u0", "speed", "R omega_z at the start", [](const StopReport& r) -> Json { return r.start.state.u; }},
     {"v0", "speed", "sliding speed at the start", [](const StopReport& r) -> Json { return r.start.state.v; }},
-    {"tau_stop", "speed", "when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
+    {"tau_stop", "speed", "time when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
     {"accuracy", "", "relative error of tau_stop", [](const StopReport& r) -> Json { return r.stop.accuracy; }, nullptr,
      3},
     // f g t, without the paper's factor 3 pi/2
     {"T_stop", "speed", "f g t_stop = 2 tau_stop/(3 pi)",
      [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
-    {"bounds", "speed", "of tau_stop, proved; not of one in pieces",
+    {"bounds", "speed", "proved bounds of tau_stop; not for a motion in pieces",
      [](const StopReport& r) {
        return r.start.is_in_pieces() ? Json() : Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
      },
@@ -183,20 +183,20 @@ constexpr Field<StopReport> fields[]{
        return {{"sliding_only", r.sliding_only}, {"pivoting_only", r.pivoting_only}};
      },
      nullptr, 0, " {`sliding_only`, `pivoting_only`}"},
-    {"other_law", "speed", "beside exact pade, beside pade exact",
+    {"other_law", "speed", "stop time under the other of the laws exact and pade",
      [](const StopReport& r) -> Json {
        if (!r.other) return {};
        return {{"law", r.other->law}, {"tau_stop", r.other->tau}};
      },
      "other_law,other_tau", 4, " {`law`, `tau_stop`}"},
     {"coarser_table", "1; speed",
-     "of a pressure in a table, with every other row left out: what interpolation may cost",
+     "stop time with every other row of the pressure table left out, which shows the interpolation error",
      [](const StopReport& r) -> Json {
        if (!r.coarser) return {};
        return {{"rows", r.coarser->rows}, {"tau_stop", r.coarser->tau}};
      },
      ",coarser_tau", 4, " {`rows`, `tau_stop`}"},
-    {"estimates", "speed", "with --estimate; * is its name, such as E1",
+    {"estimates", "speed", "asymptotic estimates, with --estimate; * is a name such as E1",
      [](const StopReport& r) {
        Json estimates;
        for (const reduction::StopEstimate& of : r.estimates) {
@@ -205,7 +205,7 @@ constexpr Field<StopReport> fields[]{
        return estimates;
      },
      "tau_*,error_*", 4, " [{`name`, `tau_stop`, `error`}]"},
-    {"gradient", "1; speed", "with --gradient: derivatives of tau_stop, each with the others kept",
+    {"gradient", "1; speed", "partial derivatives of tau_stop, with --gradient",
      [](const StopReport& r) -> Json {
        if (!r.gradient) return {};
        Json gradient;
@@ -214,9 +214,8 @@ constexpr Field<StopReport> fields[]{
      },
      "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
     {"uncertainty", "s or speed",
-     "with --uncertainty: standard deviation of t_stop, of what is no ball tau_stop, to first order; {probability, "
-     "value} of "
-     "samples; first_order_holds: whether the two agree; outside: the share of samples that no ball can be",
+     "standard deviation of t_stop (without --ball of tau_stop) to first order; quantiles of samples; "
+     "first_order_holds: true if the two agree; outside: share of samples with impossible values",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};
        Json members = members_of(r.uncertainty->parts.front().known);
@@ -224,24 +223,26 @@ constexpr Field<StopReport> fields[]{
        return members;
      },
      "", 0, " {`standard`, `quantiles` [...], `shares`, `samples`, ...}"},
-    {"ball", "m; kg; 1; m/s^2; m", "its values; and, as in run files, what its patch follows from",
+    {"ball", "m; kg; 1; m/s^2; m", "values of the body, and the source of its patch as in run files",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
      },
      "", 0, " {`name`, `body`, `radius`, `mass`, `friction`, `gravity`, `patch_radius`, ...}"},
     {"load", "s, N", "in: columns t, load of the table of --load, where it is one",
      [](const StopReport& r) { return r.load ? members_of(*r.load) : Json(); }, "", 0, " {`t` [...], `load` [...]}"},
-    {"slip", "m/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::slip_at_start); }, ""},
-    {"spin", "1/s", "of a ball, at the start", [](const StopReport& r) { return of_ball(r, si::spin_at_start); }, ""},
-    {"slip_length", "m", "slid by the contact point of a ball",
+    {"slip", "m/s", "slip at the start, with --ball", [](const StopReport& r) { return of_ball(r, si::slip_at_start); },
+     ""},
+    {"spin", "1/s", "spin at the start, with --ball", [](const StopReport& r) { return of_ball(r, si::spin_at_start); },
+     ""},
+    {"slip_length", "m", "length that the contact point slides, with --ball",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& /*ball*/) { return r.start.motion->slip_length(); });
      },
      ""},
-    {"t_stop", "s", "of a ball, when slip and spin end",
+    {"t_stop", "s", "time when slip and spin end, with --ball",
      [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.seconds(r.stop.tau); }); },
      nullptr, 4},
-    {"final", "m/s, 1/s", "of a ball: how it rolls then",
+    {"final", "m/s, 1/s", "rolling motion after that, with --ball",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& /*ball*/) -> Json {
          const auto [velocity, angular_velocity] = r.start.motion->final_motion();
@@ -249,7 +250,7 @@ constexpr Field<StopReport> fields[]{
        });
      },
      "", 0, " {`velocity` [x, y], `angular_velocity` [x, y, z]}"},
-    {"rest", "s, m, m", "of a ball with rolling friction or on a slope: when and where its centre rests, if it does",
+    {"rest", "s, m, m", "time and place at which the centre rests, with rolling friction or on a slope",
      [](const StopReport& r) -> Json {
        const auto rest = rest_of(r.start);
        return rest ? members_of(*rest) : Json();

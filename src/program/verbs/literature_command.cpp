@@ -20,7 +20,7 @@ std::string verdict(const Published& number) { return number.agrees() ? "agrees"
 constexpr Field<Published> number_fields[]{
     {"name", "", "the number's name", [](const Published& n) -> Json { return n.name; }},
     {"source", "", "authors, journal and year", [](const Published& n) -> Json { return n.source; }},
-    {"link", "", "its DOI or repository", [](const Published& n) -> Json { return n.link; }},
+    {"link", "", "DOI or repository", [](const Published& n) -> Json { return n.link; }},
     {"read", "", "the part that was read: abstract, code, in textbooks, or as cited",
      [](const Published& n) -> Json { return n.read; }},
     {"published", "", "the number as published", [](const Published& n) -> Json { return n.published; }},

@@ -40,7 +40,7 @@ constexpr Field<OrbitReport> orbit_fields[]{
     {"mu", "", "patch radius over R", [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
     {"u0", "speed", "R omega_z at the start", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
     {"v0", "speed", "sliding speed at the start", [](const OrbitReport& r) -> Json { return r.start.state.v; }},
-    {"ball", "", "as of stop",
+    {"ball", "", "body, as in stop",
      [](const OrbitReport& r) {
        return r.start.experiment ? members_of_ball(*r.start.experiment, r.start.system.law()) : Json();
      }},

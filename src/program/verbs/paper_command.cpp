@@ -49,7 +49,8 @@ struct StatementRow {
 };
 
 constexpr Field<StatementRow> statement_fields[]{
-    {"equation", "", "its number in the paper", [](const StatementRow& row) -> Json { return row.statement.equation; }},
+    {"equation", "", "number of the equation in the paper",
+     [](const StatementRow& row) -> Json { return row.statement.equation; }},
     {"statement", "", "the statement in words", [](const StatementRow& row) -> Json { return row.statement.says; }},
     {"printed", "", "value of the statement as printed",
      [](const StatementRow& row) -> Json { return or_infinity(row.found.printed); }},

@@ -103,7 +103,7 @@ std::vector<FieldText> portrait_fields() {
       {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV", "lists of the states of each orbit"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "states with the same stop time"},
       {"JSON `highlight`, `through` [...]", "", "orbits of the start and of --through, as one of orbits"},
-      {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "the same lines under the law of --against"},
+      {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "lines under the law of --against"},
   };
 }
 
@@ -113,8 +113,8 @@ std::vector<FieldText> system_portrait_fields() {
       {"CSV `kind`, `index`", "", "orbit, highlight, through, separatrix, isochrone; number of the line of that kind"},
       {"CSV `u`, `v`, `tau`", "", "states on the line; time left until the centre, inf where it is not reached"},
       {"JSON `system`", "", "the system as typed"},
-      {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "as of reduce"},
-      {"JSON `form`", "", "as of reduce, without a scaling; null where orbits are steps"},
+      {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "kind and rays, as in reduce"},
+      {"JSON `form`", "", "form, as in reduce, without a scaling; null if orbits are steps"},
       {"JSON `centre` [U, V]", "", "centre of the scaling; null without one"},
       {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane that is shown"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues` [[re, im], [re, im]]}]", "",

@@ -27,8 +27,8 @@ constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "start of a ball, with
 std::vector<FieldText> stop_batch_texts() {
   return joined({texts_of({reduced_starts, ball_starts}, "in: "),
                  texts_of({{"tau_stop", "speed", "end of slip and spin; all other columns pass through"},
-                           {"t_stop", "s", "the same with --ball"},
-                           {"tau_stop_LAW,t_stop_LAW", "", "in their place with several laws: one of each law"}},
+                           {"t_stop", "s", "stop time, with --ball"},
+                           {"tau_stop_LAW,t_stop_LAW", "", "stop time under each law, with several laws"}},
                           "out: ")});
 }
 

@@ -75,7 +75,8 @@ enum class SweepFormat { npy, csv };
 constexpr ColumnText system_columns{"mu,u0,v0,tau_stop", "1, speed, speed, speed",
                                     "start and end of slip and spin; npy: tau_stop alone, in the shape (N_v0, N_u0) or "
                                     "(N_mu, N_v0, N_u0)"};
-constexpr ColumnText ball_columns{"spin,slip,t_stop", "1/s, m/s, s", "the same with --ball; npy: (N_slip, N_spin)"};
+constexpr ColumnText ball_columns{"spin,slip,t_stop", "1/s, m/s, s",
+                                  "starts and stop times, with --ball; shape of npy: (N_slip, N_spin)"};
 
 std::vector<FieldText> sweep_texts() { return texts_of({system_columns, ball_columns}); }
 
