@@ -14,17 +14,24 @@ Slip slip_of_ratio(double k) {
   return k <= 1 ? Slip{k, 1} : Slip{1, 1 / k};
 }
 
-void require_slip(const char* law, Slip slip) {
-  const bool speeds =
-      std::isfinite(slip.sliding) && std::isfinite(slip.pivoting) && slip.sliding >= 0 && slip.pivoting >= 0;
-  if (!speeds) {
-    throw std::domain_error(fmt::format("{}: sliding and pivoting must be finite and >= 0, got {} and {}", law,
-                                        slip.sliding, slip.pivoting));
-  }
+namespace {
+
+/// Apart from the test, which then needs no frame of its own: laws make it in every call.
+[[noreturn, gnu::noinline]] void reject(const char* law, Slip slip) {
   if (slip.sliding == 0 && slip.pivoting == 0) {
     throw std::domain_error(
         fmt::format("{}: sliding and pivoting are both 0; friction has no limit at rest (Zh98, remark 3)", law));
   }
+  throw std::domain_error(
+      fmt::format("{}: sliding and pivoting must be finite and >= 0, got {} and {}", law, slip.sliding, slip.pivoting));
+}
+
+}  // namespace
+
+void require_slip(const char* law, Slip slip) {
+  const auto is_speed = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (!is_speed(slip.sliding) || !is_speed(slip.pivoting) || (slip.sliding == 0 && slip.pivoting == 0))
+    reject(law, slip);
 }
 
 }  // namespace contensou::reduction
