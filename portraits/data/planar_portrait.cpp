@@ -562,6 +562,7 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
     const MotionTracer tracer(plane, portrait.window);
     trace(tracer);
     portrait.equilibria = reduction::find_equilibria({plane.field()}, portrait.window.low, portrait.window.high);
+    prove_centers(portrait.equilibria, plane);
     portrait.separatrices = tracer.separatrices(portrait.equilibria);
     const Vector2d& low = portrait.window.low;
     const Vector2d sides = portrait.window.high - low;

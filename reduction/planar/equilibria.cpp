@@ -88,7 +88,7 @@ std::string_view Equilibrium::kind() const {
   if (first.imag() != 0) {
     return first.real() < -zero  ? planar_kind("stable focus")
            : first.real() > zero ? planar_kind("unstable focus")
-           : on_axis             ? planar_kind("center")
+           : closes              ? planar_kind("center")
                                  : planar_kind("center or focus");
   }
   return first.real() * second.real() < 0 ? planar_kind("saddle")
@@ -134,10 +134,23 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
   });
   for (const Reversor& reversor : find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()))) {
     if (reversor.matrix.determinant() > 0) continue;
-    for (Equilibrium& each : found) each.on_axis |= (reversor.matrix * each.x - each.x).norm() < same * sides.norm();
+    for (Equilibrium& each : found) each.closes |= (reversor.matrix * each.x - each.x).norm() < same * sides.norm();
   }
   std::ranges::sort(found, {}, [](const Equilibrium& each) { return std::pair(each.x[0], each.x[1]); });
   return found;
+}
+
+void prove_centers(std::vector<Equilibrium>& equilibria, const PlanarReduction& plane) {
+  constexpr double least = 1e-3;
+  for (Equilibrium& each : equilibria) {
+    const Vector2d& radii = box_about(each.x).radii;
+    each.closes |= plane.form() == name(FactorForm::constant);
+    for (const FactorPiece& piece : plane.factor_pieces(each.x - radii, each.x + radii)) {
+      const bool within = (each.x - piece.low).minCoeff() >= 0 && (piece.high - each.x).minCoeff() >= 0;
+      const double largest = std::max(std::abs(piece.value(piece.low)), std::abs(piece.value(piece.high)));
+      each.closes |= within && std::abs(piece.value(each.x)) > least * largest;
+    }
+  }
 }
 
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2d& start) {

@@ -343,6 +343,10 @@ TEST_CASE("reduce --system shows equilibria and reversors, solved or not", "[cli
   const Json van_der_pol = json_of_system("u' = v; v' = (1-u^2)*v-u");
   CHECK(van_der_pol["equilibria"][0]["kind"] == "unstable focus");
   CHECK(van_der_pol["reversors"].empty());
+  // No reversor, yet V = u v is not 0 at the center.
+  const Json rabbits = json_of_system("u' = u*(1-v); v' = v*(2*u-1)", {"--u0", "1", "--v0", "1.1"});
+  CHECK(rabbits["reversors"].empty());
+  CHECK(rabbits["equilibria"][1]["kind"] == "center");
   CHECK(json_of_system("u' = 1; v' = 2*v").at("equilibria").empty());
   CHECK_FALSE(json_of("reduce --mu 0.3 --u0 1 --v0 1 --format json").contains("equilibria"));
 }

@@ -386,7 +386,8 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
     }
     answer.members["tried"] = tried;
   }
-  const Equilibria equilibria{reduction::find_equilibria(field, start), reduction::find_reversors(field, start)};
+  Equilibria equilibria{reduction::find_equilibria(field, start), reduction::find_reversors(field, start)};
+  if (solved.plane) prove_centers(equilibria.zeros, *solved.plane);
   answer.members.update(equilibria.members());
   std::function<std::string(const Digits&)> solution;
   if (solved.plane) {
@@ -562,7 +563,7 @@ std::vector<FieldText> reduce_fields() {
        "invariant rays: direction of the motion, eigenvalues along the ray and across, 2 for a double ray"},
       {"`kind`, `undecided`", "", "type of the blown-up centre; null if not decided, and the reason"},
       {"every `kind`", "",
-       fmt::format("{}; center: imaginary eigenvalues on the axis of a reversor",
+       fmt::format("{}; center: imaginary eigenvalues on the axis of a reversor, or V not 0",
                    fmt::join(reduction::planar_kinds, ", "))},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
        "isolated zeros of the field where |u| and |v| are at most 2.5 max(|u0|, |v0|); eigenvalues [[re, im], [re, im]] "

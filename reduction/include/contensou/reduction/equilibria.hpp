@@ -28,16 +28,15 @@ struct Equilibrium {
   Eigen::Vector2d x;
   Eigen::Matrix2d slopes;  ///< Jacobian of the field
 
-  /// True if x lies on the axis of a reflection that is a reversor. If its eigenvalues are imaginary, it is then a center:
-  /// motions that turn about it meet the axis twice, and the reflection closes them.
-  bool on_axis = false;
+  /// True if imaginary eigenvalues are those of a center: x lies on the axis of a reflection that is a reversor, which closes
+  /// motions that meet the axis twice, or V is not 0 there, so that they are levels of H.
+  bool closes = false;
 
   /// Returns the eigenvalues of the Jacobian, the one with the smaller real or imaginary part first.
   std::pair<std::complex<double>, std::complex<double>> eigenvalues() const;
 
   /// Returns the type by the linear part, one of planar_kinds: "saddle", "stable node", "unstable node", "stable focus",
-  /// "unstable focus", "center" (imaginary eigenvalues, on the axis of a reversor), "center or focus" (imaginary
-  /// eigenvalues), or "degenerate" (an eigenvalue 0).
+  /// "unstable focus", "center" (imaginary eigenvalues and `closes`), "center or focus" (imaginary eigenvalues), or "degenerate" (an eigenvalue 0).
   std::string_view kind() const;
 };
 
@@ -49,5 +48,8 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::
 /// Finds the isolated equilibria in the square about the origin whose half side is 2.5 times the larger coordinate of a
 /// start: the usual window of a picture.
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::Vector2d& start);
+
+/// Sets `closes` of the equilibria at which V of this system is not 0.
+void prove_centers(std::vector<Equilibrium>& equilibria, const PlanarReduction& plane);
 
 }  // namespace contensou::reduction
