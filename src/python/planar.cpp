@@ -122,8 +122,12 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("equilibria",
                              [](const Planar& planar) {
                                py::list list;
-                               for (const auto& each : interruptible(
-                                        [&] { return reduction::find_equilibria(planar.field, planar.start); })) {
+                               const auto found = interruptible([&] {
+                                 auto zeros = reduction::find_equilibria(planar.field, planar.start);
+                                 if (planar.solved_plane.plane) prove_centers(zeros, planar.solved());
+                                 return zeros;
+                               });
+                               for (const auto& each : found) {
                                  list.append(py::make_tuple(each.x[0], each.x[1], each.kind(), each.eigenvalues()));
                                }
                                return list;

@@ -34,7 +34,7 @@ class PlanarRay(NamedTuple):
 
 class Equilibrium(NamedTuple):
     """An isolated zero of the field. kind is its type by the eigenvalues of the derivatives there; center, where a
-    reflection proves it."""
+    reflection or V proves it."""
 
     u: float
     v: float
