@@ -120,7 +120,7 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
           std::ranges::any_of(found, [&](const Equilibrium& other) { return (place(other.x) - there).norm() < same; });
       const auto at = jet_of(field, x);
       if (!inside || known || !at || !at->slopes.allFinite()) break;
-      // Where the Jacobian is singular a step of length 0 is no zero of the field.
+      // A singular Jacobian may give a step of length 0 away from a zero of the field. So check the field itself.
       constexpr double zero = 1e-9;
       if (at->f.norm() <= zero * (at->slopes * sides.asDiagonal()).norm()) found.push_back({x, at->slopes});
       break;

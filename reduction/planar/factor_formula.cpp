@@ -1,5 +1,6 @@
-// V and H as formulas. Null vectors of (R64) in functions that have names are brought to a row echelon form, whose entries
-// are rational if V has rational coefficients; then the coefficients are rounded, and (R66) is computed with these.
+// V and H as formulas. Null vectors of (R64) in functions that have names are brought to a row echelon form, whose
+// entries are rational if V has rational coefficients; then the coefficients are rounded, and (R66) is computed with
+// these.
 #include "planar/factor_formula.hpp"
 
 #include <algorithm>
@@ -398,7 +399,7 @@ std::string separated_integral(const SmoothField& field, const Polynomial& v, co
 FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
   const Box about = box_about(start);
   const double scale = start.lpNorm<Eigen::Infinity>();
-  // Where powers of u and v differ most, if the field has values there.
+  // Prefer the box in which powers of u and v differ most. Take the next one if the field has no values there.
   std::optional<FieldSamples> samples;
   for (const Box& box : {Box{start / 4, Vector2d::Constant(2 * scale)}, Box{start, 4 * about.radii}, about}) {
     if (!samples) samples = sample(field, box);

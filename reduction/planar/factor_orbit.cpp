@@ -1,5 +1,6 @@
 // An orbit as the level of H, dH = (F dv - G du)/V, part by part, README (R67), (R68). No time is stepped: a part is a
-// curve w(s) of one coordinate over the other, put on the level by Newton's method, and its time is the integral of ds/F.
+// curve w(s) of one coordinate over the other, put on the level by Newton's method, and its time is the integral of
+// ds/F.
 #include "planar/factor_orbit.hpp"
 
 #include <algorithm>
@@ -261,7 +262,7 @@ class Follower {
       return true;
     }
 
-    // Where the rounding of x alone hides the form, V is not needed any more.
+    // Fit no V where the rounding of x alone hides its form: the orbit no longer needs V there.
     constexpr double hidden = 1e-12;
     if (noise_.norm() > hidden * here.f.norm()) return true;
     constexpr int halvings = 10;

@@ -38,14 +38,14 @@ double root_below(const std::function<double(double)>& function, double high) {
   return root_between(function, low, high);
 }
 
-/// How an orbit is found again: the strip that it is in, or that q stays.
+/// Place of a point among the orbits: its strip and xi; on an orbit with constant q there is no strip.
 struct StripPlace {
   const Strip* strip = nullptr;
   double xi = 0;
-  double radial = 0;  ///< without a strip
+  double radial = 0;  ///< R, only without a strip
 };
 
-/// By a scaling: README (R42) to (R45).
+/// Solution by a scaling: README (R42) to (R45).
 struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_from_this<ScalingSolution> {
   ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
 
@@ -68,7 +68,7 @@ struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_fro
   Vector2d along_ray(const Vector2d& n, double radial, double p, double time) const;
 
   SectionField section;
-  double noise;  ///< of the field's values, relative
+  double noise;  ///< relative error of the field's values
   Directions directions;
   std::vector<Strip> strips;
 };
@@ -251,7 +251,7 @@ PlanarEnd ScalingSolution::end(const StripPlace& place) const {
   return PlanarEnd::undecided;
 }
 
-/// When the orbit comes to its end, a border included.
+/// Returns the time until the orbit reaches its end, which may be a border; infinity if it takes for ever.
 double ScalingSolution::end_time(const StripPlace& place, double p) const {
   const double c = section.time_degree();
   if (place.strip != nullptr)
@@ -259,7 +259,7 @@ double ScalingSolution::end_time(const StripPlace& place, double p) const {
   return c * place.radial < 0 ? std::exp(c * p) / (-c * place.radial) : infinity;
 }
 
-/// A point of the ray n with p, moved along it for a time.
+/// Moves the point with canonical coordinate p along the ray n for a time.
 Vector2d ScalingSolution::along_ray(const Vector2d& n, double radial, double p, double time) const {
   const double c = section.time_degree(), way = time * std::exp(-c * p), growth = c * radial;
   return section.point(n, p + (growth == 0 ? radial * way : std::log1p(growth * way) / c));

@@ -72,7 +72,8 @@ class Sampler {
 
 constexpr int tried = 128;
 
-/// Where the field is sampled, in units of `around`: half of the points evenly, half closer and closer to the axes.
+/// Returns the i-th point at which the field is sampled. Even points are spread evenly about the origin, at 1/3 to 3
+/// times `around`. Odd points lie nearer to the axes, down to a ratio of 1e-5.
 Vector2d sample_point(int i, const Vector2d& around) {
   const auto fraction = [](double x) { return x - std::floor(x); };
   const double turn = fraction(i * std::numbers::phi);
@@ -91,7 +92,7 @@ struct Equations {
   Eigen::VectorXd row_scale;
   Unknowns column_scale;
   std::vector<Vector2d> points = {};
-  double error = 0;  ///< Frobenius' norm of what the errors of the derivatives make of the matrix
+  double error = 0;  ///< Frobenius norm of the error of the matrix that stems from the derivatives
   double range = 1;  ///< largest |f| at the samples divided by the least
 };
 
@@ -192,11 +193,11 @@ struct Transformation {
   Vector2d shift;
 };
 
-/// Whether f(phi x) = exp(-c s) L f(x) where phi takes the points about their distance from the origin and back, across
-/// kinks that derivatives do not see.
+/// Checks f(phi x) = exp(-c s) L f(x) for finite phi, which crosses kinks that derivatives do not see. phi moves each
+/// point forwards and backwards by about twice its distance from the origin.
 ///
-/// @param scale    of u and v
-/// @param allowed  error relative to f
+/// @param scale    typical size of u and v
+/// @param allowed  largest error, relative to f
 bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vector2d>& points, const Vector2d& scale,
                       double allowed) {
   const auto size = [&](const Vector2d& x) { return x.cwiseQuotient(scale).norm(); };
@@ -206,7 +207,7 @@ bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vect
     return std::ranges::all_of(std::array{-s, s}, [&](double step) {
       const Transformation phi(g, step);
       const auto here = field(x), moved = field(phi(x));
-      if (!here || !moved) return true;  // it leaves where the field has values
+      if (!here || !moved) return true;  // x or phi x lies where the field has no value
       const Vector2d expected = std::exp(-g.time * step) * (phi.linear * *here);
       return size(*moved - expected) <= allowed * std::max(size(*moved), size(expected));
     });
@@ -228,7 +229,7 @@ Finite finite_transformation(Sampler& field, const Generator& g, const std::vect
   Finite finite{.difference = Eigen::VectorXd::Zero(rows)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto here = field(points[i]), moved = field(phi(points[i]));
-    if (!here || !moved) continue;  // it leaves where the field has values
+    if (!here || !moved) continue;  // x or phi x lies where the field has no value
     const Vector2d difference = back * *moved - *here;
     finite.residual = std::max(finite.residual, difference.norm() / here->norm());
     finite.difference.segment<2>(static_cast<Eigen::Index>(2 * i)) = difference / s;
@@ -236,21 +237,23 @@ Finite finite_transformation(Sampler& field, const Generator& g, const std::vect
   return finite;
 }
 
-/// Of X and -X the one that moves points from the centre.
+/// Returns X or -X: the one that moves points away from the centre.
 Generator growing(const Generator& g) {
   return g.matrix.trace() > 0 ? g : generator_of(Unknowns::Zero() - unknowns_of(g));
 }
 
-/// @param scale  of u and v
+/// Returns true if X moves all points away from its centre, at a rate well above 0.
+/// @param scale  typical size of u and v
 bool scales(const Generator& g, const Vector2d& scale) {
   const double growth = g.growth();
   const double largest = std::max(g.matrix.trace() - growth, std::sqrt(std::max(g.matrix.determinant(), 0.0)));
   return growth > 1e-6 * std::max({largest, std::abs(g.time), g.shift.cwiseQuotient(scale).cwiseAbs().maxCoeff()});
 }
 
-/// Where the field jumps between two points: it differs most between the ends of one half of the way, again and again.
+/// Finds a jump of the field between two points by bisection: each step keeps the half over which the field differs
+/// more.
 std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d right) {
-  constexpr double least = 1e-3;  // of the field
+  constexpr double least = 1e-3;  // smallest jump, relative to the field
   auto at_left = field(left), at_right = field(right);
   for (int halving = 0; halving < 60 && at_left && at_right; ++halving) {
     const Vector2d middle = (left + right) / 2;
@@ -266,14 +269,15 @@ std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d rig
   return (left + right) / 2;
 }
 
-/// X is tangent to every line on which the field jumps, if it holds across them: (A x + b) x (the line's direction) = 0.
+/// Adds an equation for each line on which the field jumps. X must be tangent to the line if the symmetry holds across
+/// it: (A x + b) x (the line's direction) = 0.
 void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
   std::vector<Unknowns> rows;
   for (std::size_t i = 1; i < equations.points.size(); ++i) {
     const Vector2d way = equations.points[i] - equations.points[i - 1];
     const auto jump = jump_between(field, equations.points[i - 1], equations.points[i]);
     if (!jump) continue;
-    // Where it is on lines beside this one, in parts of the way.
+    // Find the jump on parallel lines: its position along the line, in units of `along`, for each offset across.
     const double part = 0.1 * scale.minCoeff() / way.norm();
     const Vector2d along = part * way, across(-along[1], along[0]);
     const PlanarField line = [&](const Vector2d& offset) {
@@ -295,10 +299,10 @@ void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
   equations.matrix.conservativeResize(known + added, 7);
   for (Eigen::Index i = 0; i < added; ++i) equations.matrix.row(known + i) = rows[static_cast<std::size_t>(i)];
   equations.row_scale.conservativeResize(known + added);
-  equations.row_scale.tail(added).setZero();  // Newton's method is of the samples
+  equations.row_scale.tail(added).setZero();  // Newton's method uses only the rows of the samples
 }
 
-/// The same times a number: the largest entry is 1. An entry that is a simple fraction but for an error becomes it.
+/// Returns x divided by its largest entry. An entry within `error` of a simple fraction becomes that fraction.
 Unknowns normalised(const Unknowns& x, double error) {
   const double largest = x.cwiseAbs().maxCoeff();
   const double first = *std::ranges::find_if(x, [=](double entry) { return std::abs(entry) > (1 - 1e-9) * largest; });
@@ -311,7 +315,8 @@ Unknowns normalised(const Unknowns& x, double error) {
   });
 }
 
-/// A basis with as many zeros as elimination gives; the scaling takes the place of the one that it has most of.
+/// Returns a basis of the kernel with as many zeros as elimination gives. The scaling replaces the member that
+/// contributes most to it.
 std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::optional<Generator>& scaling) {
   const Eigen::Index count = kernel.cols();
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -335,10 +340,10 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
   return basis;
 }
 
-/// Of the null space, the simplest scaling that holds throughout: within these subspaces in turn, what is nearest to
-/// A = 1.
+/// Finds the simplest scaling in the null space that holds in the whole plane. It tries subspaces in turn, the simplest
+/// first, and takes from each the scaling that is nearest to A = 1.
 ///
-/// @param largest  singular value of the equations
+/// @param largest  largest singular value of the equations
 template <class Everywhere>
 std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equations, double largest, double level,
                                           const Vector2d& scale, const Everywhere& everywhere) {
@@ -355,7 +360,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
   for (const MatrixXd& subspace :
        {spanned({identity, c}), spanned({identity, b1, b2, c}), spanned({unit(0), unit(3), c}),
         spanned({unit(0), unit(3), b1, b2, c}), MatrixXd(MatrixXd::Identity(7, 7))}) {
-    // In the unknowns of the matrix, each of the subspace's of length 1.
+    // Express the subspace in the unknowns of the matrix, each of its vectors with length 1.
     MatrixXd inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
     const Eigen::VectorXd lengths = inner.colwise().norm();
     inner = (inner * lengths.cwiseInverse().asDiagonal()).eval();
@@ -368,7 +373,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
     Unknowns x = product(kernel, least_squares(kernel, identity));
     if (!scales(generator_of(x), scale)) continue;
 
-    // The same from finite transformations, without a derivative: Newton's method with the matrix that is there.
+    // Refine x by finite transformations, which need no derivative: Newton's method with the matrix at hand.
     Finite finite = transformed(x);
     for (int step = 0; step < 4; ++step) {
       const Eigen::VectorXd correction =
@@ -386,7 +391,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
   return std::nullopt;
 }
 
-/// Its shift in the field's own lengths rather than in units; the largest entry is 1 again.
+/// Converts the shift of a generator from units to the field's own lengths. The largest entry becomes 1 again.
 Generator in_lengths(Generator g, double unit) {
   if (unit == 1 || g.shift.isZero(0)) return g;
   g.shift *= unit;
@@ -456,7 +461,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   };
   find_generators();
   if (!result.scaling && !std::ranges::all_of(result.generators, &Generator::everywhere)) {
-    // Of several that hold within sectors one may hold throughout: the one that leaves the jumps where they are.
+    // If several generators hold within sectors only, one that leaves the jumps in place may hold everywhere.
     add_jumps(equations, sampler, scale);
     const double largest_now = SingularValues(equations.matrix).values[0];
     result.scaling = simplest_scaling(sampler, equations, largest_now, result.level, scale, everywhere);

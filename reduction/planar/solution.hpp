@@ -14,7 +14,7 @@
 
 namespace contensou::reduction {
 
-/// One way of solving a planar system: the answers of PlanarReduction, which checks its arguments.
+/// One way of solving a planar system. PlanarReduction checks the arguments, then calls these functions.
 struct PlanarReduction::Solution {
   Solution(PlanarField of, std::string_view way) : field(std::move(of)), form(way) {}
   Solution(const Solution&) = delete;
@@ -31,7 +31,7 @@ struct PlanarReduction::Solution {
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
 
-  // By a scaling:
+  /// Returns the canonical coordinates of the scaling. A solution without a scaling throws, here and in `point`.
   /// @param x  finite, not the centre
   virtual PlanarCanonical canonical(const Eigen::Vector2d&) const { throw without_scaling(); }
   virtual Eigen::Vector2d point(double, double) const { throw without_scaling(); }
@@ -64,12 +64,12 @@ struct PlanarOrbit::Motion {
 
   virtual std::optional<double> period() const { return std::nullopt; }
 
-  /// The point where it stays from end_time on, if it stays anywhere.
+  /// Returns the point at which the orbit stays from end_time on, if there is one.
   virtual Eigen::Vector2d at_end() const = 0;
 
   PlanarEnd end = PlanarEnd::centre;
-  double end_time = 0;             ///< that of coming to a border, too
-  bool border_time_known = false;  ///< that time is told
+  double end_time = 0;             ///< also the time of reaching a border
+  bool border_time_known = false;  ///< false: PlanarOrbit::end_time returns infinity at a border
   std::string undecided = {};
 };
 

@@ -13,10 +13,10 @@
 
 namespace contensou::reduction {
 
-/// T has the other sign within a sector, or cannot be told from 0 on a turn: here.
+/// A direction in which T has the other sign within a sector, or cannot be distinguished from 0 on a turn.
 struct MissedRay {
   Eigen::Vector2d n;
-  bool crossed;  ///< the first of both
+  bool crossed;  ///< true: T has the other sign
 };
 
 /// p in the limit at an end of a sector.
@@ -30,7 +30,7 @@ enum class Limit { centre, infinity, point, undecided };
 class Strip {
  public:
   /// @param breaks     directions within, at which R and T may not be smooth
-  /// @param sense      of growing xi: 1 counter-clockwise
+  /// @param sense      direction of growing xi: 1 if counter-clockwise
   /// @param length     angle between the ends
   /// @param tolerance  relative error of the panels
   /// @throws MissedRay
@@ -50,27 +50,27 @@ class Strip {
   double turn() const { return turn_; }
   double turn_sigma() const;
 
-  /// In a sector: nearer to its end than this R and T are their leading powers.
+  /// xi in a sector below which R and T equal their leading powers.
   static constexpr double first = -40;
 
-  /// xi of a direction; none outside. -infinity and infinity on the ends.
+  /// Returns xi of a direction; none outside the strip, -infinity or infinity on its ends.
   std::optional<double> locate(const Eigen::Vector2d& n) const;
   Eigen::Vector2d direction(double xi) const;
 
-  /// L(xi); 0 at xi = 0.
+  /// Returns L(xi), which is 0 at xi = 0.
   double ln_rho(double xi) const;
 
-  /// Whether orbits come to their end in finite time; then the time left over exp(c p).
+  /// Returns true if orbits reach their end in finite time; time_left is then that time divided by exp(c p).
   bool timed() const { return timed_; }
   double time_left(double xi) const;
 
   /// True if orbits come to a ray in finite time and go on along it.
   bool joins_ray() const;
 
-  /// The largest end of a panel below xi: s and R are smooth between both. -infinity below all panels.
+  /// Returns the largest end of a panel below xi, or -infinity: s and R are smooth between that end and xi.
   double smooth_from(double xi) const;
 
-  /// d sigma = -d xi/s(xi).
+  /// Returns s(xi): d sigma = -d xi/s(xi).
   double rate(double xi) const { return terms(xi).rate; }
 
  private:

@@ -78,12 +78,12 @@ class FactorReduction {
   /// @throws std::domain_error  if none was found; outside the box, unless V is affine
   double factor(const Eigen::Vector2d& x) const;
 
-  /// As PlanarReduction::factor_pieces.
+  /// Returns V in the parts of the rectangle [low, high] in which V may vanish: see PlanarReduction::factor_pieces.
   /// @throws std::domain_error  if none was found
   std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
 
-  /// Returns V, up to a constant factor, and H, up to constants, if V has rational coefficients: their residual (R66) is
-  /// below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
+  /// Returns V, up to a constant factor, and H, up to constants, if V has rational coefficients: their residual (R66)
+  /// is below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
   FactorFormula formula() const;
 
   /// Returns H, dH = (F dv - G du)/V, which is constant along orbits and 0 at the start.

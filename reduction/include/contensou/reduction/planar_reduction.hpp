@@ -29,21 +29,21 @@ enum class PlanarEnd {
   infinity,
   rest,         ///< a point other than the centre, at which the field vanishes
   border,       ///< a pole, a border of the field's values, or a jump: no orbit goes on
-  periodic,     ///< none: the orbit returns
-  undecided,    ///< not known: PlanarReduction::undecided says why
-  equilibrium,  ///< a zero of the field, which the orbit nears for ever
-  cycle,        ///< a closed orbit, which it nears for ever
+  periodic,     ///< no end: the orbit is closed
+  undecided,    ///< unknown: PlanarReduction::undecided returns the reason
+  equilibrium,  ///< a zero of the field, which the orbit approaches for ever
+  cycle,        ///< a closed orbit, which the orbit approaches for ever
 };
 
 inline constexpr int planar_ends = 8;
 
-/// As its name in C++, such as "centre".
+/// Returns the name of the enumerator, such as "centre".
 std::string_view name(PlanarEnd end);
 
 /// An orbit with a constant q: the field points along X there.
 struct PlanarRay {
   double q;
-  bool attracts;   ///< its neighbours on both sides tend to it
+  bool attracts;   ///< true if its neighbours on both sides tend to it
   bool to_centre;  ///< true if the motion on it goes to the centre
   double radial;   ///< R: dp = R d sigma, d sigma = exp(-c p) dt; an eigenvalue of the field blown up at the centre
   double angular;  ///< dT/dq, the other eigenvalue; on the counter-clockwise side unless only the other side is a ray
@@ -110,9 +110,9 @@ class PlanarReduction {
   /// @throws std::domain_error  if x is not finite, or V is not known there
   double factor(const Eigen::Vector2d& x) const;
 
-  /// Returns V in the parts of a rectangle in which it is known and may vanish: fitted anew there, where the form of V is
-  /// that of a box. Empty by a scaling, whose rays are the curves V = 0. Where several V of the form exist, each with
-  /// curves V = 0 of its own, only a V that is the same everywhere is returned.
+  /// Returns V in the parts of a rectangle in which it is known and may vanish: fitted anew there, where the form of V
+  /// is that of a box. Empty by a scaling, whose rays are the curves V = 0. Where several V of the form exist, each
+  /// with curves V = 0 of its own, only a V that is the same everywhere is returned.
   std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
 
   /// Returns the scaling that solves it; null where V alone does. Without a scaling there are no centre, canonical
@@ -134,10 +134,11 @@ class PlanarReduction {
   /// Returns the turn of a field without rays, stars and borders; else null.
   const PlanarTurn* turn() const;
 
-  /// Returns one of planar_kinds: "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center", "stable star", "unstable
-  /// star"; "regular point", which orbits pass, and "cusp", which they pass as well, where the field is 0 or has no value;
-  /// "mixed" with sectors of several kinds; "degenerate" if all points of a ray are at rest; "bordered" if the field has
-  /// values in a part of the plane, a pole or a jump that orbits do not cross; empty if it is not decided
+  /// Returns one of planar_kinds: "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center",
+  /// "stable star", "unstable star"; "regular point", which orbits pass, and "cusp", which they pass as well, where the
+  /// field is 0 or has no value; "mixed" with sectors of several kinds; "degenerate" if all points of a ray are at
+  /// rest; "bordered" if the field has values in a part of the plane, a pole or a jump that orbits do not cross; empty
+  /// if it is not decided.
   std::string_view kind() const;
 
   /// Returns the reason why some kinds and ends are not decided; empty if all are.
