@@ -1,6 +1,5 @@
 // An orbit as the level of H, dH = (F dv - G du)/V, part by part, README (R67), (R68). No time is stepped: a part is a
-// curve w(s) of one coordinate over the other, put on the level by Newton's method, and its time is the integral of
-// ds/F.
+// curve w(s) of one coordinate over the other, put on the level by Newton's method. Its time is the integral of ds/F.
 #include "planar/factor_orbit.hpp"
 
 #include <algorithm>

@@ -250,8 +250,7 @@ bool scales(const Generator& g, const Vector2d& scale) {
   return growth > 1e-6 * std::max({largest, std::abs(g.time), g.shift.cwiseQuotient(scale).cwiseAbs().maxCoeff()});
 }
 
-/// Finds a jump of the field between two points by bisection: each step keeps the half over which the field differs
-/// more.
+/// Finds a jump of the field between two points by bisection. Each step keeps the half with the larger difference.
 std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d right) {
   constexpr double least = 1e-3;  // smallest jump, relative to the field
   auto at_left = field(left), at_right = field(right);
