@@ -92,7 +92,7 @@ std::array<double, 2> FilmOrbit::steps(Number number) const {
   if (number == spin) size = std::max(w, least * v) / mu;
   if (number == rolling) size = std::max(at_[rolling], least * (v + w));
   const double step = small * size;
-  // What is 0 or more has a parabola to one side.
+  // A number that must be >= 0 takes both steps upwards if it is next to 0.
   const bool bounded = number == drive || number == rolling || (number == slip && kind_ == Kind::resisted);
   if (bounded && at_[number] < step) return {step, 2 * step};
   if (number == drive && at_[drive] + step > OrbitCells::greatest_drive(law_, mu, inertia_)) return {-step, -2 * step};

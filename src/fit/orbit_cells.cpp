@@ -15,23 +15,24 @@ namespace contensou::fit {
 
 namespace {
 
-constexpr double near_axis = 1e-12;  ///< of k or 1/k
-constexpr double at_rest = 1e-12;    ///< of the speeds at the start
+constexpr double near_axis = 1e-12;  ///< k or 1/k to which a start nearer to an axis is moved
+constexpr double at_rest = 1e-12;    ///< share of the speeds at the start, below which the body rests
 constexpr double first_width = 0.5, min_width = 1e-16;
 constexpr double ray_step = 1e-5;  ///< of c*: nearer to the ray F is a line, since the difference D would be rounded
-/// Of D beside its terms: a sign that is none of rounding; below which k counts as constant; and their rounding.
+/// Shares of the terms of D: from `certainty` on its sign is certain, below `constant` k counts as constant, and
+/// `rounding` is the error of the terms.
 constexpr double certainty = 1e-9, constant = 1e-10, rounding = 1e-15;
 
 }  // namespace
 
-/// Polynomials through values at Chebyshev's points of [-1, 1], and their integrals from -1.
+/// Polynomials through values at the Chebyshev points of [-1, 1], and their integrals from -1.
 struct OrbitCells::Basis {
   using Values = Eigen::Array<double, nodes, 1>;
 
   Values z;
   Eigen::Matrix<double, nodes + 1, nodes> integral;   ///< powers of z from values
-  Eigen::Matrix<double, nodes, nodes + 1> values;     ///< and back
-  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< of the Chebyshev series
+  Eigen::Matrix<double, nodes, nodes + 1> values;     ///< values from powers of z
+  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< last two of the Chebyshev series, from values
 
   Basis() {
     for (int j = 0; j < nodes; ++j) {
@@ -48,7 +49,7 @@ struct OrbitCells::Basis {
     }
   }
 
-  /// What a polynomial leaves of its values.
+  /// Returns the estimated error of the polynomial through these values: its last two Chebyshev coefficients, added.
   double error(const Values& of) const { return (last_coefficients * of.matrix()).cwiseAbs().sum(); }
 
   static const Basis& only() {

@@ -19,18 +19,19 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-4;
-/// A sum of squares that is lower than the least by that much is a better estimate.
+/// A sum of squares that is lower than that of the estimate by this much belongs to a better estimate.
 constexpr double better_by = 0.01;
-/// Of its range, so near a number is at its limit; a limit counts where without it the sum of squares would fall by that
-/// share of the rise.
+/// `near_limit` is a share of the range of a number: nearer to a limit, the number is at the limit. A limit counts if
+/// the sum of squares would fall beyond it by more than the share `telling` of the rise.
 constexpr double near_limit = 1e-6, telling = 0.1;
 constexpr Index patch_place = 1;
-/// Steps of a logarithm, and how much longer each is than the last.
+/// Widest step of a logarithm, and the ratio of the lengths of successive steps.
 constexpr double widest = 1.2, growth = 1.6;
-/// How sharp an end is, of its distance from the estimate.
+/// Largest error of an end, as a share of its distance from the estimate.
 constexpr double sharp = 2e-3;
 constexpr int most_refinements = 12;
-/// Where the valley is followed, and where its end is between two points or another valley is looked for.
+/// Largest number of starts at a point: `most_starts` on the way along the valley, `few_starts` when the end is
+/// bracketed or another valley is sought.
 constexpr std::size_t most_starts = 6, few_starts = 2;
 
 }  // namespace
@@ -59,7 +60,7 @@ void Profile::spread() {
 
 std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, const VectorXd& foretold,
                                          std::size_t most) const {
-  // Of each part of the valley, by friction and patch radius, the nearest point on each side.
+  // Divide the valley into parts by friction and patch radius. From each part take the nearest point on each side.
   struct Nearest {
     const VectorXd* parameters = nullptr;
     double distance = endless;
@@ -125,7 +126,7 @@ const Profile::Point& Profile::lowest(const Coordinate& number, double at, const
 double Profile::end(const Coordinate& number, double sign, double error, double limit) {
   const double from = number.of(best_), room = sign * (limit - from);
   struct Reach {
-    double distance, height;  ///< from the estimate; the root of the sum's rise, less that of the allowed one
+    double distance, height;  ///< from the estimate; root of the rise at the point minus root of the allowed rise
   };
   Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
   VectorXd last = best_;  // inside
@@ -142,7 +143,7 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     return found.height;
   };
 
-  // Along the valley, from the farthest point that is known, to where the last two lead.
+  // Follow the valley from the farthest known point: extrapolate from the last two points.
   for (const Point& point : points_) {
     const double distance = sign * (number.of(point.parameters) - from);
     if (point.excess >= rise_ || distance <= inside.distance) continue;
@@ -161,7 +162,7 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     before = last;
     if (look(distance, foretold, most_starts) >= 0) break;
   }
-  // Beyond its end another one may begin.
+  // Another valley may begin beyond the end of this one.
   double stride = number.of_contact() ? widest : room / 64;
   for (double distance = outside.distance; wide_ && distance < room && !better_; stride *= growth) {
     distance = std::min(room, distance + stride);
@@ -184,7 +185,7 @@ bool Profile::is_held_by_limit(const Coordinate& number, const VectorXd& paramet
   for (Index place : search_.free) {
     const auto [low, high] = search_.model.range(place);
     if (place == number.place || !std::isfinite(high)) continue;
-    // No patch is larger than the ball: that limit is the number's own end.
+    // No patch is larger than the ball, so the upper limit of the patch radius is a true end.
     const bool below = limited[place] - low < near_limit * (high - low);
     const bool above = high - limited[place] < near_limit * (high - low) && place != patch_place;
     if (!below && !above) continue;
@@ -194,7 +195,7 @@ bool Profile::is_held_by_limit(const Coordinate& number, const VectorXd& paramet
       if (line[place] == 0) continue;
       outward.head<2>() = line * (outward[place] / line[place]);
     }
-    // Of e times friction or patch, of others twice their limit.
+    // Friction or patch radius would change by a factor of e, another number by the size of its limit.
     if (place >= contact_parameters) outward *= std::abs(limited[place]);
     if (-search_.slope(limited, outward) > telling * rise_) return true;
   }

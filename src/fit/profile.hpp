@@ -10,65 +10,66 @@
 
 namespace contensou::fit {
 
-/// Profile likelihood: how far a number can go, all else fitted anew, until the sum of squares has risen by so much.
+/// Profile likelihood: the interval of a number within which the sum of squares rises by at most a given amount, while
+/// all other numbers are fitted anew.
 ///
-/// From the farthest point that is known it goes outward along the valley, each point from its neighbours, then in wide
-/// steps to the end of what the model allows, from the guesses and from all points that were found before, also along other
-/// numbers: a valley that is met anew belongs to the interval.
+/// The search follows the valley outward from the farthest known point. Then it takes wide steps to the limits of the
+/// model. It starts from the guesses and from all points found before, also along other numbers. A second valley that
+/// it meets belongs to the interval.
 class Profile {
  public:
   /// @param search  with all standard deviations; kept by reference
   /// @param best    the estimate
-  /// @param rise    of the sum of squares at the ends of an interval
-  /// @param wide    whether there may be more than the valley about the estimate
+  /// @param rise    rise of the sum of squares at the ends of an interval, > 0
+  /// @param wide    true if there may be valleys beside that of the estimate
   Profile(const Search& search, const Eigen::VectorXd& best, double rise, bool wide);
 
-  /// The rise that counts from now on.
+  /// Sets the rise for the intervals that follow.
   void set_rise(double rise) { rise_ = rise; }
 
-  /// What a number may be; infinite where the data set no end: also where the end is that of another number, which would
-  /// go beyond its limit.
-  /// @param error   its standard error, by curvature; any where there is none
-  /// @param low, high  its least and largest values that can be
+  /// Returns the interval of a number. An end is infinite if only the limit of this or of another number sets it.
+  /// @param error      standard error of the number by curvature; infinite or 0 if there is none
+  /// @param low, high  limits of the number
   Interval of(const Coordinate& number, double error, double low, double high);
 
-  /// Parameters, and by how much more their sum of squares is than that of the estimate.
+  /// Parameters, and the excess of their sum of squares over that of the estimate.
   struct Point {
     Eigen::VectorXd parameters;
     double excess;
   };
 
-  /// Finds the minima apart from the estimate that an interval allows: between it and each of them is a value of the number
-  /// that no interval allows, all else fitted anew. An interval that is asked for later spans them.
-  /// @param values  of the number, increasing, so close that no two minima lie between neighbours
+  /// Finds minima other than the estimate whose excess is below the rise. Between each minimum and the estimate there
+  /// is a value of the number with an excess above the rise, all else fitted anew. Later intervals span these minima.
+  /// @param values  values of the number, increasing, so close that no two minima lie between neighbours
   std::vector<Point> other_minima(const Coordinate& number, const std::vector<double>& values);
 
-  /// Whether the valley was met beyond an interval of a number, when another one was followed.
+  /// Returns true if a search along another number met the valley beyond this interval of a number.
   bool reaches_beyond(const Coordinate& number, const Interval& interval) const;
 
-  /// A better estimate, where one was met: then no interval counts.
+  /// Returns a better estimate if the searches met one. The intervals are then invalid.
   const std::optional<Eigen::VectorXd>& better() const { return better_; }
 
  private:
-  /// Improves the best guess of each friction and of each patch radius, which lie about the valley.
+  /// Improves the best guess for each friction and for each patch radius. These guesses surround the valley.
   void spread();
 
-  /// Where the interval ends on one side.
+  /// Finds the upper (sign = 1) or the lower (sign = -1) end of an interval; infinite as in `of`.
   double end(const Coordinate& number, double sign, double error, double limit);
 
-  /// The lowest sum of squares found with the number held there.
-  /// @param foretold  where the valley seems to go
-  /// @param most      starts
+  /// Returns the point with the lowest sum of squares that is found while the number is held at a value.
+  /// @param foretold  extrapolated parameters of the valley
+  /// @param most      largest number of starts
   const Point& lowest(const Coordinate& number, double at, const Eigen::VectorXd& foretold, std::size_t most);
 
-  /// Where to begin from, the best first: of the points found before, also along other numbers.
+  /// Returns the starts of a search with the number held, the best first. They are moved points found before, also
+  /// those along other numbers.
   std::vector<Eigen::VectorXd> starts_at(const Coordinate& number, double at, const Eigen::VectorXd& foretold,
                                          std::size_t most) const;
 
-  /// Whether the sum of squares would be lower there, with the number held, if another one could go beyond its limit.
+  /// Returns true if, with the number held, the sum of squares would fall if another number could go beyond its limit.
   bool is_held_by_limit(const Coordinate& number, const Eigen::VectorXd& parameters) const;
 
-  /// The best guess with a value near that one.
+  /// Returns the best guess whose number is within 1 of `at`, else the nearest guess; null without guesses.
   const Eigen::VectorXd* nearest_guess(const Coordinate& number, double at) const;
 
   const Search& search_;

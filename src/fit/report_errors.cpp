@@ -16,17 +16,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// An eigenvalue of the correlations of derivatives below which the data do not decide.
+/// The data do not determine a combination whose eigenvalue in the correlations of derivatives is below this.
 constexpr double undecided = 1e-10;
 
-/// Where friction and patch radius depend on each other more than that, and are known worse than that, a parabola is no
-/// good model of the sum of squares; nor where a number is known worse than the last.
+/// A parabola is a poor model of the sum of squares in two cases. Friction and patch radius have a correlation above
+/// `strongly_correlated` and a relative error above `hardly_nonlinear`; or a relative error exceeds `nonlinear`.
 constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
 
-/// Errors below this share of the range of the values are no noise of a film, but those of computed or rounded numbers.
+/// Errors below this share of the range of the values are not the noise of a film: the numbers are computed or rounded.
 constexpr double sharpest_film = 1e-4;
 
-/// The combinations that a film may decide alone: f of a slip, f eps of a spin, f/eps of the end of a slip.
+/// Powers of f and eps in the combinations that a film may determine: f by a slip, f eps by a spin, f/eps by its end.
 const Eigen::Vector2d combinations[]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
 
 Inverse inverse_of(const MatrixXd& information) {
@@ -49,7 +49,7 @@ Inverse inverse_of(const MatrixXd& information) {
   return result;
 }
 
-/// What the data tell of ln f and ln eps when all else is free, too: of both by itself, the 2 by 2 matrix.
+/// Returns the 2 by 2 information matrix of ln f and ln eps when all other parameters are free, too.
 Eigen::Matrix2d information_of_contact(const MatrixXd& information) {
   const Index others = information.rows() - 2;
   if (others == 0) return information;
@@ -86,8 +86,8 @@ void Reporter::set_covariance(const MatrixXd& covariance) {
   fit_.correlation = inverse_deviation.asDiagonal() * covariance_ * inverse_deviation.asDiagonal();
 }
 
-/// The covariance of the estimate is C J^T E[e e^T] J C. As the derivatives J change little from value to value, J^T E[e e^T] J of
-/// a column is g J^T J, with g the growth of the variance of its means: n values are worth n/g.
+/// The covariance of the estimate is C J^T E[e e^T] J C. As the derivatives J change little from value to value, J^T
+/// E[e e^T] J of a column is g J^T J, with g the growth of the variance of its means: n values are worth n/g.
 void Reporter::set_dependence() {
   const MatrixXd rows_of_A = derivatives_ * inverse_.root;
   VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1, row by row
@@ -146,7 +146,7 @@ bool Reporter::is_vague() const {
     const Index place = search_.free[i];
     const double error = deviation_[static_cast<Index>(i)];
     if (place < contact_parameters && error > nonlinear) return true;
-    // The drive is that over friction.
+    // The orbit depends on rolling friction divided by friction.
     if (place == TrackModel::place(Parameter::rolling_friction) && error > nonlinear * std::exp(parameters_[0]))
       return true;
     const Parameter parameter = TrackModel::parameter_at(place);
@@ -166,7 +166,7 @@ bool Reporter::needs_profile() const {
 void Reporter::set_only_by_curvature() {
   if (!both_free() || !planned_) return;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information_of_contact(information_));
-  constexpr double least_share = 1e-8;  // below which it counts as none
+  constexpr double least_share = 1e-8;  // smallest eigenvalue that counts, relative to the larger one
   const double strong = solver.eigenvalues()[1], weak = std::max(solver.eigenvalues()[0], least_share * strong);
   double least = infinity;
   for (const Eigen::Vector2d& powers : combinations) {

@@ -13,12 +13,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Rarer by chance than in one of ten thousand films: so many standard deviations of a normal distribution.
+/// Standard deviations of a normal distribution that chance exceeds in fewer than one of ten thousand films.
 constexpr double too_rare = 3.7;
 
 }  // namespace
 
-/// By how many standard errors a parameter would go beyond its limit.
+/// Returns the distance, in standard errors, by which a free parameter at a limit would go beyond it; 0 off the limits.
 double Reporter::held_back(std::size_t free) const {
   const Index place = search_.free[free];
   const auto [low, high] = search_.model.range(place);
@@ -58,8 +58,8 @@ void Reporter::set_misfits() {
     const auto place = static_cast<std::size_t>(observable);
     // Rounded values are off as their neighbours are.
     const double correlation = noise.sd > search_.rounding[place] ? dependence_[place].neighbours : 0;
-    // Chance allows any correlation of few values; 0.9 is that of values that are off the motion by four times of what their
-    // neighbours are.
+    // Chance allows any correlation of few values; 0.9 is that of values that are off the motion by four times of what
+    // their neighbours are.
     constexpr double surely = 0.9, blurred = 0.5;
     const double by_chance = std::min(surely, too_rare / std::sqrt(static_cast<double>(noise.values)));
     if (observable == Observable::angle && noise.estimated && noise.sd > blurred) {
@@ -73,11 +73,11 @@ void Reporter::set_misfits() {
     }
   }
   if (std::ranges::all_of(fit_.noise, &Noise::estimated) && !fit_.noise.empty()) return;
-  // By Wilson and Hilferty's approximation the cube root of chi^2 is normal.
+  // The approximation of Wilson and Hilferty: the cube root of chi^2 is normal.
   constexpr double too_much = 2;
   const double n = fit_.degrees_of_freedom, share = 2 / (9 * n);
   double reduced = fit_.reduced_chi2();
-  if (request_.robust) {  // which lets some values be far off
+  if (request_.robust) {  // Huber's loss allows outliers, so use the median
     std::vector<double> sizes;
     for (Index row = 0; row < residuals_.size(); ++row) {
       if (search_.weight[row] > 0) sizes.push_back(std::abs(residuals_[row]));
@@ -92,7 +92,7 @@ void Reporter::set_misfits() {
 }
 
 void Reporter::set_rolling_friction_seen() {
-  // The same motion, as one with rolling friction 0.
+  // Express the same motion as one with rolling friction 0.
   VectorXd start = parameters_;
   for (std::size_t track = 0; track < request_.tracks.size(); ++track) {
     const auto of = [&](Parameter parameter) -> double& { return start[TrackModel::place(parameter, track)]; };
@@ -106,11 +106,11 @@ void Reporter::set_rolling_friction_seen() {
   }
   const TrackModel model(request_.ball, request_.law, request_.tracks, accuracy_of_guess, true);
   VectorXd beside = start;
-  constexpr double step = 0.01;  // of friction: wide, so that orbits as sharp as a guess do
+  constexpr double step = 0.01;  // share of friction, so wide that accuracy_of_guess suffices
   double& rolling_friction = beside[TrackModel::place(Parameter::rolling_friction)];
   rolling_friction = step * std::exp(start[0]);
   const VectorXd by_it = (model.values(beside) - model.values(start)).cwiseProduct(search_.weight) / rolling_friction;
-  // What it changes that nothing else does.
+  // Subtract the changes that the other free parameters can make, too.
   const VectorXd others = inverse_.covariance * (derivatives_.transpose() * by_it);
   const double alone = by_it.squaredNorm() - (derivatives_.transpose() * by_it).dot(others);
   constexpr double hardly_any = 1e-6, far_better = 12;

@@ -39,28 +39,28 @@ class Reporter {
   Report report();
 
  private:
-  /// What is fitted, how many values, how well.
+  /// Sets the subject, the number of values and the goodness of the fit.
   void set_size();
-  /// Covariance and correlations, by curvature.
+  /// Sets covariance and correlations by curvature.
   void set_errors();
   void set_covariance(const Eigen::MatrixXd& covariance);
   /// Finds the dependence of errors of unknown size on each other, and adds it to the covariance.
   void set_dependence();
-  /// By what the variance of a number is larger than of independent errors.
+  /// Returns the variance of a number divided by the variance that independent errors would give.
   double growth_of(const Coordinate& number) const;
   void set_estimates();
   void add_estimate(Parameter parameter, std::size_t track);
-  /// Of a plan: the combination that is known where friction and patch radius are not.
+  /// Sets, for a plan, the combination that the film determines if it does not determine friction and patch radius.
   void set_only_by_curvature();
-  /// Whether a number is known so badly that a parabola is no good model of the sum of squares.
+  /// Returns true if a number is so uncertain that a parabola is a poor model of the sum of squares.
   bool is_vague() const;
   bool needs_profile() const;
   void set_profiles();
-  /// What is profiled, and between which ends.
+  /// A number whose profile is computed, and its limits.
   struct Number {
     Coordinate coordinate;
-    std::optional<std::size_t> estimate;  ///< whose it is
-    double error;                         ///< by curvature
+    std::optional<std::size_t> estimate;  ///< place in Fit::estimates; none for a combination
+    double error;                         ///< standard error by curvature
     double low, high;
     Interval interval;
   };
@@ -73,7 +73,7 @@ class Reporter {
   void set_noise();
   void set_predicted();
   void set_ball();
-  /// What the ball's numbers are known to; nothing where the data leave one of them open.
+  /// Sets the spreads of the numbers of the ball; leaves them empty if the data do not determine one of them.
   void set_spreads();
   double held_back(std::size_t free) const;
   void set_misfits();
@@ -82,11 +82,11 @@ class Reporter {
 
   bool is_free(Eigen::Index place) const { return std::ranges::find(search_.free, place) != search_.free.end(); }
   bool both_free() const { return request_.free.friction && request_.free.patch_radius; }
-  /// Whether a number of the start is in the data as such.
+  /// Returns true if the data contain a series that shows this number of the start: slip; spin or angle.
   bool is_seen(Parameter parameter, std::size_t track) const;
-  /// True if x, y, vx or vy is in the data.
+  /// Returns true if the data contain x, y, vx or vy.
   bool moves(std::size_t track) const;
-  /// A residual, or what Huber's loss lets it count for.
+  /// Returns the residual; in a robust fit, clamped at the bend of Huber's loss.
   double bounded(double residual) const {
     return request_.robust ? std::clamp(residual, -huber_bend, huber_bend) : residual;
   }
@@ -95,13 +95,13 @@ class Reporter {
   const FitRequest& request_;
   const bool planned_;
   Eigen::VectorXd parameters_, values_, residuals_;
-  Eigen::MatrixXd derivatives_;  ///< of the residuals, by what is free
+  Eigen::MatrixXd derivatives_;  ///< of the residuals, with respect to the free parameters
   Eigen::MatrixXd information_;
   Inverse inverse_;
   Eigen::MatrixXd covariance_;  ///< of the free parameters
-  Eigen::VectorXd deviation_;   ///< their standard errors
+  Eigen::VectorXd deviation_;   ///< standard errors of the free parameters
   Dependence dependence_[7];    ///< of the errors of each observable, where their size is not given
-  double variance_ = 1;         ///< by which the robust loss needs more data for the same error
+  double variance_ = 1;         ///< factor of all variances, from the scatter of the residuals and the robust loss
   double quantile_ = normal_quantile;
   Fit fit_;
   std::optional<Eigen::VectorXd> better_;

@@ -116,7 +116,7 @@ VectorXd Search::carried(VectorXd parameters) const {
 }
 
 VectorXd Search::solve() {
-  // Of a long film first a part, then all of it.
+  // Solve for a part of a long film first, then for the whole film.
   std::vector<Track> part = with_noise(thinned(request.tracks, max_of_first_solution));
   FitRequest smaller = request;
   smaller.tracks = std::move(part);

@@ -12,15 +12,15 @@
 
 namespace contensou::fit {
 
-/// From this many standard deviations on, Huber's loss is linear: 95 % efficient on normal errors.
+/// Standard deviations from which Huber's loss is linear. With it the fit is 95 % efficient on normal errors.
 inline constexpr double huber_bend = 1.345;
-/// Of a longer film, a first solution is that of so many instants.
+/// Largest number of instants in the first solution of a film.
 inline constexpr Eigen::Index max_of_first_solution = 5000;
 
-/// What is held while all else is fitted anew: f^a eps^b, by its logarithm, or a number of a start.
+/// A number that is held while all others are fitted: the logarithm of f^a eps^b, or a number of a start.
 struct Coordinate {
   Eigen::Vector2d powers = Eigen::Vector2d::Zero();  ///< a and b
-  Eigen::Index place = -1;                           ///< of a number of a start
+  Eigen::Index place = -1;                           ///< place of the number of a start; -1 for f^a eps^b
 
   bool of_contact() const { return place < contact_parameters; }
 
@@ -28,7 +28,7 @@ struct Coordinate {
     return of_contact() ? powers.dot(parameters.head<2>()) : parameters[place];
   }
 
-  /// The nearest parameters where it has that value.
+  /// Returns the nearest parameters at which the number has the value `to`.
   Eigen::VectorXd moved(Eigen::VectorXd parameters, double to) const {
     if (of_contact()) {
       parameters.head<2>() += (to - of(parameters)) / powers.squaredNorm() * powers;
@@ -39,7 +39,7 @@ struct Coordinate {
   }
 };
 
-/// Orbits as sharp as any film.
+/// Relative accuracy of orbits in a quick search; no film is more accurate.
 inline constexpr double accuracy_of_guess = 1e-6;
 
 /// Returns the series of an observable; nullptr if the track has none.
@@ -87,33 +87,34 @@ class Search {
   /// Sum of squares of these, or twice Huber's loss.
   double cost(const Eigen::VectorXd& parameters) const;
 
-  /// The derivative of cost() along a direction.
+  /// Returns the derivative of cost() along a direction.
   double slope(const Eigen::VectorXd& parameters, const Eigen::VectorXd& direction) const;
 
-  /// The free parameters at a limit beyond which the sum of squares would be lower.
+  /// Returns the free parameters at a limit beyond which the sum of squares would be lower.
   std::vector<Eigen::Index> pushed_out(const Eigen::VectorXd& parameters) const;
 
-  /// The same with the velocity and the place of the body, in which what a film shows is linear, where they fit best.
+  /// Returns the parameters with the best velocity, place and angle of the body. The model is linear in these, so one
+  /// linear least-squares solution finds them.
   Eigen::VectorXd carried(Eigen::VectorXd parameters) const;
 
   /// Improves the free parameters by Levenberg and Marquardt's method, between their limits.
-  /// @param held       what stays as it is
-  /// @param tolerance  of the sum of squares, relative
+  /// @param held       number that keeps its value; null: none
+  /// @param tolerance  relative tolerance of the sum of squares
   /// @throws std::runtime_error  if they do not converge
   Eigen::VectorXd improved(Eigen::VectorXd parameters, const Coordinate* held = nullptr,
                            double tolerance = 1e-11) const;
 
-  /// Sets the standard deviations that are not known to those of the residuals.
-  /// @return  by how much the largest change of one was, relative
+  /// Sets the unknown standard deviations to those of the residuals.
+  /// @return  largest relative change of a standard deviation
   double estimate_noise(const Eigen::VectorXd& parameters);
 
-  /// Parameters of the ball as it is asked for, and of its start in each track.
+  /// Returns the parameters of the ball as given, and those of its start in each track.
   Eigen::VectorXd given() const;
 
-  /// The estimate, with standard deviations that are not known.
+  /// Returns the estimate; sets the unknown standard deviations.
   Eigen::VectorXd solve();
 
-  /// The estimate next to these parameters, with standard deviations that are not known.
+  /// Returns the estimate next to these parameters; sets the unknown standard deviations.
   Eigen::VectorXd settled(Eigen::VectorXd parameters);
 
   /// Akaike's criterion, but for a constant.
@@ -131,28 +132,28 @@ class Search {
   /// @return  the relative change
   double set_sd(std::size_t place, double sd);
 
-  /// Where a column shows no noise, what its other axis has.
+  /// For an observable that shows no noise: the other axis, whose standard deviation it takes.
   std::optional<std::size_t> sharp_as[7] = {};
   void follow_other_axes();
 
-  /// The tracks with standard deviations where they have none.
+  /// Returns the tracks with the estimated standard deviations where none are given.
   std::vector<Track> with_noise(std::vector<Track> tracks) const;
 
-  /// The best estimate from several starts, which the data tell.
+  /// Returns the best estimate from several starts of the search, which are guessed from the data.
   Eigen::VectorXd improved_from_guesses();
 
-  /// What the track may have begun with.
+  /// A possible start of a track, in the units of Parameter.
   struct Begun {
     double slip, spin, rolling;
   };
-  /// @param given  as given()
+  /// @param given  result of given()
   std::vector<Begun> starts_of(const Track& track, const Eigen::VectorXd& given) const;
 
-  /// Of one track: the parameters with those that place it on the plane, by linear least squares.
+  /// Fits the parameters that place a single track on the plane, by linear least squares.
   Eigen::VectorXd placed(Eigen::VectorXd parameters) const;
 };
 
-/// Each k-th instant of tracks, so that no track has more than so many.
+/// Returns tracks with each k-th instant, so that no track has more than `most` instants.
 std::vector<Track> thinned(const std::vector<Track>& tracks, Eigen::Index most);
 
 }  // namespace contensou::fit

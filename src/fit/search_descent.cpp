@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What Huber's loss makes of a residual, so that half the square of the result is the loss; and its derivative.
+/// Returns r such that half its square is Huber's loss of the residual. `softened_slope` returns its derivative.
 double softened(double residual) {
   const double size = std::abs(residual);
   return size <= huber_bend ? residual
@@ -24,7 +24,7 @@ double softened_slope(double residual) {
   return std::abs(residual) <= huber_bend ? 1 : huber_bend / std::abs(softened(residual));
 }
 
-/// The residuals as a function of what is free.
+/// The residuals as a function of the free parameters.
 struct Functor {
   using Scalar = double;
   using InputType = VectorXd;
@@ -32,15 +32,15 @@ struct Functor {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  /// Where a combination of ln f and ln eps is held, the first input goes along the line of both.
+  /// The line on which ln f and ln eps keep a held combination. The first input of the functor is the position on it.
   struct Line {
     Eigen::Vector2d direction;
-    double low = -std::numeric_limits<double>::infinity(), high = -low;  ///< where both are what they may be
+    double low = -std::numeric_limits<double>::infinity(), high = -low;  ///< between these both are within limits
   };
 
   const Search& search;
   VectorXd start;
-  std::vector<Index> free = search.free;  ///< of the other inputs
+  std::vector<Index> free = search.free;  ///< places of the other inputs
   std::optional<Line> line = {};
 
   Functor(const Search& of, VectorXd from, const Coordinate* held, const std::vector<Index>& kept)
@@ -135,12 +135,12 @@ std::vector<Index> Search::pushed_out(const VectorXd& parameters) const {
 
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
   if (request.each_search) request.each_search();
-  // A parameter that the sum of squares pushes beyond its limit is kept there while the others are improved, until it is
-  // pushed back: a step that is cut off at a limit is refused, and shorter and shorter ones would end the search too early.
+  // A parameter that the sum of squares pushes beyond its limit stays there, until it is pushed back, while the others
+  // are improved. Otherwise steps cut off at a limit are refused, and shorter ones end the search too early.
   constexpr int most_rounds = 5;
   std::vector<Index> kept;
   for (int i = 0; i < most_rounds; ++i) {
-    // What is held finds its limits itself.
+    // The line of a held combination has its own limits of friction and patch radius.
     VectorXd limited = model.limited(parameters);
     if (held != nullptr && held->of_contact()) limited.head<2>() = parameters.head<2>();
     std::vector<Index> pushed = pushed_out(limited);

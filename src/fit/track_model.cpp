@@ -26,7 +26,8 @@ double max_ratio(const reduction::Law& law, reduction::Inertia inertia) {
   return least;
 }
 
-/// The same after that many m/s^2, f g, have made a time of T.
+/// Converts integrals over T = f g t into integrals over t; speeds do not change.
+/// @param rate  f g, m/s^2, > 0
 Speeds over_rate(const Speeds& by, double rate) {
   return {by.v, by.u, by.slid / rate, by.turned / rate, by.centre, by.way / rate};
 }
@@ -40,7 +41,7 @@ struct Motion {
 
   double of(Parameter parameter) const { return parameters[TrackModel::place(parameter, number)]; }
 
-  /// What the orbit makes of a series: linear, so also what changes of the orbit do.
+  /// Returns the share of the orbit in an observable. It is linear in `by`, which may be a derivative of the orbit.
   double of_orbit(Observable observable, const Speeds& by) const {
     switch (observable) {
       case Observable::slip:
@@ -61,7 +62,7 @@ struct Motion {
     return by.turned / radius;
   }
 
-  /// The derivative of a series by a number that only places the track, at t.
+  /// Returns the derivative of an observable at t with respect to a parameter that only places the track.
   double placing(Observable observable, Parameter parameter, const Speeds& now, double t) const {
     using enum Observable;
     if (parameter == Parameter::direction) {
@@ -100,7 +101,7 @@ TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, co
       radius_(ball.ball.radius),
       gravity_(ball.environment.gravity),
       accuracy_(accuracy),
-      // What rolling friction holds slides like a puck.
+      // A ball that rolling friction keeps from turning slides like a puck: chi = 1.
       max_ln_patch_radius_(std::log(
           (kind_ == Kind::flat ? 1 : max_ratio(law, resisted ? reduction::Inertia{1, inertia_.gamma} : inertia_)) *
           radius_)),

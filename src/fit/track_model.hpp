@@ -10,15 +10,15 @@
 
 namespace contensou::fit {
 
-/// The motion of tracks under a law as a function of parameters, and its derivatives by them.
+/// The motion of tracks under a law as a function of parameters, and its derivatives with respect to them.
 ///
-/// A vector of parameters has ln f, ln eps and u_r, then, for each track, the numbers of its start in the order of Parameter.
-/// The slip may be negative: the same slip in the opposite direction. With rolling friction it is not.
+/// A vector of parameters contains ln f, ln eps and u_r. For each track the numbers of its start follow, in the order
+/// of Parameter. A negative slip is a slip in the opposite direction; with rolling friction the slip is >= 0.
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
-  /// @param accuracy  of orbits, as FilmOrbit
-  /// @param resisted  whether there is rolling friction
+  /// @param accuracy  accuracy of orbits, as in FilmOrbit
+  /// @param resisted  true if there is rolling friction
   TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy,
              bool resisted = false);
 
@@ -26,7 +26,7 @@ class TrackModel {
     return shared_parameters + start_parameters * static_cast<Eigen::Index>(tracks_.size());
   }
 
-  /// One for each value of each series, and one for each stop time.
+  /// Returns the number of values: one for each value of each series, and one for each stop time.
   Eigen::Index rows() const { return rows_; }
 
   static Eigen::Index place(Parameter parameter, std::size_t track = 0) {
@@ -39,29 +39,31 @@ class TrackModel {
         place < shared_parameters ? place : shared_parameters + (place - shared_parameters) % start_parameters);
   }
 
-  /// Of a place of a start.
+  /// Returns the track to which a place of a start belongs.
+  /// @param place  >= shared_parameters
   static std::size_t track_of(Eigen::Index place) {
     return static_cast<std::size_t>((place - shared_parameters) / start_parameters);
   }
 
-  /// What the motion gives, row by row: the series of the first track, its stop time, then the next.
+  /// Returns the values of the model row by row: the series of the first track, its stop time, then the next track.
   Eigen::VectorXd values(const Eigen::VectorXd& free) const;
 
-  /// Derivatives of the values by these of the parameters, a column each: by scaling and by the orbit's.
+  /// Returns the derivatives of the values with respect to the wanted parameters, one column each.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
-  /// What a parameter may be: eps <= R, of a ball without an invariant ray, slip and R spin up to max_speed.
+  /// Limits of a parameter. eps is at most R, and so small that a ball has no invariant ray. Slip and R spin are at
+  /// most max_speed.
   struct Range {
     double low, high;
   };
   Range range(Eigen::Index place) const;
   static constexpr double max_speed = 100;  ///< m/s
 
-  /// The parameters within what they may be.
+  /// Returns the parameters clamped to their limits.
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:
-  /// The orbit of track i, up to its last instant: the last one where only the friction has changed since.
+  /// Returns the orbit of track i up to its last instant; that of the last call if its numbers are the same.
   const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
   FilmOrbit::Numbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;

@@ -16,13 +16,13 @@ using Eigen::Index;
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-/// By how much Akaike's criterion of the one may be less than that of the other without a preference.
+/// Difference of Akaike's criterion up to which two fits count as equally good.
 constexpr double no_preference = 4;
-/// Of the surface about the vertical, m/s, unless the ball's own spin is faster: a table-tennis ball that turns 150 times
-/// a second, one of the fastest, has 19.
+/// Largest speed, m/s, of the surface by spin that is tried, unless the spin of the ball as given is faster. A
+/// table-tennis ball that turns 150 times a second, one of the fastest, has 19.
 constexpr double fastest_spin = 20;
 
-/// From one measured value to the next: the time and by how much the angle grew, up to whole turns.
+/// Two successive measured values: the time between them, s, and the growth of the angle, rad, up to whole turns.
 struct Step {
   double time, growth;
 };
@@ -43,7 +43,7 @@ double usual_time(const std::vector<Step>& steps) {
   return median(std::move(times));
 }
 
-/// How fast the angle grows in the first steps of the usual time, where no step is more than half a turn.
+/// Returns the rate, rad/s, at which the angle grows in the first steps of the usual time. Each is at most half a turn.
 double slow_rate(const std::vector<Step>& steps, double usual) {
   constexpr int most = 10;
   std::complex<double> sum = 0;
@@ -57,9 +57,9 @@ double slow_rate(const std::vector<Step>& steps, double usual) {
   return std::arg(sum) / usual;
 }
 
-/// The angle at its turns, where it grows at that rate at first.
+/// Adds whole turns to the angles of a track, given the rate, rad/s, at which the angle grows at first.
 void unwrap(const Track& track, Series& angle, double rate) {
-  constexpr double share_of_last = 0.3;  // in the rate, which is smooth
+  constexpr double share_of_last = 0.3;  // weight of the last step in the smoothed rate
   Index last = -1;
   for (Index i = 0; i < track.t.size(); ++i) {
     double& value = angle.value[i];
@@ -73,13 +73,13 @@ void unwrap(const Track& track, Series& angle, double rate) {
   }
 }
 
-/// Whether the spin tells where the angle turns to.
+/// Returns true if the track contains a value of the spin, which then determines the turns of the angle.
 bool seen_by_spin(const Track& track) {
   const Series* spin = series_of(track, Observable::spin);
   return spin != nullptr && !spin->value.isNaN().all();
 }
 
-/// The angle of one track at the turns that explain the data best.
+/// Sets the angles of one track to the turns that fit the data best.
 Turns set_turns(const FitRequest& request, Track& track) {
   Series* angle = series_of(track, Observable::angle);
   if (angle == nullptr) return {};
@@ -117,11 +117,11 @@ Turns set_turns(const FitRequest& request, Track& track) {
     try {
       const Eigen::VectorXd found = search.solve();
       trials.push_back({std::move(tried), search.criterion(found), found[TrackModel::place(Parameter::spin)]});
-    } catch (const std::runtime_error&) {  // not of these turns
+    } catch (const std::runtime_error&) {  // no fit has these turns
     }
   }
   if (trials.empty()) throw std::runtime_error("fit: the search for the parameters did not converge");
-  // Of those that explain the data as well as the best, the slowest.
+  // Among the fits as good as the best, take the one with the slowest spin.
   const double best = std::ranges::min(trials, {}, &Trial::criterion).criterion;
   std::erase_if(trials, [&](const Trial& trial) { return trial.criterion >= best + no_preference; });
   std::ranges::stable_sort(trials, {}, [](const Trial& trial) { return std::abs(trial.spin); });

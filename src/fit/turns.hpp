@@ -6,17 +6,16 @@
 
 namespace contensou::fit {
 
-/// As in Turns.
+/// Returns the spin at which a mark turns by half a turn between two pictures, rad/s: Turns::half_turn_spin.
 double half_turn_spin(const Track& track);
 
-/// Sets the angles of all tracks to the turn that they are of: a mark shows its angle up to whole turns, and from picture to
-/// picture the ball may have turned by more than half a turn.
+/// Adds whole turns to the angles of all tracks. A mark shows its angle up to whole turns, and the ball may turn by
+/// more than half a turn between two pictures.
 ///
-/// Turn by turn the angle goes on as it did last. How fast it begins, up to whole turns between two pictures, is tried:
-/// two more and two fewer, and what the ball's own spin says; the best fit of each track counts, of equally good ones the slowest spin.
-/// Where a spin is seen, too,
-/// it decides.
-/// @param request  with tracks as require() asks for them; their angles are changed
+/// Each angle continues at the last rate. The first rate is found by trial: up to two turns more or fewer between two
+/// pictures, and the turns by the spin of the ball as given. Each track takes the best fit; among equally good fits,
+/// the slowest spin. A measured spin determines the turns without a trial.
+/// @param request  its tracks satisfy require(); their angles are changed
 std::vector<Turns> set_turns(FitRequest& request);
 
 }  // namespace contensou::fit
