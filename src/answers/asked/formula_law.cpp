@@ -45,7 +45,8 @@ class FormulaLaw {
     return {phi, psi};
   }
 
-  /// That it resists wherever it slides and pivots, to a step of k that shows a pole or a gap.
+  /// Throws BadInput unless phi and psi are positive and finite at 3601 values of k from 1e-9 to 1e9. The steps are
+  /// small enough to show a pole or a gap.
   void require_resistance() const {
     constexpr double from = 1e-9, to = 1e9;
     constexpr int steps = 3600;
@@ -61,7 +62,7 @@ class FormulaLaw {
   }
 
  private:
-  /// Beyond, formulas may overflow. The limits are measured within.
+  /// Range of k in which the formulas are evaluated. Outside it they may overflow.
   static constexpr double least = 0x1p-90, most = 0x1p90;
 
   std::string name_;

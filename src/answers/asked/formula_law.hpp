@@ -8,21 +8,22 @@
 
 namespace contensou::answers {
 
-/// Whether the text of a law is formulas, and no name and no file.
+/// Returns true if the text of a law consists of formulas instead of a name or a file.
 bool is_formula_law(const std::string& text);
 
-/// The law of "phi = F; psi = G", formulas in k = v/(mu |u|) and parameters as answers/input/formulas.hpp has them: Phi, the
-/// force over f N, and Psi, the moment over f N times the radius of the patch. Its name is the text with the parameters.
+/// Returns the law of "phi = F; psi = G". F and G are formulas in k = v/(mu |u|) and parameters
+/// (answers/input/formulas.hpp). Phi is the force divided by f N. Psi is the moment divided by f N and the patch
+/// radius. The name of the law is the text with the parameters.
 ///
-/// Where k is below 2^-90 or beyond 2^90 the formulas are continued by the limits that reduction::Law checks within: Phi in
-/// proportion to k, Psi constant; 1 - Phi and Psi in proportion to 1/k.
+/// Below k = 2^-90 and above 2^90 limits continue the formulas: Phi proportional to k and Psi constant below; 1 - Phi
+/// and Psi proportional to 1/k above. reduction::Law checks these limits.
 ///
-/// @throws BadInput  for a mistake in a formula, at its character; for a law that does not resist, or has no limits,
-///                   with what was measured
+/// @throws BadInput  for a mistake in a formula, with its character; for a law that does not resist or has no limits,
+///                   with the measured values
 reduction::Law parse_formula_law(const std::string& text, const std::map<std::string, double>& parameters = {});
 
-/// What the `law` of a run file says: a name, or formulas.
-/// @throws std::domain_error  as reduction::find_law and parse_formula_law; none for a name that no law has
+/// Returns the law that a text names or gives by formulas, as the `law` of a run file; nothing for an unknown name.
+/// @throws std::domain_error  as reduction::find_law and parse_formula_law
 std::optional<reduction::Law> find_law_or_formulas(const std::string& text);
 
 }  // namespace contensou::answers

@@ -26,7 +26,7 @@ struct FormulaField {
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& x) const;
 
-  /// Returns the derivatives of (u', v') with respect to u and v, as Formula::with_slopes: row 0 is that of u'.
+  /// Returns the derivatives of (u', v') with respect to u and v by Formula::with_slopes: row 0 belongs to u'.
   Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
 
   operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): it is one
@@ -44,18 +44,18 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
 reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
                              const std::map<std::string, double>& parameters);
 
-/// Whether a start is the centre of the scaling, but for rounding.
+/// Returns true if a start equals the centre of the scaling up to rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
 
-/// A system solved by its scaling, else by an inverse integrating factor; or why it is not.
+/// A system solved by its scaling, else by an inverse integrating factor; or the reason why it is not solved.
 struct SolvedPlane {
   std::optional<reduction::PlanarReduction> plane;
   std::string why_not;
-  std::vector<reduction::TriedForm> tried = {};            ///< forms of the factor, where it was looked for
-  std::function<reduction::FactorFormula()> formula = {};  ///< of the factor that solves it
+  std::vector<reduction::TriedForm> tried = {};            ///< tried forms of the factor
+  std::function<reduction::FactorFormula()> formula = {};  ///< formula of the factor that solves the system
 };
 
-/// @param found  of the same start
+/// @param found  symmetries found from the same start
 SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
                          const Eigen::Vector2d& start);
 

@@ -82,7 +82,7 @@ portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::v
   std::vector<portraits::PortraitCaption> captions;
   for (std::size_t i = 0; i < specs.size(); ++i) captions.push_back(specs[i].caption(all[i]));
   portraits::PortraitCaption& first = captions.front();
-  // What is of one plane alone stands in its panel.
+  // The title is common to all panels. Each panel shows what belongs to its plane alone.
   first.subtitle = "";
   if (const auto& ball = specs.front().experiment) {
     first.title = portraits::shortened(ball->ball.name);

@@ -10,40 +10,41 @@
 
 namespace contensou::answers {
 
-/// Everything that a portrait is asked for by: the options of `portrait`, or the state of the page. Equal questions
-/// have equal answers, so that the page's command line draws what the page shows.
+/// The complete description of a portrait: the options of `portrait`, or the state of the page. Equal descriptions give
+/// equal portraits, so the command line that the page shows draws the same picture.
 struct PortraitSpec {
   reduction::Flow flow;
-  std::optional<reduction::State> start = {};     ///< of the highlighted orbit
-  std::optional<si::Experiment> experiment = {};  ///< where mu and start came from, if it is a ball in SI units
+  std::optional<reduction::State> start = {};     ///< start of the highlighted orbit
+  std::optional<si::Experiment> experiment = {};  ///< source of mu and start, if it is a ball in SI units
   portraits::PortraitRequest request = {};        ///< highlight and time unit follow from start and experiment
   portraits::PortraitStyle style = {};
 
+  /// Computes the portrait.
   /// @throws std::domain_error  as phase_portrait
   portraits::PhasePortrait portrait() const;
 
-  /// The drawing of that portrait, with the units of a ball.
+  /// Draws a portrait, with the units of a ball.
   portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
 
-  /// The drawing, and the map of each of its panels.
+  /// Draws a portrait, and returns the map of each panel, too.
   portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
 
-  /// What its data say about where they come from.
+  /// Returns the source that the data of the portrait state.
   portraits::PortraitSource source() const;
 
-  /// The request with what follows from start, experiment and style.
+  /// Returns the request, completed from start, experiment and style.
   portraits::PortraitRequest whole_request() const;
 
   std::vector<si::ReducedPiece> pieces() const;  ///< the orbits of a ball with rolling friction or on a slope
   portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
 };
 
-/// Portraits of specs that differ in flow, start and experiment alone, to be compared in one figure.
+/// Computes portraits for one figure. Their specs differ in flow, start and experiment only.
 /// @param specs  one or more
 /// @throws std::domain_error  as phase_portraits
 std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpec>& specs);
 
-/// The drawing of them. Throws as draw_together.
+/// Draws these portraits in one figure. Throws as draw_together.
 portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::vector<portraits::PhasePortrait>& all);
 
 }  // namespace contensou::answers

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t block_size = 1 << 15;
 constexpr std::size_t max_record = std::size_t{1} << 26;
 
-/// The name that iconv has for the encoding of a text in which each letter takes two bytes; empty for other texts.
+/// Returns iconv's name of the encoding of a text in UTF-16; empty for other texts.
 std::string_view utf16(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16";
   if (text.size() < 4) return {};
@@ -23,7 +23,7 @@ std::string_view utf16(std::string_view text) {
   return text[0] == '\0' && text[2] == '\0' ? "UTF-16BE" : "";
 }
 
-/// What to do about a header whose first name holds something else than commas that separates columns.
+/// Returns advice if the first name of a header contains a semicolon or a tab, which then separates columns; else "".
 std::string separator_hint(std::string_view name) {
   const std::size_t separator = name.find_first_of(";\t");
   if (separator == std::string_view::npos) return {};

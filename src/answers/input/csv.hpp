@@ -48,16 +48,16 @@ class CsvRow {
  public:
   CsvRow(const CsvBlock& block, const CsvBlock::Record& record) : block_(block), record_(record) {}
 
-  /// The line on which it begins, counted from 1. Lines end in LF, CR LF or CR, inside quotes, too.
+  /// Returns the line on which the record begins, counted from 1. Lines end in LF, CR LF or CR, inside quotes, too.
   long line() const { return record_.line; }
 
-  /// As it stands in the file, without its line end.
+  /// Returns the record as it stands in the file, without its line end.
   std::string_view text() const { return std::string_view(block_.text_).substr(record_.text_begin, record_.text_size); }
 
-  /// The number of its fields.
+  /// Returns the number of fields.
   std::size_t size() const { return record_.fields; }
 
-  /// A field, without its quotes.
+  /// Returns a field without its quotes.
   std::string_view operator[](std::size_t field) const {
     const std::size_t* ends = &block_.ends_[record_.field_begin + field];
     return std::string_view(block_.values_).substr(ends[0], ends[1] - ends[0]);
@@ -74,7 +74,7 @@ inline CsvRow CsvBlock::operator[](std::size_t place) const { return {*this, rec
 /// are comments and empty lines are ignored.
 class CsvParser {
  public:
-  /// @param source  what messages call the text
+  /// @param source  name of the text in messages
   explicit CsvParser(std::string source) : source_(std::move(source)) {}
 
   /// Appends the records to a block that end in the next piece of text.
@@ -129,8 +129,8 @@ class CsvReader {
   /// @throws BadLine            if there is no header, or it is not CSV; with a way out for UTF-16
   explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
 
-  /// Reads text that is there already.
-  /// @param source  what messages call it
+  /// Reads text from memory.
+  /// @param source  name of the text in messages
   /// @throws BadLine  as above
   CsvReader(std::string text, const std::string& source);
   CsvReader(const CsvReader&) = delete;
@@ -139,33 +139,34 @@ class CsvReader {
   const std::vector<std::string>& names() const { return names_; }
   long header_line() const { return header_line_; }
 
-  /// The column of that name, spaces around it aside.
-  /// @throws BadLine  unless there is exactly one; with a way out for a table that semicolons or tabs separate
+  /// Returns the column of a name. Spaces around names do not count.
+  /// @throws BadLine  unless there is exactly one; with advice for columns separated by semicolons or tabs
   CsvColumn column(std::string_view name) const;
   bool has_column(std::string_view name) const;
 
-  /// Whether next does not have to wait.
+  /// Returns true if `next` would not wait for input.
   bool ready() const;
 
-  /// The next records: what is there when the input pauses, some 32 kB at most; false at the end.
-  /// @throws BadLine            as CsvParser, when all records before have been given
+  /// Reads the next records: those available when the input pauses, about 32 kB at most.
+  /// @return  false at the end
+  /// @throws BadLine            as CsvParser, after all records before the mistake have been returned
   /// @throws std::system_error  if the file cannot be read
   bool next(CsvBlock& block);
 
-  /// Calls a function with each record that is left.
+  /// Calls a function with each remaining record.
   /// @throws BadLine  as next and require_complete
   void for_each_row(const std::function<void(const CsvRow&)>& take);
 
   /// @throws BadLine  unless the record has as many fields as the header
   void require_complete(const CsvRow& row) const;
 
-  /// The number in a field of a complete record.
-  /// @throws BadLine  naming the column, if it is none
+  /// Returns the number in a field of a complete record.
+  /// @throws BadLine  naming the column, if the field is no number
   double number(const CsvRow& row, const CsvColumn& column, Infinity infinity = Infinity::forbidden) const;
 
   BadLine complaint(long line, std::string_view message) const { return parser_.complaint(line, message); }
 
-  /// How much of the file was read; NaN for a file of unknown length.
+  /// Returns the share of the file that was read, 0 to 1; NaN for a file of unknown length.
   double fraction_read() const { return bytes_read_ / bytes_; }
 
  private:
@@ -177,7 +178,7 @@ class CsvReader {
   /// Appends to the buffer what one read gives.
   void read_some();
 
-  std::optional<platform::InputFile> file_;  ///< none: all is in the buffer
+  std::optional<platform::InputFile> file_;  ///< none: the buffer contains the whole text
   CsvParser parser_;
   std::string buffer_;
   double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< of the file, if known

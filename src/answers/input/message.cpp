@@ -16,7 +16,8 @@ bool is_one_of(const std::exception& error) {
   return (... || (dynamic_cast<const Kinds*>(&error) != nullptr));
 }
 
-/// Whether a word before a colon is a name of the library. A column of a table may look like one inside a message.
+/// Returns true if a word before a colon is a name of the library.
+/// @param first  true at the beginning of a message; later a column of a table may look like such a name
 bool is_internal(std::string_view word, bool first) {
   const auto count = [&](auto kind) { return std::ranges::count_if(word, kind); };
   const auto is_upper = [](char letter) { return letter >= 'A' && letter <= 'Z'; };

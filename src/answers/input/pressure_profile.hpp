@@ -7,13 +7,14 @@
 
 namespace contensou::answers {
 
-/// The law of the pressure in a CSV file with columns rho, pressure; its name is the path.
+/// Reads the law of a pressure from a CSV file with columns rho, pressure. The name of the law is the path.
 /// @throws BadLine             naming file and line, if the table breaks a rule of TabulatedPressureLaw
 /// @throws std::runtime_error  naming the file, as TabulatedPressureLaw
 /// @throws std::system_error   if the file cannot be read
 reduction::Law read_pressure_profile(const std::string& path);
 
-/// The same of a table that is read already as far as its header.
+/// Reads the law from a table whose header is already read.
+/// @param name  name of the law
 reduction::Law read_pressure_profile(CsvReader& table, const std::string& name);
 
 }  // namespace contensou::answers

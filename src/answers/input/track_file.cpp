@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::string_view deviation = "_sd";
 constexpr const char* frame = "frame";
-/// Of the spin, as a motion in CSV calls it.
+/// Name of the spin in the CSV of a motion.
 constexpr const char* spin_of_motion = "wz";
 
-/// Of a field: empty, and what numpy and R write for it, was not.
+/// Returns false for an empty field, and for the words that numpy and R write for a missing value.
 bool is_measured(std::string_view field) {
   field = without_spaces(field);
   for (std::string_view nothing : {"", "nan", "NaN", "NAN", "NA"}) {
@@ -34,9 +34,9 @@ struct SeriesColumns {
   std::optional<SiColumn> sd;
 };
 
-/// Whether a length or speed without a unit seems to be in mm.
+/// Returns a doubt whether a length or speed without a unit is in mm, if it is larger than a film shows; else "".
 std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
-  constexpr double too_much = 30;  // m or m/s, of a ball that is filmed
+  constexpr double too_much = 30;  // m or m/s; a filmed ball stays below
   const std::string_view unit = fit::kind_of(of.observable).unit;
   if (!of.value.unit.empty() || (unit != "m" && unit != "m/s")) return "";
   double largest = 0;

@@ -17,15 +17,15 @@ struct Column {
   Eigen::ArrayXd values;
 };
 
-/// How text rounds numbers.
+/// Number of digits to which text rounds numbers.
 struct Digits {
-  int count;  ///< significant ones
+  int count;  ///< significant digits
 
-  /// Of a column: with sign, point, exponent and two spaces.
+  /// Returns the width of a column of numbers: digits, sign, point, exponent and two spaces.
   int width() const { return count + 8; }
   std::string operator()(double value) const;
 
-  /// (a, b, ...)
+  /// Returns "(a, b, ...)".
   template <class Values>
   std::string list(const Values& values) const {
     std::string text;
@@ -34,38 +34,38 @@ struct Digits {
   }
 };
 
-/// What a verb answers, for every format.
+/// The answer of a verb, from which every format is made.
 struct Answer {
-  Json members = Json::object();         ///< of the JSON document, after the number of its schema and the version
-  std::vector<Column> columns = {};      ///< of CSV and text; the last members of JSON
-  Json remarks = Json::object();         ///< of CSV with columns: a line of comment each, before the header
-  std::vector<Json> rows = {};           ///< of CSV where there are no columns: objects with the same names
-  std::vector<std::string> beside = {};  ///< names in rows that a table in a paper has no room for
+  Json members = Json::object();         ///< members of JSON, after the number of the schema and the version
+  std::vector<Column> columns = {};      ///< columns of CSV and text; the last members of JSON
+  Json remarks = Json::object();         ///< comment lines before the header, for CSV with columns
+  std::vector<Json> rows = {};           ///< rows of CSV without columns: objects with the same names
+  std::vector<std::string> beside = {};  ///< names in rows that TeX leaves out, for lack of room in a paper
   std::function<std::string(const Digits&)> text = {};  ///< empty: the columns, or the rows as in CSV
   std::function<Answer()> numbers = {};  ///< makes the answer for every format except text; empty: this answer
 };
 
-/// The formats of an answer, the standard one first.
+/// Returns the formats of an answer, the standard one first.
 std::vector<std::string> answer_formats(const std::string& standard);
 
-/// The text of an answer. CSV and JSON have the shortest digits that read back to the same double; CSV has the members
-/// of an object in a row as columns of their own. TeX is a tabular for \input, with the same columns and text's digits; of
-/// fewer rows than columns it is turned.
+/// Returns an answer in a format. CSV and JSON write the shortest digits that read back to the same double. In CSV each
+/// member of an object in a row has its own column. TeX is a tabular for \input with the same columns and the digits of
+/// text; with fewer rows than columns it is transposed.
 /// @param format  one of answer_formats
-/// @throws std::runtime_error  for NaN, which JSON cannot say
-/// @throws std::domain_error   for a letter that LaTeX has not
+/// @throws std::runtime_error  for NaN, which JSON cannot express
+/// @throws std::domain_error   for a letter that LaTeX lacks
 std::string render(const Answer& answer, const std::string& format, Digits digits);
 
-/// The fields as a line of CSV, in quotes where they need them.
+/// Returns the fields as a line of CSV, with quotes where a field needs them.
 std::string csv_line(const std::vector<std::string>& fields);
 
-/// The entries of a vector, as a list.
+/// Returns the entries of a vector as a list.
 template <class Values>
 Json list_of(const Values& values) {
   return std::vector(values.begin(), values.end());
 }
 
-/// The number, or infinity for what is none: no format says NaN.
+/// Returns the value, or infinity for NaN, which no format writes.
 double or_infinity(double value);
 
 }  // namespace contensou::answers

@@ -11,10 +11,11 @@ namespace contensou::answers {
 
 using AimGoal = std::variant<si::Goal, si::RollingGoal>;
 
-/// What `aim` says: the start that comes to the goal, what it comes to, and how a cue makes it. Throws as si::aimed.
+/// Returns the answer of `aim`: the start that reaches the goal, its result, and the stroke of a cue that gives this
+/// start. Throws as si::aimed.
 Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const AimGoal& goal);
 
-/// The fields of that answer.
+/// Returns the fields of that answer.
 std::vector<FieldText> aim_fields();
 
 }  // namespace contensou::answers

@@ -21,8 +21,8 @@ namespace {
 
 using portraits::Point;
 
-/// What one start of some ratio of the speeds comes to; another of that ratio c times as fast has c times the time and c^2
-/// times the others.
+/// The result of a start, in SI units and turns. A start with the same ratio of slip and spin, c times as fast, has c
+/// times the slip, spin and time, and c^2 times the distance and turns.
 struct Arrival {
   double slip, spin, time, distance, turns;
 };
@@ -34,11 +34,11 @@ Arrival arrival_of(const si::Experiment& ball, const reduction::Flow& flow, redu
           si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
 }
 
-/// From spin alone to slip alone.
+/// Returns the results of starts from spin alone to slip alone.
 std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow& flow) {
   const double mu = flow.system().mu();
   std::vector<Arrival> all{arrival_of(ball, flow, {1, 0})};
-  constexpr double widest = 16;  // of ln k
+  constexpr double widest = 16;  // largest |ln k|
   constexpr int steps = 320;
   for (int i = 0; i <= steps; ++i) {
     const double ln_k = widest * (2.0 * i / steps - 1);
@@ -115,7 +115,7 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
   const std::vector<Arrival> all = arrivals(ball, flow);
   const Arrival &in_place = all.front(), &straight = all.back();
   const Arrival end = arrival_of(ball, flow, {ball.ball.radius * start.spin, start.slip});
-  // Of what is 0 as much as that time allows.
+  // A distance or number of turns of 0 is replaced by the largest one that the time allows.
   const auto squared = [](double x) { return x * x; };
   const double x = end.distance > 0 ? end.distance : straight.distance * squared(end.time / straight.time);
   const double y = end.turns > 0 ? end.turns : in_place.turns * squared(end.time / in_place.time);

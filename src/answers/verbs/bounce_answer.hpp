@@ -9,13 +9,13 @@
 
 namespace contensou::answers {
 
-/// What `bounce` says about one ball.
-/// @param height         m, from which it was dropped, if it was
-/// @param rolling_below  m/s of slip
+/// Returns the answer of `bounce` for one ball.
+/// @param height         height from which the ball was dropped, m; none if it was not dropped
+/// @param rolling_below  slip below which the ball rolls, m/s, > 0
 Answer bounce_answer(const si::Experiment& experiment, const reduction::Law& law, const si::Impact& impact,
                      std::optional<double> height, double rolling_below);
 
-/// The fields of that answer.
+/// Returns the fields of that answer.
 std::vector<FieldText> bounce_fields();
 
 }  // namespace contensou::answers

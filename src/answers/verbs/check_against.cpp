@@ -140,7 +140,7 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
   const std::vector<Instant> instants = read_instants(table, ball.ball);
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;
-  // How it rolls matters where rolling resistance or a slope acts.
+  // The effects of rolling resistance and slope depend on the rolling, so the start needs the whole velocities.
   const bool driven = si::is_driven(ball);
   if (const auto& body = instants.front().body; driven && body) {
     const auto& [velocity, w] = *body;

@@ -12,21 +12,21 @@
 
 namespace contensou::answers {
 
-/// How far slip or spin of a table is from that of a model.
+/// Deviation of the slip or the spin of a table from that of a model.
 struct Deviation {
-  double error = 0;          ///< the worst, in m/s or rad/s
-  double relative = 0;       ///< the same, of the start
-  double t = infinity;       ///< s in the table, of the worst row
-  double leaves = infinity;  ///< s in the table, of the first row beyond the tolerance
+  double error = 0;          ///< largest error, m/s or rad/s
+  double relative = 0;       ///< largest error as a share of the start
+  double t = infinity;       ///< time of the worst row in the table, s
+  double leaves = infinity;  ///< time of the first row beyond the tolerance, s
 };
 
 /// A model of the motion beside a table.
 struct ModelBeside {
   std::string name;
-  std::function<si::SlipAndSpin(double)> motion;  ///< at a time in s from the first row
+  std::function<si::SlipAndSpin(double)> motion;  ///< takes the time from the first row, s
   Deviation slip = {}, spin = {};
 
-  double worst() const;  ///< relative
+  double worst() const;  ///< larger relative error of slip and spin
 };
 
 /// A row of a table.
@@ -34,28 +34,30 @@ struct Instant {
   long line;
   double t;  ///< s
   si::SlipAndSpin speeds;
-  std::optional<si::Velocities> body = {};  ///< of a rigid body
+  std::optional<si::Velocities> body = {};  ///< velocities in the log of a rigid body
 };
 
-/// A table of a ball's motion beside those of a ball that starts as it does.
+/// A table of a ball's motion beside the motions of models with the same start.
 struct MotionsBeside {
   std::vector<Instant> rows;
   si::SlipAndSpin start;
-  double slip_unit, spin_unit;      ///< what errors are shares of, in m/s and rad/s
-  std::vector<ModelBeside> models;  ///< the law's own first
+  double slip_unit, spin_unit;      ///< errors are shares of these, m/s and rad/s
+  std::vector<ModelBeside> models;  ///< the model of the law first
 
-  /// The model that is closest, the law's own before others as close.
+  /// Returns the closest model; among equally close ones, that of the law.
   const ModelBeside& nearest() const;
 };
 
-/// The log of a rigid body: slip is |(vx - R wy, vy + R wx)|, Zh98 (2.1), of a body that lies flat |(vx, vy)|.
+/// Compares a table of a motion with models. The slip of a rigid body is |(vx - R wy, vy + R wx)|, Zh98 (2.1); that of
+/// a body that lies flat is |(vx, vy)|.
 ///
-/// @param path       of a file with columns t (or time), slip and spin (or wz, as roll calls it), or, of a rigid body, vx, vy,
-///                   wx, wy, wz in place of slip and spin; in SI units or in those behind their names; "-" is standard input
-/// @param ball       starts as the first row says
-/// @param values     in place of those of the first row
-/// @param tolerance  a share of the start
-/// @throws BadLine            for a mistake in the table, a start among them that the ball cannot have
+/// @param path       file with columns t (or time), slip and spin (or wz, as in roll); or, for a rigid body, vx, vy,
+///                   wx, wy, wz in place of slip and spin; in SI units or the units behind the names; "-" is standard
+///                   input
+/// @param ball       ball that starts with the first row
+/// @param values     values that replace those of the first row
+/// @param tolerance  largest error that passes, as a share of the start, > 0
+/// @throws BadLine            for a mistake in the table, or a start that the ball cannot have
 /// @throws std::system_error  if the file cannot be read
 MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
                                    const reduction::Law& law, double tolerance);

@@ -9,11 +9,12 @@
 
 namespace contensou::answers {
 
-/// What `engine` prints: of a ball, and of each engine or of one, what to type in and what that does. CSV has a row for
-/// each setting.
+/// Returns the answer of `engine` for a ball: the settings of each engine, or of one, and their effect. CSV contains
+/// one row for each setting.
+/// @param only  the only engine; null: all
 Answer engine_answer(const si::Experiment& experiment, const reduction::Law& law, const si::Engine* only = nullptr);
 
-/// The fields of that answer.
+/// Returns the fields of that answer.
 std::vector<FieldText> engine_fields();
 
 }  // namespace contensou::answers

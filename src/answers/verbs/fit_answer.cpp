@@ -52,7 +52,7 @@ std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vect
   return text + (outliers.size() > most ? ", ... s" : " s");
 }
 
-/// What else is to be known, a sentence each.
+/// Returns the remarks on a fit, such as outliers and turns of a mark found by trial, one sentence each.
 std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::Track>& tracks, bool planned) {
   std::vector<std::string> remarks;
   for (const fit::Noise& noise : fit.noise) {

@@ -22,12 +22,12 @@ using portraits::Point;
 constexpr Colour fit_colour{0x8c0f35};
 constexpr Colour textbook_colour{0x777777};
 constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
-/// Of the tracks, one after the other; told apart in grey, too.
+/// Colours of the tracks, one after the other. They differ in grey, too.
 constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
 
-/// So many values are shown of a track; more would be one blot.
+/// Largest number of values shown of a track. More would be one blot.
 constexpr Eigen::Index most_marks = 250;
-/// Residuals beyond that many standard deviations are arrows at the border.
+/// Standard deviations beyond which residuals are drawn as arrows at the border.
 constexpr double residual_border = 4;
 
 Panel empty(portraits::Text title, portraits::Text name) {
@@ -44,7 +44,7 @@ void widen(portraits::Axis& axis, double margin) {
   axis.high += margin * length;
 }
 
-/// Lengths in mm where none reaches a metre, and speeds likewise.
+/// Unit of an axis: mm or mm/s for values below 0.1 m or 0.1 m/s.
 struct ShownUnit {
   std::string name;
   double factor = 1;
@@ -62,13 +62,14 @@ ShownUnit shown_unit(const fit::Fit& fit, const std::vector<fit::Track>& tracks,
   return unit.starts_with('m') && largest < small ? ShownUnit{"m" + unit, 1e3} : ShownUnit{unit};
 }
 
-/// An angle at the turn of another one.
+/// Adds whole turns to an angle, rad, so that it is nearest to another one.
 double at_turn_of(double other, double angle) {
   constexpr double turn = 2 * std::numbers::pi;
   return angle + turn * std::round((other - angle) / turn);
 }
 
-/// What the textbook's ball, from the same start, shows of slip, spin or angle at those times; nothing of others.
+/// Returns slip, spin or angle, in SI units, by the uncoupled model with the same start; empty for other observables.
+/// @param times  s from the start
 Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::size_t track,
                            fit::Observable observable, const Eigen::ArrayXd& times) {
   using fit::Observable, fit::Parameter;
@@ -86,7 +87,7 @@ Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::
   return fit.estimate(Parameter::angle, track).value + spin * spinning * (1 - spinning / (2 * motion.spin_end()));
 }
 
-/// Data with the fit, and what is left, of one observable.
+/// Two panels of one observable: data with the fit, and residuals.
 struct Pair {
   Panel data, residuals;
 };
@@ -197,7 +198,7 @@ Panel confidence_panel(const fit::Fit& fit) {
   return panel;
 }
 
-/// A number with its error, or with its interval where no single error tells that.
+/// Returns a number with its standard error, or its interval if that is skewed.
 std::string with_error(const fit::Estimate& estimate, double scale, std::string_view unit = "") {
   if (!estimate.determined()) return "not determined";
   const std::string of = unit.empty() ? "" : fmt::format(" {}", unit);
@@ -207,7 +208,7 @@ std::string with_error(const fit::Estimate& estimate, double scale, std::string_
   return fmt::format("{:.4g} ± {:.2g}{}", estimate.value * scale, estimate.standard_error * scale, of);
 }
 
-/// What was found, in words.
+/// Returns a panel with the results in words.
 Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   Panel panel = empty("", "");
   panel.bare = true;
@@ -236,7 +237,7 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   return panel;
 }
 
-/// Whether a number has an error that an axis can show; of data without noise it has none.
+/// Returns true if the error of a number is large enough for an axis. Data without noise give no such error.
 bool has_width(const fit::Estimate& estimate) {
   constexpr double least = 1e-6;
   return std::isfinite(estimate.standard_error) && estimate.standard_error > least * estimate.value;

@@ -23,7 +23,7 @@ using reduction::TerminalRatios;
 
 namespace {
 
-/// Of something that has a place in an enumeration.
+/// Returns the text at the place of an enumerator.
 template <class Enumeration>
 std::string_view text_of(const std::array<std::string_view, 3>& texts, Enumeration place) {
   return texts[static_cast<std::size_t>(place)];
@@ -31,7 +31,7 @@ std::string_view text_of(const std::array<std::string_view, 3>& texts, Enumerati
 
 /// In the order of TerminalRegime.
 constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
-/// In the order of InvariantDirection: what tends to what along an orbit that enters the origin.
+/// Approach of an orbit to the origin, in the order of InvariantDirection.
 constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
                                                      "along u = 0: 1/k falls"};
 
@@ -42,7 +42,7 @@ std::string_view effect(const InvariantRay& ray) {
                               : "repels";
 }
 
-/// The end of the largest sector of starts, by the angle of (mu |u|, v).
+/// Returns the index of the end with the largest sector of starts, by the angle of (mu |u|, v).
 std::size_t usual_end(const TerminalRatios& ratios) {
   const auto sector = [](const TerminalRatio& end) { return std::atan(end.to) - std::atan(end.from); };
   return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());
@@ -99,7 +99,7 @@ constexpr Field<TerminalRatios> list_fields[]{
      "", 0, " [{`limit`, ...}]"},
 };
 
-/// What both answers say; of the ends the usual one stands before the others.
+/// Returns the members common to both answers. The usual end stands before the list of all ends.
 Json ratio_members(const TerminalRatios& ratios) {
   Json members = members_of(regime_fields, ratios);
   members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
@@ -107,7 +107,7 @@ Json ratio_members(const TerminalRatios& ratios) {
   return members;
 }
 
-/// Along what and how closely orbits enter the origin at an end.
+/// Returns the half-line along which orbits enter the origin at an end, with its k and the order of contact.
 Json tangent_of(const PhasePlane& plane, std::size_t end) {
   const auto& [direction, k, order] = plane.tangents[end];
   return {{"half_line", name(direction)}, {"k", k}, {"contact_order", order}};

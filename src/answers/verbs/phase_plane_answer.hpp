@@ -8,14 +8,14 @@
 
 namespace contensou::answers {
 
-/// What `terminal` prints: the ratios that k tends to, and the invariant rays. CSV has a row for each ratio.
+/// Returns the answer of `terminal`: the limits of k, and the invariant rays. CSV contains one row for each limit.
 Answer terminal_answer(const reduction::ReducedSystem& system);
 
-/// What `portrait --facts` prints: regime, singular points with eigenvalues and kind, how orbits enter the origin. CSV
-/// has a row for each singular point.
+/// Returns the answer of `portrait --facts`: regime, singular points with eigenvalues and kind, and the way in which
+/// orbits enter the origin. CSV contains one row for each singular point.
 Answer phase_plane_answer(const reduction::ReducedSystem& system);
 
-/// The fields of these answers.
+/// Returns the fields of each of these answers.
 std::vector<FieldText> terminal_fields();
 std::vector<FieldText> phase_plane_fields();
 

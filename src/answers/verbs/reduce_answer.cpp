@@ -268,7 +268,7 @@ std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const
   };
 }
 
-/// As solved_by_scaling, for a system that V alone solves.
+/// Adds the members of a solution by V alone and returns its text. For a scaling, solved_by_scaling does so.
 std::function<std::string(const Digits&)> solved_by_factor(Json& members, const SolvedPlane& solved) {
   const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
   const std::string_view form = solved.plane->form();
@@ -283,8 +283,8 @@ std::function<std::string(const Digits&)> solved_by_factor(Json& members, const 
   return [=](const Digits&) { return lines; };
 }
 
-/// How far the state that the solution gives is from that of steps, relative to the way between, and when: at 95 % of a
-/// finite end time, else at 5; none where one of them gives no state.
+/// Difference between the states by the solution and by steps at a time: at 95 % of a finite end time, else at 5. It is
+/// divided by the distance from 0 of the start or of the state by steps, whichever is larger.
 struct BySteps {
   double time, difference;
 };

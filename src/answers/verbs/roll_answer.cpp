@@ -49,11 +49,11 @@ constexpr Field<Roll> start_fields[]{
      " {`t` [...], `load` [...]}"},
 };
 
-/// What happens, to a ball or to the textbook's.
+/// Events of the motion of a body, or of the uncoupled model.
 struct RollEvents {
   si::Events of;
   bool lies_flat;
-  std::optional<double> threshold = {};  ///< m/s, below which it rolls
+  std::optional<double> threshold = {};  ///< slip below which the ball rolls, m/s
 };
 
 constexpr Field<RollEvents> event_fields[]{
@@ -225,7 +225,7 @@ std::string events_text(const Roll& roll, const Digits& digits) {
   return text;
 }
 
-/// How rolling resistance and a slope act, and what found the motion.
+/// Returns lines on the effect of rolling resistance and slope, and on the route that found the motion.
 std::string resistance_text(const Roll& roll, const Digits& digits) {
   const si::Environment& environment = roll.experiment.environment;
   std::string text;

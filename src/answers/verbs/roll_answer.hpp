@@ -20,14 +20,14 @@ struct Roll {
   si::Experiment experiment;
   reduction::Law law;
   bool integrated;       ///< the route of its columns: the equations of motion instead of the similarity solution
-  double rolling_below;  ///< m/s of slip
+  double rolling_below;  ///< slip below which the ball rolls, m/s
   std::optional<si::LoadHistory> load = {};
   si::Motion whole = si::Motion::reduced(experiment, law, load).finite();
   si::Motion textbook = si::Motion::uncoupled(experiment, law, rolling_below, load).finite();
   std::optional<si::Motion> in_steps = integrated ? std::optional(si::Motion::in_steps(experiment, law)) : std::nullopt;
   std::optional<Uncertainty> uncertainty = {};
   std::optional<si::EventGradient> gradient = {};
-  std::optional<double> tip = {};  ///< of a stroke of a cue: radii above the centre
+  std::optional<double> tip = {};  ///< height of a cue's tip above the centre, in radii
 
   si::Events ours() const { return whole.events(rolling_below); }
   si::Events theirs() const { return textbook.events(rolling_below); }
@@ -36,22 +36,23 @@ struct Roll {
 
   si::MotionColumns at(const Eigen::ArrayXd& times) const { return (in_steps ? *in_steps : whole).at(times); }
 
-  /// Where a series of instants ends unless the user says otherwise, in s: a little past the stop, and the rest.
+  /// Returns the default end of a series of instants, s: 1.1 times Motion::last_time, or 1 if that is 0.
   double standard_end() const;
 };
 
-/// Columns of the motion at these instants, and its events.
+/// Returns the columns of the motion at these instants, and its events.
 /// @param times  s
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 
-/// The motion on one screen, first in one sentence: where and when the ball ceases to slip, how it rolls on, what friction took, and the
-/// textbook's answer beside it. For the route integrated, how close its stop is.
+/// Returns the motion as text of one screen. First comes one sentence. Then come time and place of the end of slip, the
+/// rolling after it, the energy taken by friction, and the uncoupled model beside it. The route `integrated` adds the
+/// error of its stop.
 std::string roll_text(const Roll& roll, const Digits& digits);
 
-/// The fields of that answer.
+/// Returns the fields of that answer.
 std::vector<FieldText> roll_fields();
 
-/// {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}, by the names of components.
+/// Returns {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}, where NAME is a component.
 Json members_of(const si::EventGradient& gradient);
 
 }  // namespace contensou::answers

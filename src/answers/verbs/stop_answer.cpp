@@ -45,8 +45,8 @@ double tau_under(const GivenStart& start, const reduction::Law& law) {
   return tau_of(experiment, law);
 }
 
-/// The two laws of the paper are of one pressure: each says how good the other is. Of another pressure they say
-/// nothing, nor where only one speed is: there they are one law.
+/// Returns the stop time under the other law of the paper, which belongs to the same pressure. Nothing for other laws,
+/// and nothing if slip or spin is 0, where both laws agree.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
   const reduction::ReducedSystem& system = start.system;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
@@ -55,7 +55,8 @@ std::optional<OtherLaw> other_law(const GivenStart& start) {
   return OtherLaw{other.name(), tau_under(start, other)};
 }
 
-/// What a table of pressures says with every other row left out: interpolation costs no more if its rows sample a curve.
+/// Stop time under a table of pressures with every other row left out. If its rows sample a curve, the change of the
+/// stop time bounds the interpolation error.
 struct CoarserTable {
   Eigen::Index rows;
   double tau;
@@ -79,17 +80,17 @@ struct StopReport {
   std::optional<CoarserTable> coarser;             ///< of a law that is a table of pressures
   std::vector<reduction::StopEstimate> estimates;  ///< for small mu
   std::optional<reduction::StopTimeGradient> gradient;
-  std::optional<Uncertainty> uncertainty;    ///< of t_stop, of what is no ball tau_stop
-  std::optional<si::LoadHistory> load = {};  ///< that changes
+  std::optional<Uncertainty> uncertainty;    ///< of t_stop for a ball, else of tau_stop
+  std::optional<si::LoadHistory> load = {};  ///< a load that changes
 
-  /// Of a ball, until friction under the load has done what takes so much tau.
+  /// Returns the time, s, that a ball takes for tau, >= 0, under its load, which may change.
   double seconds(double tau) const {
     const double nominal = si::seconds(*start.experiment, tau);
     return load ? load->time_of(nominal) : nominal;
   }
 };
 
-/// tau of a body that does not slide at the start; with a drive it begins to.
+/// Returns the stop time tau of a body that does not slide at the start. With a drive it begins to slide.
 double pivoting_only(const GivenStart& start) {
   const auto& [system, state, experiment, motion] = start;
   if (experiment && si::is_driven(*experiment) && state.u != 0) {
@@ -111,12 +112,12 @@ std::optional<si::Event> rest_of(const GivenStart& start) {
   return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }
 
-/// What an estimate is too long by; 0 where both are infinite.
+/// Returns the estimate minus the stop time; 0 if both are infinite.
 double error_of(const reduction::StopEstimate& estimate, const reduction::StopTime& stop) {
   return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
 }
 
-/// A derivative of the stop time, and what it is by.
+/// A derivative of the stop time with respect to the variable `by`, whose value is `at`.
 struct Derivative {
   const char* by;
   double value, at;
@@ -315,7 +316,7 @@ class Text {
                        number_(report_.load->nominal()));
   }
 
-  /// What else acts on a ball.
+  /// Returns lines on rolling friction and slope, and on the pieces of the motion; empty for a ball without them.
   std::string resistance(const si::Experiment& experiment) const {
     if (!si::is_driven(experiment)) return "";
     std::string text;
@@ -354,7 +355,7 @@ class Text {
     const TextTable::Column number = TextTable::right(number_.width());
     TextTable table(experiment ? std::vector{TextTable::left(18), number, number}
                                : std::vector{TextTable::left(18), number});
-    /// Of a ball, seconds first.
+    /// Adds a row. For a ball, the seconds stand before tau.
     const auto line = [&](const std::string& label, const std::string& seconds, const std::string& tau,
                           const std::string& note) {
       std::vector<std::string> cells{label, tau, note.empty() ? "" : "    " + note};

@@ -42,7 +42,7 @@ struct Spread {
 struct Spreadable {
   Spread number;
   std::string_view unit;         ///< as of a Quantity
-  std::string_view corner = {};  ///< what has a corner, and so no first order, where it is 0; empty: nothing
+  std::string_view corner = {};  ///< text that names a result without a derivative at number = 0; empty: none
 };
 
 /// Numbers that are known to so much, and how their errors go together.
@@ -64,11 +64,11 @@ std::string key(std::string name) {
   return name;
 }
 
-/// Reads "slip=1%, spin=2 rad/s, ...". A % is of the value. "fit" is what the ball itself is known to, which numbers that are
-/// named beside it replace: those are independent of the others.
-/// @param known  by their names, with an underscore
-/// @param own    of the ball
-/// @throws BadInput  naming what is wrong, what is allowed, and for a value that is 0: there may be a corner
+/// Reads "slip=1%, spin=2 rad/s, ...", where % means per cent of the value. "fit" stands for the spreads of the ball.
+/// Numbers named beside it replace spreads of the ball and are independent of the others.
+/// @param known  numbers that may be named, with an underscore in their names
+/// @param own    spreads of the ball
+/// @throws BadInput  naming the mistake and the allowed values; also for a number that is 0 and has a `corner`
 Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& known, const si::Spreads& own) {
   std::vector<std::string> names;
   for (const Spreadable& each : known) names.push_back(each.number.name);
@@ -142,10 +142,11 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-/// Solutions of one system but for its mu: of those a step of ln mu apart, and linear between two of them.
+/// Solutions of one system for many mu: computed at equal steps of ln mu, and interpolated linearly between these.
 class FlowsOfMu {
  public:
-  /// @param step  of ln mu, an eighth of what it is known to leaves 1e-3 of a standard deviation; 0: mu is always the same
+  /// @param step  step of ln mu, >= 0; an eighth of its standard deviation leaves an error of 1e-3 standard deviations;
+  ///              0: mu does not vary
   FlowsOfMu(const reduction::ReducedSystem& system, double step) : system_(system), step_(step) {}
 
   VectorXd operator()(double mu, const std::function<VectorXd(const reduction::Flow&)>& value) {
@@ -179,7 +180,7 @@ struct Varied {
   std::vector<Uncertainty::Part> parts;  ///< not known yet
   reduction::ReducedSystem system;
   long samples;
-  /// The derivatives of all parts by a number; none where they have a corner.
+  /// Returns the derivatives of all parts with respect to a number; none where they do not exist.
   std::function<std::optional<VectorXd>(std::size_t place)> slopes;
   /// mu at other values, and the parts there.
   /// @throws std::domain_error  if there is no such start
@@ -204,13 +205,14 @@ VectorXd normal_numbers(Index count, long point) {
   return numbers;
 }
 
-/// Of a standard normal number, at KnownTo::probabilities.
+/// Quantiles of a standard normal number at KnownTo::probabilities.
 constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.994457883209753, 0, 0.994457883209753,
                                                  1.959963984540054};
 
-/// @param samples  of the part, one or more
-/// @param below    shares of all samples whose first order is below its own quantiles; the quantiles of the part have
-///                 these places in the order of its samples, which takes most of the samples' own error away
+/// Sets the quantiles of a part from samples.
+/// @param samples  one or more samples of the part
+/// @param below    shares of all samples whose first order is below its own quantiles. The quantiles of the part have
+///                 these places in the order of its samples, which removes most of the sampling error.
 void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const Eigen::ArrayXd& below) {
   KnownTo& known = part.known;
   constexpr double rounding = 1e-12;
@@ -224,7 +226,7 @@ void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const 
   }
 }
 
-/// @throws BadInput  where a number has a corner, and if no sample is a start
+/// @throws BadInput  where a derivative does not exist, and if no sample is a possible start
 Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::string_view corner) {
   Uncertainty result{varied.parts};
   const auto count = static_cast<Index>(spreads.numbers.size()), parts = static_cast<Index>(result.parts.size());
@@ -328,7 +330,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
   return uncertainty_of(varied, read_spreads(typed, varied.numbers, experiment.spreads), corner);
 }
 
-/// What a ball is known to, by slip and spin where its start is given by velocities.
+/// Returns the spreads of a ball, with spreads of slip and spin in place of those of its velocities.
 si::Spreads of_slip_and_spin(const si::Experiment& experiment) {
   const si::Spreads& own = experiment.spreads;
   const Eigen::Vector2d along = si::slip_velocity_at_start(experiment).stableNormalized();

@@ -13,13 +13,14 @@
 
 namespace contensou::answers {
 
-/// What a number is known to that follows from others, which are normal.
+/// Uncertainty of a number that follows from normally distributed numbers.
 struct KnownTo {
-  double standard = 0;  ///< to first order
-  /// Of each of them alone, with the sign of the derivative: where they are independent, standard is the root of the sum of squares.
+  double standard = 0;  ///< standard deviation to first order
+  /// Standard deviation due to each number alone, with the sign of the derivative. If the numbers are independent,
+  /// `standard` is the root of the sum of squares.
   std::vector<std::pair<std::string, double>> shares = {};
-  std::array<double, 5> quantiles = {};  ///< of samples, at probabilities
-  bool holds = true;                     ///< whether the first order agrees with the quantiles to a tenth of standard
+  std::array<double, 5> quantiles = {};  ///< quantiles of the samples at `probabilities`
+  bool holds = true;                     ///< true if first order and quantiles agree to a tenth of `standard`
 
   static constexpr std::array<double, 5> probabilities{0.025, 0.16, 0.5, 0.84, 0.975};
 };
@@ -35,33 +36,34 @@ struct Uncertainty {
   };
   std::vector<Part> parts;
   long samples = 0;
-  double outside = 0;  ///< share of the samples that no start can have (a friction below 0, say), left out
+  double outside = 0;  ///< share of samples left out because no start has such values, e.g. a friction below 0
 };
 
-/// "rolls after t"; "path".
+/// Returns the label of a number of an event, such as "rolls after t" or "path".
 std::string label_of(std::string_view event, std::string_view of);
 
-/// The uncertainty of all events of `roll`.
-/// @param rolling_below  as of si::Motion::rolls
-/// @param typed          "slip=1%, spin=2 rad/s, fit": of the ball's numbers, and of the start slip, spin or vx, vy, wx, wy, wz
-/// @throws BadInput  naming what is wrong and what is allowed, of a motion that is at rest, and where all samples are outside
+/// Returns the uncertainty of all events of `roll`.
+/// @param rolling_below  slip below which the ball rolls, m/s, as in si::Motion::rolls
+/// @param typed          spreads such as "slip=1%, spin=2 rad/s, fit", for numbers of the ball and of its start: slip,
+///                       spin or vx, vy, wx, wy, wz
+/// @throws BadInput  naming the mistake and the allowed values; for a ball at rest; and if all samples are outside
 Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
                              const std::string& typed);
 
-/// The same of the stop time alone, in seconds of a ball, otherwise in tau.
-/// @param typed  of a ball as of roll_uncertainty, with slip and spin whatever its start is given by; else of u0, v0, mu
+/// Returns the uncertainty of the stop time alone: in s for a ball, else in tau.
+/// @param typed  for a ball as in roll_uncertainty, with the start as slip and spin only; else spreads of u0, v0, mu
 Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed);
 
-/// {standard, quantiles, shares, first_order_holds}
+/// Returns {standard, quantiles, shares, first_order_holds}.
 Json members_of(const KnownTo& known);
 
-/// {rolls_after: {t, x, y}, spin_ends: {t, x, y}, slip_length, turns, path, t_stop, samples, outside}
+/// Returns {rolls_after: {t, x, y}, spin_ends: {t, x, y}, slip_length, turns, path, t_stop, samples, outside}.
 Json members_of(const Uncertainty& uncertainty);
 
-/// A table of all numbers.
+/// Returns a table of all numbers.
 std::string text_of(const Uncertainty& uncertainty, const Digits& digits);
 
-/// The remarks below such a table: where the first order does not hold, and samples that were left out.
+/// Returns the remarks below such a table: numbers for which the first order fails, and samples left out.
 std::string remarks_on(const Uncertainty& uncertainty);
 
 }  // namespace contensou::answers
