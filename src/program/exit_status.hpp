@@ -3,13 +3,13 @@
 #include "answers/input/errors.hpp"
 #include "platform/file_failure.hpp"
 
-/// Makes of words what answers hold, and writes them.
+/// The program: it reads words of a command line and writes answers.
 namespace contensou::program {
 
 using namespace answers;
 using namespace platform;
 
-/// What the program tells its caller.
+/// The exit status of the program.
 enum class ExitStatus {
   done = 0,
   check_failed = 1,

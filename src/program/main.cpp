@@ -100,8 +100,9 @@ class Verbs {
   std::vector<std::string> names_;
 };
 
-/// What CLI11 could not place: a verb or an option that does not exist, or a word too many.
-/// @param names  of verbs, where one of them was expected
+/// Rejects words that CLI11 could not place: an unknown verb or option, or a word too many.
+/// @param names  names of the verbs if one was expected, else empty
+/// @throws BadInput  if there is such a word
 void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::string>& names) {
   if (app.remaining_size() == 0) return;
   const std::string typed = app.remaining().front();

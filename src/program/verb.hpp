@@ -19,12 +19,12 @@ class Verb {
 
   virtual void add_options(CLI::App& app) = 0;
 
-  /// Does what the options say. Writes results only when all of them are there.
-  /// @throws  what main.cpp turns into an exit status
+  /// Runs the verb with its options. It writes results only when all of them are computed.
+  /// @throws  exceptions that main.cpp turns into an exit status
   virtual ExitStatus run() = 0;
 };
 
-/// What somebody wants of a verb: the help lists them by it, in this order.
+/// The purpose of a verb. The help lists the verbs by purpose, in this order.
 enum class Purpose : std::uint8_t { compute, draw, check, bodies, help };
 
 struct VerbEntry {
@@ -36,10 +36,10 @@ struct VerbEntry {
   std::unique_ptr<Verb> (*make)();
 };
 
-/// Every verb that is linked.
+/// Returns every verb that is linked.
 std::vector<VerbEntry>& verbs();
 
-/// Makes a verb one of them: a constant in its file.
+/// Registers a verb, by a constant in its file.
 template <class AVerb>
 struct RegisteredVerb {
   RegisteredVerb(Purpose purpose, std::string name, std::string summary, std::string example,

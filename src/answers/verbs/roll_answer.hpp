@@ -44,9 +44,8 @@ struct Roll {
 /// @param times  s
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 
-/// Returns the motion as text of one screen. First comes one sentence. Then come time and place of the end of slip, the
-/// rolling after it, the energy taken by friction, and the uncoupled model beside it. The route `integrated` adds the
-/// error of its stop.
+/// Returns the motion as text of one screen: a sentence, then time and place of the end of slip, the rolling after it,
+/// the energy lost, and the uncoupled model beside it. The route `integrated` adds the error of its stop.
 std::string roll_text(const Roll& roll, const Digits& digits);
 
 /// Returns the fields of that answer.

@@ -27,20 +27,20 @@ class Argument {
   using Take = std::function<void(const std::string& typed)>;
 
   /// @param names       as CLI11 takes them, such as "-o,--output"; without dashes, a positional argument
-  /// @param value_name  what the help calls the value
-  /// @param repeatable  whether it may be given often
+  /// @param value_name  name of the value in the help
+  /// @param repeatable  true if the option may be given more than once
   CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help,
                    Take take = {}, bool repeatable = false);
 
-  /// False for an argument that a verb does not have.
+  /// Returns true if the argument was given; false also if the verb lacks it.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
 
-  /// As messages call it: the first of its names.
+  /// Returns the first of the names, which messages use.
   const std::string& name() const { return name_; }
 
   const std::string& text() const { return option_->results().front(); }
 
-  /// Its name and its value, as messages quote them.
+  /// Returns name and value as messages quote them.
   std::string typed() const { return typed(text()); }
 
   /// Throws BadInput with the option and its value before the message.
@@ -78,12 +78,12 @@ class ArgumentOf : public Argument {
   std::vector<Value> values_;
 };
 
-/// The names that were given, joined for a message; empty if none was.
+/// Returns the names of the arguments that were given, joined for a message; empty if none was.
 std::string names_given(const std::vector<const Argument*>& arguments);
-/// Such names and more of them; either may be empty.
+/// Joins two such lists of names; either may be empty.
 std::string with_name(const std::string& names, const std::string& more);
 
-/// Whether a value is the path of a file: it has a / or one of these endings.
+/// Returns true if a value is the path of a file: it contains a / or ends with one of these endings.
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings);
 
 /// Readers of a number, and of a whole number.
@@ -93,7 +93,7 @@ inline auto whole_number(long lowest, long highest) {
 }
 
 /// Reads a number in a unit, or with a unit of the same kind behind it.
-/// @param symbol  of the unit (si::dimensions); none for a pure number
+/// @param symbol  symbol of the unit (si::dimensions); none for a pure number
 double parse_quantity(const std::string& typed, std::string_view symbol);
 /// @throws std::logic_error  unless it is a symbol of si::dimensions
 std::string_view known_unit(std::string_view symbol);
@@ -101,7 +101,7 @@ inline auto quantity(std::string_view symbol) {
   return [unit = known_unit(symbol)](const std::string& typed) { return parse_quantity(typed, unit); };
 }
 
-/// Reads each text as parse_quantity. A unit behind the last is of all of them, unless each has its own.
+/// Reads each text as parse_quantity. A unit behind the last number applies to all, unless each has its own.
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
 
 /// Reads so many numbers between commas.

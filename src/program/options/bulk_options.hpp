@@ -8,7 +8,8 @@
 
 namespace contensou::program {
 
-/// When progress is to be shown that nobody asked for: of long work, if standard error is a terminal to which no output goes.
+/// Returns when to show progress by default: for long work if standard error is a terminal and the output does not go
+/// to a terminal; else never.
 /// @param output  the file of -o; "-" is standard output
 ShowProgress progress_if_watched(const std::string& output);
 
@@ -17,14 +18,14 @@ class BulkOptions {
  public:
   void add(CLI::App& app);
 
-  /// Throws BadInput if one of them was given where they mean nothing.
-  /// @param reason  follows "--threads " and " is for "
+  /// Throws BadInput if one of these options was given to a verb that cannot use it.
+  /// @param reason  end of the message, after "--threads is for "
   void refuse(const std::string& reason) const;
 
-  /// The threads to compute with: as many as the machine runs at once if no number was given.
+  /// Returns the number of threads: by default as many as the machine runs at once.
   int threads() const;
 
-  /// When progress is to be shown: progress_if_watched, unless always or never was asked for.
+  /// Returns when to show progress: as --progress says, by default as progress_if_watched.
   /// @param output  the file of -o; "-" is standard output
   ShowProgress progress(const std::string& output) const;
 

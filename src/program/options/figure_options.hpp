@@ -14,24 +14,24 @@ void require_picture(const std::string& names, const Output& output);
 /// Name of the group of these options in the help.
 std::string figure_group();
 
-/// How a figure looks on a journal's page: --size, --font, --title and --dpi.
+/// The options for the look of a figure on a page: --size, --font, --title and --dpi.
 class FigureOptions {
  public:
-  /// @param several  figures, each with a title of its own and without dots: --size and --font alone
+  /// @param several  true: only --size and --font, for several figures with titles of their own and without dots
   void add(CLI::App& app, bool several = false);
 
-  /// The options that were given, for a message.
+  /// Returns the names of the options that were given, for a message.
   std::string names() const { return names_given({&size_, &font_, &title_, &dpi_}); }
 
   /// Throws BadInput if one of them was given and no picture is written.
   void require_picture(const Output& output) const { program::require_picture(names(), output); }
 
-  /// --size; nothing of it without the option.
+  /// Returns the value of --size; empty without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }
 
-  /// The figure with the title, the font and the dots that are asked for, as high as it needs unless a height is.
-  /// @param format  that it is written in
-  /// @throws BadInput  for --dpi with other than png, for --font with tex
+  /// Returns the figure with the title, font and resolution of the options. By default it is as high as its content.
+  /// @param format  format in which the figure is written
+  /// @throws BadInput  for --dpi with a format other than png; for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;
 
  private:

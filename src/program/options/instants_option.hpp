@@ -9,16 +9,16 @@
 
 namespace contensou::program {
 
-/// Instants from 0 to the end, both included: half of them until `busy`, where things happen; equidistant where that is
-/// not in the first half.
+/// Returns instants from 0 to the end, both included. Half of them lie before `busy`, when most of the motion happens.
+/// They are equidistant if `busy` is not in the first half.
 Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
 
 /// --at, --samples and --equidistant: the instants of a motion, or their number.
 class InstantsOption {
  public:
-  /// @param time    its name, as of a column in the file of --at
-  /// @param unit    its symbol; or none, for the paper's time
-  /// @param extent  of those of --samples: "" or " from WHERE to WHERE"
+  /// @param time    name of the time, as in the header of the file of --at
+  /// @param unit    symbol of its unit; empty for tau
+  /// @param extent  extent of the instants of --samples: "" or " from WHERE to WHERE"
   /// @return        --at
   CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
@@ -28,26 +28,26 @@ class InstantsOption {
     bool in_seconds = false;
   };
 
-  /// A list of times, or the column of that name in a file.
-  /// @param unit  of the list, as parse_quantity; without one the list has no unit, or is in seconds
+  /// Reads a list of times, or the column of that name in a file.
+  /// @param unit  unit of the list, as in parse_quantity; if empty, the list has no unit, or is in seconds
   static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
   bool given() const { return !names().empty(); }
 
-  /// What was given of --at, --samples and --equidistant, with commas.
+  /// Returns the names of those of --at, --samples and --equidistant that were given, joined for a message.
   std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
 
-  /// The instants of --at, in the order given; null without it.
+  /// Returns the instants of --at, in the order given; null without it.
   const Times* at() const { return at_.given() ? &*at_ : nullptr; }
 
-  /// The number that --samples gives.
+  /// Returns the number that --samples gives.
   std::optional<Eigen::Index> asked() const { return samples_.optional(); }
 
-  /// The number of instants without --at.
+  /// Returns the number of instants without --at.
   Eigen::Index samples() const { return samples_.value_or(standard_samples); }
   bool equidistant() const { return equidistant_; }
 
-  /// The instants of --at, or as instants().
+  /// Returns the instants of --at, or those of instants().
   Eigen::ArrayXd between(double busy, double end) const {
     return at_.given() ? at_->values : instants(samples(), equidistant_ ? 0 : busy, end);
   }

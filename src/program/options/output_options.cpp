@@ -22,14 +22,14 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// As endings of files.
+/// Returns the formats of a kind as endings of files.
 std::string endings_of(const OutputKind& kind) {
   std::vector<std::string> endings = kind.formats;
   std::ranges::replace(endings, std::string("text"), std::string("txt"));
   return fmt::format("{}", fmt::join(endings, ", "));
 }
 
-/// What follows the last dot of a path's file name; empty if nothing does.
+/// Returns the part of a file name after its last dot; empty without a dot.
 std::string ending_of(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   return extension.empty() ? extension : extension.substr(1);

@@ -11,22 +11,22 @@
 
 namespace contensou::program {
 
-/// What a verb writes.
+/// A kind of output of a verb, such as a table.
 struct OutputKind {
   std::string noun;                  ///< with its article, for messages
-  std::vector<std::string> formats;  ///< names for --format; they are endings of files, but for text, which is txt
-  std::string path = "-";            ///< without -o
+  std::vector<std::string> formats;  ///< names for --format, which are endings of files; for text the ending is txt
+  std::string path = "-";            ///< default of -o
   std::string standard = formats.front();
 };
 
-/// Formats of numbers, those of pictures, and other formats of numbers; tex then is a picture.
+/// Returns formats of numbers, of pictures, and other formats of numbers. Among them tex is a picture.
 std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last = {});
 
-/// Where a result goes and how it looks.
+/// Destination and format of a result.
 struct Output {
   std::string path;
   std::string format;
-  Digits digits;  ///< of text
+  Digits digits;  ///< digits in text
 
   std::optional<portraits::PictureFormat> picture() const { return portraits::find_picture_format(format); }
 
@@ -34,28 +34,28 @@ struct Output {
   void write(std::string_view content) const;
   void write(const Answer& answer) const;
 
-  /// A picture, in its format; the frames of a gif.
+  /// Writes a picture in its format; several figures are the frames of a gif.
   /// @throws FileFailure  as write_output, and if gnuplot is missing or fails
   void write(const std::vector<portraits::Figure>& figures) const;
 };
 
-/// The bytes of a figure; of a gif's frames.
+/// Returns the bytes of a figure, or of a gif with these frames.
 /// @throws FileFailure  if gnuplot is missing or fails
 std::string drawn(const std::vector<portraits::Figure>& figures, portraits::PictureFormat format);
 
-/// Name of the group of the options that many verbs have, whatever they write.
+/// Returns the name of the group of options that many verbs share.
 std::string usual_group();
 
 /// -o, --format and --digits.
 class OutputOptions {
  public:
-  /// @param kinds  that the verb writes, the usual one first
+  /// @param kinds  kinds of output of the verb, the usual one first
   explicit OutputOptions(std::vector<OutputKind> kinds) : kinds_(std::move(kinds)) {}
 
   void add(CLI::App& app);
 
   /// Reads the three options: the ending of the file decides the format, or else --format, or else the kind.
-  /// @param place  of the kind
+  /// @param place  index of the kind
   /// @throws BadInput  if the format is not one of the kind's, if ending and --format disagree, if a file needs an
   ///                   ending, and for --digits with other than text
   Output read(std::size_t place = 0) const;

@@ -29,17 +29,17 @@ class BodyOptions {
   void add_drive(CLI::App& app);
 
   const ArgumentOf<double>& mu() const { return mu_; }
-  /// Those of --mu beside its first.
+  /// Returns the values of --mu after the first.
   const std::vector<double>& more_mu() const { return more_mu_; }
   const ArgumentOf<Body>& argument() const { return body_; }
   const ArgumentOf<double>& drive() const { return drive_; }
 
-  /// The body; a homogeneous ball if none was given.
+  /// Returns the body; a homogeneous ball if none was given.
   Body body() const { return body_.value_or({}); }
 
-  /// The body under a law, with its mu: that of --mu, or the one that the body itself decides.
-  /// @param ways  to a mu, for a message
-  /// @throws BadInput  if there is none, or one that the body cannot have
+  /// Returns the system of the body under a law. Its mu is that of --mu, or the one that the body itself determines.
+  /// @param ways  options that give mu, for a message
+  /// @throws BadInput  if there is no mu, or one that the body cannot have
   reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
 
  private:
@@ -49,7 +49,7 @@ class BodyOptions {
   ArgumentOf<Body> body_;
 };
 
-/// The built-in ball of a name.
+/// Returns the built-in ball of a name.
 /// @throws NotAllowed  for an unknown name
 const si::CatalogueEntry& require_ball(const std::string& name);
 
@@ -61,49 +61,50 @@ class StartOptions {
   /// Lets --mu be a list, for a verb that compares; before add.
   void take_several_mu() { body_.take_several_mu(); }
 
-  /// The starts of all of --mu under a law, or of its bodies without their motion. Throws as read.
+  /// Returns a start for each value of --mu under a law, or the bodies without a motion. Throws as read.
   std::vector<GivenStart> read_several(const reduction::Law& law) const;
 
   /// --drive, for a verb that has an answer with it.
   void add_drive(CLI::App& app) { body_.add_drive(app); }
 
-  /// Whether a verb that takes a ball offers an option for a quantity.
+  /// Predicate: true if a verb that takes a ball offers an option for a quantity.
   using Offer = bool (*)(const si::Quantity& quantity);
   static bool all(const si::Quantity& /*quantity*/) { return true; }
   static bool no_start(const si::Quantity& quantity) { return quantity.section != si::slip.section; }
 
-  /// --ball and its values alone, for a verb that is in SI units.
-  /// @param offer  of the values
+  /// Adds --ball and the options for its values, for a verb in SI units.
+  /// @param offer  selects the values that have an option
   void add_ball(CLI::App& app, const std::string& help = "body in SI units", Offer offer = all);
 
-  /// From here on --radius is a ball, too: for a verb that finds what else there is of it.
+  /// Lets --radius alone be a ball, for a verb that determines its other values.
   void take_radius_for_ball() { radius_is_ball_ = true; }
 
-  /// Whether any of them was given, --body aside.
+  /// Returns true if any of these options was given, except --body.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
 
-  /// The same but for --drive, which many starts share.
+  /// Returns the names of the given options, except --body, and except --drive, which many starts share.
   std::string names_of_one_start() const;
   double drive() const { return body_.drive().value_or(0); }
 
-  /// That of a ball whose slip points along x, however fast. Throws as read.
+  /// Returns the drive of a ball whose slip points along x; it does not depend on the speed. Throws as read.
   double drive_along_x(si::Experiment ball) const;
 
-  /// Whether there is no motion in them: neither --u0 nor --v0 nor --ball.
+  /// Returns true if the options give no motion: neither --u0 nor --v0 nor --ball.
   bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
 
-  /// @param law  of the system; a measured spin deceleration holds under it
+  /// Reads the start from the options.
+  /// @param law  law of the system, under which a measured spin deceleration gives the patch
   /// @throws BadInput           if options are missing, exclude each other or have values that no ball can have
   /// @throws si::RunFileError   for a mistake in a run file
   /// @throws std::system_error  for a run file that cannot be read
   GivenStart read(const reduction::Law& law) const;
 
-  /// --u0 and --v0 of either sign, where they are a point of another system.
-  /// @throws BadInput  if one is missing, and for what a ball or a body has
+  /// Reads --u0 and --v0, of either sign, as a point of another system.
+  /// @throws BadInput  if one is missing, or if an option of a ball or a body is given
   Eigen::Vector2d read_point() const;
 
-  /// Throws BadInput for what a ball or a body has.
+  /// Throws BadInput if an option of a ball or a body is given.
   void require_point_or_none() const;
 
   bool ball_given() const { return ball_.given(); }
@@ -111,58 +112,58 @@ class StartOptions {
   /// Lets --load name a table of the load against time, too; before add_ball.
   void take_load_history() { takes_load_history_ = true; }
 
-  /// The table that --load names. Throws BadLine, and FileFailure if it cannot be read.
+  /// Returns the table that --load names. Throws BadLine, and FileFailure if it cannot be read.
   std::optional<si::LoadHistory> load_history() const;
 
-  /// The values that single options give, --slip among them.
+  /// Returns the values given by single options, such as --slip.
   si::Description given_values() const;
 
-  /// Whether a start of the ball was given, such as --slip.
+  /// Returns true if an option for the start of the ball was given, such as --slip.
   bool overrides_start() const { return !start_names().empty(); }
   std::string start_names() const;
 
-  /// The name of the law that the body or the ball brings. Throws as read.
+  /// Returns the name of the law that the body or the ball brings. Throws as read.
   std::string standard_law() const;
 
-  /// Whether the ball says its law itself, or its body has another than a ball.
+  /// Returns true if the ball names its law, or if its body has another default law than a ball.
   bool brings_law() const;
 
-  /// Says which spreads of the ball's run file do not hold for this experiment, whose numbers are others.
+  /// Prints which spreads of the ball's run file do not apply, because options replace the numbers.
   void tell_spreads_left_out(const si::Experiment& experiment) const;
 
-  /// Says on standard error what a built-in ball does in the world and its motion here leaves out.
+  /// Prints on standard error which effects on a real ball of this kind the model leaves out.
   void tell_left_out() const;
 
-  /// The ball of --ball where it has to roll. Throws as read_ball, and BadInput for a body that lies flat.
-  /// @param way_out  what may be asked of such a body
+  /// Returns the ball of --ball, which must roll. Throws as read_ball, and BadInput for a body that lies flat.
+  /// @param way_out  advice for such a body, for the message
   si::Experiment read_rolling_ball(const reduction::Law& law, const std::string& way_out,
                                    const si::Description& between = {}) const;
 
-  /// The ball of --ball. Throws as read.
+  /// Returns the ball of --ball. Throws as read.
   ///
-  /// @param between  values that take the place of the ball's own, and that options replace
+  /// @param between  values that replace those of the ball; options replace both
   si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
   /// Rejects --ball, with the options that replace its values.
   /// @throws BadInput  always
   [[noreturn]] void reject_ball(const std::string& message) const;
 
-  /// Rejects a ball with rolling friction or on a slope, where there is no answer with them.
-  /// @param what  that knows none, for the message
+  /// Rejects a ball with rolling friction or on a slope, for a verb that cannot treat them.
+  /// @param what  name of the verb or option, for the message
   void require_undriven(const si::Experiment& experiment, const std::string& what) const;
 
-  /// The body without its motion: --mu, a --body with a mu of its own, or --ball is enough. Throws as read.
+  /// Returns the body without a motion. It needs --mu, a --body with a mu of its own, or --ball. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
-  /// --body, by itself.
+  /// Returns the argument --body.
   const ArgumentOf<Body>& body_argument() const { return body_.argument(); }
   Body body() const { return body_.body(); }
 
  private:
   const si::Description& ball_of_its_own() const;
 
-  /// Says on standard error where the patch that a measured spin deceleration stands for is not that of the ball's own
-  /// values, because some of them or the law were replaced.
+  /// Prints on standard error if a measured spin deceleration now stands for another patch than with the ball's own
+  /// values, because options replace some of these or the law.
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   void require_one_kind() const;
@@ -175,14 +176,14 @@ class StartOptions {
 
   bool radius_is_ball_ = false, takes_load_history_ = false;
   mutable std::optional<si::LoadHistory> load_history_;  ///< read once
-  mutable std::optional<si::Description> own_;           ///< of --ball; a file is read once: it may be a pipe
+  mutable std::optional<si::Description> own_;           ///< ball of --ball; its file may be a pipe and is read once
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
 
-/// Name of the group of the options that replace values of a ball.
+/// Returns the name of the group of options that replace values of a ball.
 std::string ball_group();
 
-/// A start at rest, for a verb that brings its own.
+/// Returns a start at rest, for a verb that sets the start itself.
 si::Description at_rest(const std::string& source);
 
 }  // namespace contensou::program

@@ -12,14 +12,14 @@
 
 namespace contensou::program {
 
-/// What is computed of each row of a table.
+/// The computation for each row of a table.
 struct BatchRequest {
   std::vector<std::string> inputs;   ///< columns that are read; the others pass through
   std::vector<std::string> results;  ///< columns that are added
 
-  /// The results of a row, from its inputs and the number of lines before it; several threads call it.
+  /// Computes the results of a row from its inputs and the number of lines before it. Several threads call it.
   /// @throws std::domain_error   for a bad row
-  /// @throws std::runtime_error  for one that cannot be computed
+  /// @throws std::runtime_error  for a row that cannot be computed
   std::function<void(std::span<const double> inputs, std::span<double> results, long line)> compute;
 
   bool keep_going = false;  ///< report a bad row on standard error and leave its results empty
@@ -27,12 +27,12 @@ struct BatchRequest {
   ShowProgress progress = ShowProgress::never;
 };
 
-/// Computes on a table of any length, in the memory of a few blocks of it.
-/// Rows are written in order, as soon as they are done; the bytes do not depend on the number of threads. Infinite
-/// results are counted on standard error.
+/// Computes a table of any length, in the memory of a few blocks of it.
+/// Rows are written in order, as soon as they are done. The bytes do not depend on the number of threads. The number of
+/// infinite results is printed on standard error.
 ///
-/// @param output  not finished here
-/// @return        what the worst row was that was kept without a result; done if none was
+/// @param output  is not finished here
+/// @return        status of the worst row that was kept without a result; done if there is none
 /// @throws BadLine             for a table that lacks a column or is not CSV and, unless keep_going, for a bad row; the
 ///                             rows before it have been written
 /// @throws std::runtime_error  likewise for a row that cannot be computed

@@ -16,10 +16,10 @@ inline constexpr std::size_t help_width = 80;
 inline constexpr std::string_view exit_statuses =
     "Exit status: 0 done, 1 a check failed, 2 bad input, 3 numerical failure, 4 a file or gnuplot failed.";
 
-/// Text in lines of at most 80 columns.
+/// Returns a text in lines of at most 80 columns.
 std::string help_paragraph(std::string_view text, std::size_t indent = 0);
 
-/// A name and, beside or below it, what it means, in lines of at most 80 columns.
+/// Returns a name and, beside or below it, its meaning, in lines of at most 80 columns.
 std::string help_entry(std::string_view name, std::string_view meaning);
 
 /// Returns the name of a group of options that several verbs share. The help of a verb lists their names alone, and
@@ -33,7 +33,7 @@ std::string help_on_group(const CLI::App& app, const std::string& group);
 /// @param all  true: also those with an option such as --batch; false: names these options
 std::string help_on_fields(const VerbEntry& verb, bool all);
 
-/// How CLI11 writes the help of a verb.
+/// The format in which CLI11 writes help.
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter();

@@ -7,18 +7,18 @@
 
 namespace contensou::program {
 
-/// When progress is shown: of work that takes long, or of any.
+/// The work for which progress is shown: none, work that takes long, or any.
 enum class ShowProgress { never, of_long_work, always };
 
-/// Of a clock that is never set back.
+/// Returns the time, s, of a clock that is never set back.
 double seconds_now();
 
-/// How far a computation is, in one line of standard error that is written over a few times a second.
+/// The progress of a computation: one line on standard error that is overwritten a few times a second.
 class Progress {
  public:
-  /// @param what    is counted, in the plural
-  /// @param now     the time, s
-  /// @param output  the terminal or file that the line is for
+  /// @param what    noun of the counted things, in the plural
+  /// @param now     returns the time, s
+  /// @param output  terminal or file to which the line is written
   Progress(std::string what, ShowProgress when, std::function<double()> now = seconds_now, std::FILE* output = stderr)
       : what_(std::move(what)),
         shown_(when != ShowProgress::never),
@@ -32,10 +32,10 @@ class Progress {
   /// @param total  NaN if it is not known
   void show(double done, double total);
 
-  /// Makes room for a message, until it is shown again.
+  /// Erases the line, to make room for a message. The next `show` writes it again.
   void erase();
 
-  /// Leaves a line that says how long it took, if any was shown before or progress is always shown.
+  /// Writes a last line with the duration, if a line was shown before or progress is always shown.
   void finish(double done);
 
  private:

@@ -34,7 +34,7 @@ std::vector<Statement> ball_statements() {
   const double fN = experiment.contact.friction * m * experiment.environment.gravity;
   const auto [V, omega] = si::velocities_of(experiment.start);
 
-  // By mechanics in vectors.
+  // Compute velocities, forces and rates by mechanics in vectors.
   const Vector3d arm(0, 0, -R);  // the point of contact is below the centre
   const Vector2d c = V + omega.cross(arm).head<2>();
   const double v = c.norm(), alpha = std::atan2(c.y(), c.x());
@@ -45,11 +45,11 @@ std::vector<Statement> ball_statements() {
   moment.z() -= std::copysign(fN * eps * psi, omega.z());
   const Vector3d omega_rate = moment / (0.4 * m * R * R);
   const Vector2d c_rate = force / m + omega_rate.cross(arm).head<2>();
-  Eigen::Matrix<double, 5, 1> rates;  // of omega_x, omega_y, u = R omega_z, v and alpha by tau
+  Eigen::Matrix<double, 5, 1> rates;  // derivatives of omega_x, omega_y, u = R omega_z, v and alpha with respect to tau
   rates << omega_rate.x(), omega_rate.y(), R * omega_rate.z(), c_rate.dot(e), cross(e, c_rate) / v;
   rates *= 2 * m / (3 * pi * fN);  // dt/dtau
 
-  // By integration, at 0.02, 1, 1.5 and 2 stop times.
+  // Integrate the equations of motion; take the states at 0.02, 1, 1.5 and 2 stop times.
   const si::Motion motion = si::Motion::in_steps(experiment, law);
   const double stop = motion.stop_time();
   const Eigen::ArrayXd times = stop * (Eigen::ArrayXd(4) << 0.02, 1, 1.5, 2).finished();
@@ -61,7 +61,7 @@ std::vector<Statement> ball_statements() {
   const double omega_along = omega.head<2>().dot(e);
   const double first_integral = 7 * R * omega.head<2>().dot(n) + 5 * v;  // omega_y is across the slip
 
-  // As printed.
+  // Evaluate the formulas as printed in the paper.
   const Vector2d printed_c = zh98::contact_velocity(R, V, omega);
   const Vector2d printed_force = zh98::force(fN, eps, omega.z(), c);
   const Vector3d printed_moment = zh98::moment(fN, eps, R, omega.z(), v, force);

@@ -24,15 +24,16 @@ constexpr double rounding = 1e-12, three_digits = 5e-4;
 
 Law law_named(std::string_view name) { return *reduction::find_law(name); }
 
-/// A body that lies flat on the whole of its face: mu = 1.
-/// @param gyration  its radius of gyration about the vertical, over its radius
+/// Returns the system of a body that lies flat on its whole face: mu = 1.
+/// @param gyration  radius of gyration about the vertical divided by the radius of the body, > 0
 reduction::ReducedSystem flat(std::string_view law, double gyration) {
   return {law_named(law), 1, {.chi = 1, .gamma = 1 / (gyration * gyration)}};
 }
 
 const double disc_gyration = std::sqrt(0.5);
 
-/// When a puck's spin has fallen to a millionth, over when its slip has: by steps in time, of 38 mm, 5 m/s and 100 1/s.
+/// Returns the time at which a puck's spin has fallen to a millionth, divided by that of its slip. The puck has a
+/// radius of 38 mm and starts with 5 m/s and 100 rad/s; the motion is integrated by steps in time.
 double ends_of_puck() {
   const reduction::State start{.u = 3.8, .v = 5};
   const reduction::OrbitColumns steps = reduction::integrate_directly(flat("uniform", disc_gyration), start).points;
@@ -43,7 +44,7 @@ double ends_of_puck() {
   return first_below(steps.u) / first_below(steps.v);
 }
 
-/// Of a ring that slides as fast as it turns, over that of one that does not turn.
+/// Returns the sliding distance of a ring with v = u divided by that of a ring with the same v and u = 0.
 double way_of_ring() {
   const reduction::ReducedSystem ring = flat("ring", 1);
   const reduction::Flow flow(ring);
@@ -51,7 +52,7 @@ double way_of_ring() {
   return way({.u = 1, .v = 1}) / way({.u = 0, .v = 1});
 }
 
-/// A bowling ball of the textbook: it slides at 8 m/s, in units of that speed and f g.
+/// A bowling ball of the textbooks, which slides at 8 m/s without spin at the start.
 struct Bowled {
   double speed = 8;
   si::Experiment ball = [this] {
@@ -64,7 +65,7 @@ struct Bowled {
   double friction = ball.contact.friction * ball.environment.gravity;
 };
 
-/// Over v, where it rolls, of a ball that turns back as fast as (5/2) v/R.
+/// Returns the speed at which a ball rolls, divided by its first speed v. It starts with backspin of (5/2) v/R.
 double speed_of_draw() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const double speed = 1;
@@ -73,7 +74,8 @@ double speed_of_draw() {
   return motion.at(motion.stop_time()).velocity.norm() / speed;
 }
 
-/// How far above the centre, in radii, a level cue sets a ball rolling: the slip is linear in it.
+/// Returns the height above the centre, in radii, at which a level cue makes a ball roll at once. The slip divided by
+/// the speed is linear in the height.
 double height_of_rolling() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const auto slip_over_speed = [&](double above) {
@@ -84,7 +86,9 @@ double height_of_rolling() {
   return high * centre / (centre - slip_over_speed(high));
 }
 
-/// Of a curling stone with its typical spin, m/s^3: the rate times v. Friction as that program has it.
+/// Returns the spin deceleration of a curling stone with its typical spin, times v, m/s^3. The friction is that of the
+/// program DigitalCurling.
+/// @param v  slip, m/s, > 0
 double spin_decay_of_stone(double v) {
   const si::Experiment& stone = si::find_ball("curling-stone")->experiment;
   const Law ring = law_named("ring");

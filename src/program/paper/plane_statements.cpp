@@ -28,7 +28,7 @@ Orbit orbit(double mu) { return Flow(system(mu)).orbit(start); }
 
 double slope_of(Rate rate) { return rate.v / rate.u; }
 
-/// When this fraction of the stop time is left, or less, a motion is read as its limit.
+/// Returns the motion when this fraction of the stop time is left. A small fraction stands for the limit.
 OrbitPoint late(const Orbit& motion, double fraction) { return motion.at_time_left(fraction * motion.stop_time()); }
 
 /// The exponent of beta by which ln y falls next to the stop.
@@ -49,7 +49,7 @@ double time_from(double mu, double lower) {
   return rule.integrate(along, lower, infinity, 1e-10) / u1;
 }
 
-/// Next to the stop a speed is a power of the time left; the tau at which it vanishes, over the stop time.
+/// Returns the tau at which a speed vanishes, divided by the stop time. At last the speed is a power of the time left.
 template <class Logarithm>
 double vanishes(const Orbit& motion, Logarithm ln_y, double power) {
   const OrbitPoint before = late(motion, 1e-2), after = late(motion, 1e-3);

@@ -7,30 +7,30 @@
 
 namespace contensou::program {
 
-/// What a recomputation says of a printed statement.
+/// Verdict of a recomputation on a printed statement.
 enum class Verdict {
-  holds,     ///< the number it gives is the computed one
-  erratum,   ///< it is not, but with the correction it is
-  not_true,  ///< it is not, and no correction of a detail makes it so
+  holds,     ///< the printed number equals the computed one
+  erratum,   ///< only the corrected number equals the computed one
+  not_true,  ///< neither does, and no correction of a detail helps
 };
 
-/// holds, slip or false: the words of the verb `paper`.
+/// Returns the word for a verdict in the verb `paper`: holds, erratum or false.
 std::string_view word(Verdict verdict);
 
-/// A statement's numbers where it is examined.
+/// Numbers of an examined statement.
 struct Finding {
   double printed, computed;
   std::optional<double> corrected;
   Verdict verdict;
 };
 
-/// In place of what is allowed: the printed number is a lower bound.
+/// Value of Statement::allowed for a printed number that is a lower bound.
 constexpr double lower_bound = -1;
 
-/// What is allowed between two ways of plain arithmetic, and where one of them steps through an equation.
+/// Differences allowed between two computations: by plain arithmetic, and by steps through a differential equation.
 constexpr double arithmetic = 1e-13, stepping = 1e-9;
 
-/// A statement of Zh98 as two numbers that have to agree, or two functions of k.
+/// A statement of Zh98 as two numbers, or two functions of k, that must agree.
 struct Statement {
   struct Number : std::function<double(double)> {
     using function::function;
@@ -39,27 +39,27 @@ struct Statement {
   };
 
   std::string_view equation, says;
-  Number printed;                     ///< what the statement gives
-  Number computed;                    ///< what is found without it
-  double allowed;                     ///< how far apart they may be, relative to max(1, |computed|)
-  double at = 0;                      ///< the k at which they are compared, or the mu
-  std::string_view where = {};        ///< that for people: fmt's format, with `at` as its argument
-  Verdict recorded = Verdict::holds;  ///< what README.md says of it
+  Number printed;                     ///< number from the statement
+  Number computed;                    ///< number computed without the statement
+  double allowed;                     ///< largest difference, relative to max(1, |computed|)
+  double at = 0;                      ///< k, or mu, at which they are compared
+  std::string_view where = {};        ///< text for `at`: fmt's format, with `at` as its argument
+  Verdict recorded = Verdict::holds;  ///< verdict in README.md
   std::string_view correction = {};   ///< fmt's format, with the arguments `computed` and `percent`
-  Number corrected = nullptr;         ///< what the statement gives with the correction
+  Number corrected = nullptr;         ///< number from the corrected statement
 
-  /// Not a number agrees with nothing.
+  /// Compares the numbers. NaN agrees with nothing.
   Finding examine() const;
 };
 
-/// Section 1, against Coulomb friction under Hertz pressure, integrated over the patch.
+/// Returns the statements of section 1, compared with Coulomb friction under Hertz pressure, integrated over the patch.
 std::vector<Statement> patch_statements();
 
-/// Section 2 up to (2.6) and the motion after the stop, against mechanics in vectors and the integrated equations of
-/// motion: a pool ball with an oblique slip that spins about all three axes, in SI units.
+/// Returns the statements of section 2 up to (2.6) and on the motion after the stop, compared with mechanics in vectors
+/// and integrated equations of motion. A pool ball has an oblique slip and spins about all three axes, in SI units.
 std::vector<Statement> ball_statements();
 
-/// Section 2 from (2.6) on, against the library's solution: from u = 1, v = 0.5.
+/// Returns the statements of section 2 from (2.6) on, compared with the library's solution from u = 1, v = 0.5.
 std::vector<Statement> plane_statements(double mu);
 
 }  // namespace contensou::program

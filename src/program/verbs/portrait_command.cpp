@@ -247,7 +247,7 @@ class PortraitCommand final : public Verb {
     require_picture(names_of_looks(first_of_drawing_), output);
     if (window_ && window_->symmetric) request.sides = window_->high;
     if (window_ && !window_->symmetric) request.window = {window_->low, window_->high};
-    // Where the field is sampled.
+    // Sample the field in the window, or as far from 0 as the start.
     Vector2d around(1, 1);
     if (window_) around = window_->low.cwiseAbs().cwiseMax(window_->high.cwiseAbs());
     if (request.highlight && !request.highlight->isZero(0)) around = *request.highlight;
@@ -263,7 +263,7 @@ class PortraitCommand final : public Verb {
     return ExitStatus::done;
   }
 
-  /// What the portrait shows and how it looks.
+  /// Adds the options for content and look of the portrait.
   void add_looks(CLI::App& app) {
     constexpr int max_orbits = 200;
     constexpr int max_isochrones = 100;
@@ -332,7 +332,7 @@ class PortraitCommand final : public Verb {
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
-  /// Of those that were given, from that place on.
+  /// Returns the names of the looks that were given, joined for a message, from this place in looks_ on.
   std::string names_of_looks(std::size_t first) const {
     std::vector<const Argument*> arguments;
     for (; first < looks_.size(); ++first) arguments.push_back(&looks_[first]);
@@ -355,12 +355,12 @@ class PortraitCommand final : public Verb {
   LawOption law_, against_;
   RouteOption route_;
   std::deque<Argument> looks_;
-  std::size_t first_of_drawing_ = 0;  ///< in looks_, of what the data do not show
-  /// Of looks_.
+  std::size_t first_of_drawing_ = 0;  ///< place in looks_ from which options change only the drawing, not the data
+  /// Single options in looks_.
   const Argument *window_argument_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
   std::optional<AskedWindow> window_;
   std::vector<Vector2d> through_;
-  portraits::PortraitRequest request_;  ///< but for what the two above say
+  portraits::PortraitRequest request_;  ///< without window_ and through_, which are added later
   Style style_;
   FigureOptions figure_;
   bool facts_ = false;

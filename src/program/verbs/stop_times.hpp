@@ -16,40 +16,41 @@
 
 namespace contensou::program {
 
-/// Stop times of many starts of one body under one law, and one drive. What depends on mu alone is computed once for each mu, by the
-/// first thread that needs it, and kept for as many of them as take a bounded memory. Threads may share it.
+/// Stop times of many starts of one body under one law and one drive. The first thread that needs a mu computes its
+/// solution, which is kept for a limited number of mu. Threads may share the object.
 class StopTimes {
  public:
-  /// The stop times of one mu. Threads may share it.
+  /// The stop times of one mu. Threads may share the object.
   struct AtMu {
     std::optional<reduction::Flow> flow;
-    std::function<double(reduction::State)> one;  ///< start by start, where there is no flow; throws as stop_time
-    std::size_t starts = 0;                       ///< how many there are in all
+    std::function<double(reduction::State)> one;  ///< computes a single start without a flow; throws as stop_time
+    std::size_t starts = 0;                       ///< number of all starts with this mu
 
     double operator()(reduction::State start) const { return flow ? flow->stop_time(start).tau : one(start); }
 
-    /// The stop times of (u0[i], v0).
-    /// @param taus  as many as u0
+    /// Computes the stop times of (u0[i], v0).
+    /// @param taus  receives them; as long as u0
     void row(std::span<const double> u0, double v0, std::span<double> taus) const;
   };
 
-  /// By a route.
+  /// Prepares stop times by a route.
   StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, const RouteOption& route)
       : law_(law), body_(body), drive_(drive), route_(route) {}
 
-  /// By the best route, for so many starts of each mu and so many mu.
+  /// Prepares stop times by the best route, for `mus` values of mu with `starts` starts each.
   StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, long starts, long mus);
 
-  /// From here on those of a ball with rolling friction, which are not of one orbit: each start by itself.
-  /// @throws BadInput  if a route was asked for
+  /// Switches to a ball with rolling friction. Its motions consist of several orbits; each start is computed alone.
+  /// @throws BadInput  if a route was given
   void resist(const si::Experiment& ball);
 
-  /// @throws  as RouteOption::read and the making of the solution
+  /// Returns the stop times of one mu.
+  /// @throws  as RouteOption::read and the computation of the solution
   std::shared_ptr<const AtMu> at(double mu);
 
-  /// By what serves every mu, where there is no drive, no route was asked for and so many rows have been before: they may each have a mu of
-  /// their own, and a curve would be made for each.
-  /// @param row  how many were before this one; what they were does not matter to the bits of the answer
+  /// Returns the stop time of one row of a table, whose rows may all have different mu. After many rows, a solution for
+  /// every mu replaces the curves of single mu, unless there is a drive or a given route.
+  /// @param row  number of rows before this one; the bits of the result do not depend on their content
   /// @throws     as at and stop_time
   double operator()(double mu, reduction::State start, long row);
 
@@ -62,16 +63,16 @@ class StopTimes {
   double drive_;
   RouteOption route_;
   std::optional<si::Experiment> resisted_;
-  std::size_t starts_ = 0;  ///< of each mu of a grid
+  std::size_t starts_ = 0;  ///< number of starts of each mu of a grid
   bool many_mus_ = false;
   std::once_flag of_every_mu_made_;
   std::optional<reduction::StopTimesOfMu> of_every_mu_;
-  std::atomic<bool> told_ = false;  ///< that some starts are slow
+  std::atomic<bool> told_ = false;  ///< true if the message on slow starts was printed
   std::mutex guard_;
   std::map<double, std::shared_future<std::shared_ptr<const AtMu>>> known_;
 };
 
-/// Says on standard error if Flow::stop_times computes some of so many starts one by one.
+/// Prints on standard error if Flow::stop_times computes some of these starts one by one.
 void tell_if_refused(const reduction::Flow& flow, std::size_t starts);
 
 }  // namespace contensou::program

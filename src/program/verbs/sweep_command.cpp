@@ -80,7 +80,7 @@ constexpr ColumnText ball_columns{"spin,slip,t_stop", "1/s, m/s, s",
 
 std::vector<FieldText> sweep_texts() { return texts_of({system_columns, ball_columns}); }
 
-/// How a sweep is computed.
+/// The request for a sweep: its system, grid, format and threads.
 struct SweepRequest {
   reduction::Law law;
   reduction::Inertia body;
@@ -97,8 +97,8 @@ std::vector<double> values_of(const Range& range, long begin, long count) {
   return values;
 }
 
-/// What a file begins with: the names of the columns, or NumPy's description of the array, whose doubles follow as they
-/// are in memory.
+/// Returns the beginning of a file: the names of the columns, or NumPy's description of the array. The doubles of the
+/// array follow as they are in memory.
 std::string heading(const SweepRequest& request) {
   if (request.format == SweepFormat::csv)
     return csv_line(names_of({request.grid.ball ? ball_columns : system_columns}));
@@ -117,7 +117,7 @@ std::string heading(const SweepRequest& request) {
   return std::string("\x93NUMPY\x01\x00", 8) + std::string(length_bytes, 2) + dictionary;
 }
 
-/// A stretch of starts, all of one mu.
+/// A range of successive starts with one mu.
 struct SweepPiece {
   long begin = 0;  ///< number of the first start
   double mu = 0;
