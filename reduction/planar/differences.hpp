@@ -20,7 +20,7 @@ struct Slope {
 /// Returns df/dx_i by central differences over halved steps, extrapolated to 0 (C. Ridders, Adv. Eng. Softw. 4 (1982)
 /// 75): the entry of the table that differs least from its neighbours; none where the field has no value.
 ///
-/// @param field  of points, an std::optional<Eigen::Vector2d>
+/// @param field  function of a point that returns an std::optional<Eigen::Vector2d>
 template <class Field>
 std::optional<Slope> slope(Field&& field, const Eigen::Vector2d& x, int i, double first_step) {
   constexpr int rows = 8;

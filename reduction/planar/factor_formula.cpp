@@ -300,7 +300,7 @@ Eigen::MatrixX3d affine(const Vector2d& x, const Jet& jet) {
 
 /// The function of one variable whose values are given, as an integral.
 struct Known {
-  const char* integral;  ///< with {} for the variable
+  const char* integral;  ///< text with {} in place of the variable
   Whole below;
   double (*value)(double);
 };

@@ -34,11 +34,11 @@ struct Box {
   Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
 };
 
-/// The box in which V is looked for.
+/// Returns the box about x in which V is fitted.
 Box box_about(const Eigen::Vector2d& x);
 
 enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product, basis };
-inline constexpr int factor_forms = 8;  ///< that are tried; basis takes their place
+inline constexpr int factor_forms = 8;  ///< number of forms that are tried; a basis replaces them
 
 /// True of a form whose coefficients are those of a box everywhere.
 inline bool holds_everywhere(FactorForm form) { return form == FactorForm::affine || form == FactorForm::basis; }
@@ -103,7 +103,7 @@ struct FieldSamples {
 std::optional<FieldSamples> sample(const SmoothField& field, const Box& box);
 
 struct FactorFit {
-  InverseFactor factor;  ///< with V = 1 at the centre of the box if it does not vanish there
+  InverseFactor factor;  ///< scaled to V = 1 at the centre of the box, unless V vanishes there
   TriedForm tried;
   bool small;   ///< the singular value and the residual
   bool unique;  ///< except for a constant factor
