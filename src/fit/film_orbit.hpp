@@ -17,12 +17,12 @@ namespace contensou::fit {
 /// (R53)), and V - v is its rolling. Where that has come to 0 rolling resistance holds the ball: it slides like a puck,
 /// chi = 1, without a drive. Where slip and spin have ended it rolls on, slower and slower, and rests.
 ///
-/// Derivatives by ln mu, by the drive, by the smaller speed of the start and, once the ball is held, by its rolling are
-/// those of parabolas through orbits with numbers beside these, to 1e-8. By the larger speed they follow from the
-/// symmetry, which scales all speeds of the start.
+/// Parabolas through orbits with neighbouring numbers give, to 1e-8, the derivatives with respect to ln mu, the drive,
+/// the smaller speed of the start and, once the ball is held, its rolling. That with respect to the larger speed
+/// follows from the symmetry, which scales all speeds of the start.
 class FilmOrbit {
  public:
-  /// The numbers that an orbit depends on; drive and rolling only of a resisted body.
+  /// The numbers of an orbit; drive and rolling exist only with rolling friction.
   enum Number : std::size_t { ln_mu, slip, spin, drive, rolling, numbers };
   using Numbers = std::array<double, numbers>;
 

@@ -45,7 +45,7 @@ class OrbitCells {
  public:
   /// @param start     u and v >= 0
   /// @param drive     rho, 0 <= rho <= greatest_drive()
-  /// @param accuracy  of T and ln |u|, relative: of the polynomials, whose integrals are better by a factor of 100
+  /// @param accuracy  relative accuracy of the polynomials; T and ln |u|, their integrals, are 100 times as accurate
   /// @throws std::domain_error  if the orbit meets a ray that it cannot follow
   OrbitCells(const reduction::Law& law, double mu, reduction::Inertia inertia, Kind kind, reduction::State start,
              double drive, double accuracy);

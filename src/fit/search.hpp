@@ -67,17 +67,17 @@ class Search {
   explicit Search(const FitRequest& asked, double accuracy = FilmOrbit::standard_accuracy);
 
   const FitRequest& request;
-  const bool resisted;  ///< by rolling friction
+  const bool resisted;  ///< true if there is rolling friction
   TrackModel model;
   Eigen::VectorXd data;                  ///< row by row of the model; 0 where none was measured
   Eigen::VectorXd weight;                ///< 1/sd; 0 where none was measured
   std::vector<Eigen::Index> rows_of[7];  ///< the measured rows of each observable
-  bool estimated[7] = {};                ///< whether its sd is not known
+  bool estimated[7] = {};                ///< true if the sd of the observable is unknown
   std::vector<Eigen::Index> free;        ///< places of parameters
-  Eigen::Index values = 0;               ///< measured ones
-  std::vector<Eigen::VectorXd> guesses;  ///< what solve() has begun from, the best first
+  Eigen::Index values = 0;               ///< number of measured values
+  std::vector<Eigen::VectorXd> guesses;  ///< starts of solve(), the best first
 
-  double rounding[7] = {};  ///< the step that values whose sd is not known are rounded to; tiny where they are not
+  double rounding[7] = {};  ///< step to which values with unknown sd are rounded; tiny if they are not rounded
 
   bool any_estimated() const;
 

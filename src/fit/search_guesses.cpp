@@ -199,7 +199,7 @@ std::vector<Search::Begun> Search::starts_of(const Track& track, const VectorXd&
       spins = {slips[slips.size() / 2] / radius};
     }
   }
-  const bool rolls = std::ranges::any_of(free, [](Index place) {  // which goes into the speed, too
+  const bool rolls = std::ranges::any_of(free, [](Index place) {  // the speed of the centre contains the rolling
     return TrackModel::parameter_at(place) == Parameter::rolling;
   });
   const auto begun = [&](double slip, double spin) {

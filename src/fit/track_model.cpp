@@ -198,7 +198,7 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     /// The number of the orbit that a parameter changes, and its derivative.
     const auto number_of = [&](Parameter parameter) -> std::pair<FilmOrbit::Number, double> {
       switch (parameter) {
-        case Parameter::friction:  // which stretches time, too
+        case Parameter::friction:  // it also stretches time: see below
           return {FilmOrbit::drive, -orbit_numbers(i, parameters)[FilmOrbit::drive]};
         case Parameter::rolling_friction:
           return {FilmOrbit::drive, 1 / std::exp(parameters[0])};
