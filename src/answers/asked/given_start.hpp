@@ -7,12 +7,12 @@
 
 namespace contensou::answers {
 
-/// The start that is asked for, and under which law.
+/// The start that is asked for, and its system with the law.
 struct GivenStart {
   reduction::ReducedSystem system;
   reduction::State state;
-  std::optional<si::Experiment> experiment;  ///< where it came from, if it is a ball in SI units
-  std::optional<si::Motion> motion = {};     ///< of a ball; system is that of its first piece
+  std::optional<si::Experiment> experiment;  ///< source of the start, if it is a ball in SI units
+  std::optional<si::Motion> motion = {};     ///< motion of a ball; `system` belongs to its first piece
 
   /// Returns the orbits of a ball, one after the other; none without a ball.
   std::vector<si::ReducedPiece> pieces() const { return motion ? motion->pieces() : std::vector<si::ReducedPiece>(); }

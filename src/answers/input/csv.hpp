@@ -185,7 +185,7 @@ class CsvReader {
   double bytes_read_ = 0;
   bool at_end_ = false;
   std::optional<BadLine> fault_;  ///< is thrown after the records before it have been given
-  CsvBlock first_;                ///< what was read with the header
+  CsvBlock first_;                ///< records read together with the header
   std::vector<std::string> names_;
   long header_line_ = 1;
 };

@@ -254,7 +254,7 @@ class Parser {
     return true;
   }
 
-  /// @param operands  of the step, the last values
+  /// @param operands  number of operands of the step: the last values on the stack
   void add(Step step, std::size_t operands) {
     auto variables = static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0);
     if (operands > 0) step.right = variables_.back();
@@ -329,7 +329,7 @@ class Parser {
       reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
     }
     while (at_ < text_.size() && is_of_word(text_[at_])) ++at_;
-    while (at_ > begin && at_ < text_.size() && text_[at_] == '\'') ++at_;  // as in x'
+    while (at_ > begin && at_ < text_.size() && text_[at_] == '\'') ++at_;  // the prime of x'
     const std::string name(text_.substr(begin, at_ - begin));
     const auto variable =
         static_cast<std::size_t>(std::ranges::find(shape_.variables, name) - shape_.variables.begin());
@@ -403,7 +403,7 @@ class Parser {
   std::size_t at_;
   int depth_ = 0;
   bool in_bars_ = false;                  ///< the innermost open bracket is a bar
-  std::vector<unsigned char> variables_;  ///< that each value on the stack depends on, as Step::left
+  std::vector<unsigned char> variables_;  ///< variables of each value on the stack, as Step::left
 };
 
 using Steps = std::vector<Step>;
@@ -411,7 +411,7 @@ using Steps = std::vector<Step>;
 /// A factor of a product.
 struct Factor {
   Steps steps;
-  unsigned char variables;  ///< as Step::left
+  unsigned char variables;  ///< coded like Step::left
 
   bool operator==(const Factor& other) const {
     return std::ranges::equal(steps, other.steps, [](const Step& a, const Step& b) {

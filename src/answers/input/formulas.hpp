@@ -48,7 +48,7 @@ class Formulas {
   ///                   kind or that no formula has
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);
 
-  /// @param values  of the variables
+  /// @param values  values of the variables
   /// @return the values of the formulas; 0 for one that is not due
   std::array<double, 2> operator()(std::initializer_list<double> values) const;
 

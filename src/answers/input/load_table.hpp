@@ -8,16 +8,16 @@
 
 namespace contensou::answers {
 
-/// A load that changes, from a CSV with columns t (s) and load (N), or in other units by their headings.
-/// @throws BadLine      for what is no such load
+/// Reads a changing load from a CSV with columns t (s) and load (N), or in the units of their headings.
+/// @throws BadLine      for a table that is no such load
 /// @throws FileFailure  if the file cannot be read
 si::LoadHistory read_load_history(const std::string& path);
 
-/// Rejects a motion that is not that of a constant load at other times: with a patch that the load widens, and with
-/// what is not in proportion to it.
-/// @param others  options that are of a constant load, between commas; empty: none
-/// @return  what is to be known of the patch, for people; empty for a body that lies flat
-/// @throws BadInput  saying why, and what to leave out
+/// Rejects a motion that a change of time does not turn into one under a constant load: a patch that the load widens,
+/// or a force that is not proportional to the load.
+/// @param others  given options that need a constant load, between commas; empty: none
+/// @return  a remark on the patch, for people; empty for a body that lies flat
+/// @throws BadInput  with the reason, and the option to leave out
 std::string require_load_alone(const si::Experiment& experiment, const reduction::Law& law, std::string others = "");
 
 }  // namespace contensou::answers

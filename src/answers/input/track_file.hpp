@@ -35,11 +35,11 @@ std::vector<std::string> observable_names();
 /// The name of an observable that a column of that name has: "spin" of wz, else its usual_name.
 std::string observable_name(std::string_view column);
 
-/// A track from a table with a column t, or frame, and others of observables, by their usual_name, in SI units or in those behind
-/// their names, as in "spin [rpm]"; NAME_sd is the standard deviation of NAME, in the unit of NAME unless it has its own. An empty field, nan and NA were not
-/// measured. Other columns are not read.
+/// A track from a table with a column t, or frame, and others of observables, by their usual_name, in SI units or in
+/// those behind their names, as in "spin [rpm]"; NAME_sd is the standard deviation of NAME, in the unit of NAME unless
+/// it has its own. An empty field, nan and NA were not measured. Other columns are not read.
 ///
-/// @param name  of the track
+/// @param name  name of the track
 /// @param note    called with a sentence for each column that is not read, or that seems to be in another unit
 /// @param unused  options: those that this track has a use for are taken out
 /// @throws BadLine            naming the line: of a header without t or an observable, with what there is; of a number

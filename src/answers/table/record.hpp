@@ -33,9 +33,9 @@ struct Field {
   const char* meaning;           ///< empty: it shares the line of help of the next
   Json (*value)(const Result&);  ///< null where this result has none
 
-  /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an object; an entry without
-  /// a name has none. In those of an array of objects * stands for the member "name". Without a text, as in JSON; an
-  /// empty one: none.
+  /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an
+  /// object; an entry without a name has none. In those of an array of objects * stands for the member "name". Without
+  /// a text, as in JSON; an empty one: none.
   const char* columns = nullptr;
   int place = 0;           ///< of the columns: they follow those of a lower place
   const char* shape = "";  ///< of an array or object, for help
@@ -49,7 +49,7 @@ template <class Result>
 struct ColumnField {
   const char* name;
   const char* unit;
-  const char* meaning;                             ///< as Field's
+  const char* meaning;                             ///< like Field::meaning
   const Eigen::ArrayXd* (*values)(const Result&);  ///< null where this result has none
 };
 

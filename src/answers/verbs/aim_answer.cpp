@@ -14,15 +14,15 @@ namespace contensou::answers {
 namespace {
 
 struct AimReport {
-  si::Experiment experiment;  ///< with the start that was found
+  si::Experiment experiment;  ///< ball with the start that was found
   reduction::Law law;
   si::Velocities start;
   double slip;                   ///< at the start
-  double distance, turns, time;  ///< that it comes to
+  double distance, turns, time;  ///< results of the start
   si::Velocities final;
-  std::optional<si::Event> rolls;  ///< of a ball
+  std::optional<si::Event> rolls;  ///< for a ball only
   std::optional<si::CueStrike> strike;
-  std::optional<si::Event> rest;  ///< with rolling friction
+  std::optional<si::Event> rest;  ///< only with rolling friction
 
   bool is_ball() const { return !experiment.ball.body.lies_flat(); }
 };

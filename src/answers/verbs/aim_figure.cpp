@@ -69,7 +69,7 @@ struct Family {
   double Arrival::*value;
   const char *name, *unit;
   portraits::Stroke stroke;
-  double label;  ///< where on a line its number stands, a fraction of it from slip alone or from spin alone
+  double label;  ///< place of the number as a share of its line, 0 to 1
 };
 
 void add(portraits::Panel& panel, const std::vector<Arrival>& all, const Family& family) {

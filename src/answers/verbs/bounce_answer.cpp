@@ -17,7 +17,7 @@ namespace contensou::answers {
 namespace {
 
 struct BounceReport {
-  si::Experiment experiment;  ///< with the patch of the impact
+  si::Experiment experiment;  ///< ball with the patch of the impact
   reduction::Law law;
   si::Impact impact;
   std::optional<double> height;  ///< m

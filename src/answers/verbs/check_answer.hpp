@@ -14,18 +14,18 @@ namespace contensou::answers {
 struct CheckedLaw {
   std::string law;
   reduction::Check check;
-  std::optional<Deviation> deviation = {};  ///< of a table, what was measured of it
+  std::optional<Deviation> deviation = {};  ///< deviation of a table, if one is checked
 };
 
-/// Returns the checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding, and of
-/// the same with drives the routes to the stop time: the worst of each.
+/// Returns the checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding, and
+/// of the same with drives the routes to the stop time: the worst of each.
 std::vector<reduction::Check> built_in_checks(const reduction::Law& law);
 
-/// Takes the worse of two results of the same check; not a number is the worst.
+/// Replaces each check by the worse of it and the other result of the same check. NaN is the worst.
 void take_worse(std::vector<reduction::Check>& worst, const std::vector<reduction::Check>& others);
 
-/// A row each.
-/// @param built_in  whether they are those of built_in_checks, of which the text says the starts
+/// Returns the answer of `check` with these rows.
+/// @param built_in  true for rows of built_in_checks; the text then names their starts
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);
 
 /// A table beside the motions of a ball: two checks of the law's own motion, and how far the others are.

@@ -9,12 +9,12 @@
 
 namespace contensou::answers {
 
-/// The best law's fit, with the others by their criterion.
-/// @param fits     of tracks, the best first
-/// @param planned  of a film that is not made yet
+/// Returns the fit by the best law, and the criterion of the other laws.
+/// @param fits     fits of the tracks, the best first
+/// @param planned  true for a film that is not made yet
 Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned);
 
-/// The answer as text on one screen, and what the data do not decide.
+/// Returns the answer as text on one screen, with the numbers that the data do not determine.
 std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned,
                       const Digits& digits);
 

@@ -6,10 +6,10 @@
 namespace contensou::answers {
 
 /// The data of tracks with the fitted motion, an observable beside the other, the residuals below each, and where
-/// friction and patch radius lie: the ellipses of 68 and 95 % confidence. Beside slip, spin and angle, dashed, the textbook's
-/// motion from the same start, which has no rolling friction.
+/// friction and patch radius lie: the ellipses of 68 and 95 % confidence. Beside slip, spin and angle, dashed, the
+/// textbook's motion from the same start, which has no rolling friction.
 /// @param laws  among which the fit's is
-/// @param size  of the figure, as it is asked for
+/// @param size  size of the figure, as it is asked for
 portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::Law>& laws,
                              const std::vector<fit::Track>& tracks, const portraits::AskedSize& size);
 

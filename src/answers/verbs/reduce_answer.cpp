@@ -142,7 +142,7 @@ Json strip_members(const portraits::ReducedOrbits& from, const char* x,
     const std::size_t step = (line.size() + most - 1) / most;
     for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
       const Vector2d at = place(line[i]);
-      if (!at.allFinite()) continue;  // so long before the start that no double holds it
+      if (!at.allFinite()) continue;  // the state is so long before the start that it exceeds a double
       columns[x].push_back(line[i].x);
       columns["p"].push_back(line[i].y);
       columns["u"].push_back(at[0]);

@@ -19,12 +19,12 @@ struct ReduceAnswer {
   bool found;  ///< a generator, or a factor
 };
 
-/// Reduces (2.6); beside it stands what the other routes say.
+/// Reduces (2.6), and adds the results of the other routes.
 /// @throws BadInput  for a start at rest
 ReduceAnswer reduce_answer(const GivenStart& given);
 
 /// Reduces any field.
-/// @param text  of the field, for the answer
+/// @param text  text of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
 
 /// Returns every value of the field `end`; where an orbit has another end, it is null.

@@ -11,11 +11,11 @@
 
 namespace contensou::answers {
 
-/// Everything that `stop` says about one start.
-/// @param estimate  also the estimates for small mu
-/// @param gradient  also the derivatives of the stop time
-/// @param uncertainty  of the stop time, by stop_uncertainty
-/// @param load      of a ball, that changes: tau is that of its nominal load, seconds are those under this one
+/// Returns the answer of `stop` for one start.
+/// @param estimate  true: with the estimates for small mu
+/// @param gradient  true: with the derivatives of the stop time
+/// @param uncertainty  uncertainty of the stop time, by stop_uncertainty
+/// @param load      changing load of a ball: tau belongs to its nominal load, seconds to this one
 /// @throws BadInput, std::domain_error  for what rolling friction excludes, and for a load that ends before the motion
 Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimate, bool gradient = false,
                    const std::optional<Uncertainty>& uncertainty = {}, const std::optional<si::LoadHistory>& load = {});

@@ -41,7 +41,7 @@ struct Spread {
 /// A number that may be given a spread.
 struct Spreadable {
   Spread number;
-  std::string_view unit;         ///< as of a Quantity
+  std::string_view unit;         ///< unit, as in si::Quantity
   std::string_view corner = {};  ///< text that names a result without a derivative at number = 0; empty: none
 };
 
@@ -306,7 +306,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
       .numbers = {},
       .parts = {},
       .system = si::undriven_system(experiment, law),
-      .samples = events.resisted() ? 1'000 : 10'000,  // with a drive each has solutions of its own
+      .samples = events.resisted() ? 1'000 : 10'000,  // with a drive each sample needs solutions of its own
       .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
       .mu = [&](const auto& places, const VectorXd& values) { return si::patch_ratio(moved(places, values), law); },
       .at =

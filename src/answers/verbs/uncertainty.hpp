@@ -29,7 +29,7 @@ struct KnownTo {
 struct Uncertainty {
   /// A number of an event.
   struct Part {
-    std::string event, of;  ///< as in JSON: rolls_after and t; slip_length and nothing
+    std::string event, of;  ///< names in JSON, such as rolls_after and t; `of` is empty for slip_length
     std::string unit;
     double value;
     KnownTo known = {};
