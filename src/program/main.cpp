@@ -81,7 +81,7 @@ class Verbs {
           [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(*entry, false); });
       part.verb = part.entry->make();
       part.verb->add_options(*part.app);
-      part.app->set_help_flag();  // so that it is the last
+      part.app->set_help_flag();  // remove it and add it again: it becomes the last option
       part.app->set_help_flag("-h,--help", "print this help");
     }
     return *part.verb;
@@ -141,7 +141,7 @@ void reject_what_means_nothing(const CLI::App& app, const std::vector<std::strin
 }
 
 void parse(CLI::App& app, std::vector<std::string> arguments) {
-  std::ranges::reverse(arguments);  // as CLI11 wants them
+  std::ranges::reverse(arguments);  // CLI11 takes them in reverse order
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ArgumentMismatch& error) {

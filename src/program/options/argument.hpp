@@ -104,18 +104,18 @@ inline auto quantity(std::string_view symbol) {
 /// Reads each text as parse_quantity. A unit behind the last number applies to all, unless each has its own.
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
 
-/// Reads so many numbers between commas.
-/// @param names   of the numbers, for messages, such as U,V
-/// @param symbol  as parse_quantity
+/// Reads `count` numbers between commas.
+/// @param names   names of the numbers in messages, such as U,V
+/// @param symbol  symbol of the unit, as in parse_quantity
 std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names,
                             std::string_view symbol = "");
 
-/// One of some names, and what it stands for.
+/// Names, and the value for which each of them stands.
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-/// The complaint about a name that is none of those there are.
-/// @param kind  what the names are of, such as "law"; none: "one of them is needed"
+/// Returns the error for an unknown name.
+/// @param kind  noun for the named things, such as "law"; if empty, the message is "one of them is needed"
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names);
 
 /// Reads the value that a name stands for; the empty name is not told.

@@ -13,7 +13,7 @@ namespace contensou::program {
 
 /// A kind of output of a verb, such as a table.
 struct OutputKind {
-  std::string noun;                  ///< with its article, for messages
+  std::string noun;                  ///< noun with its article, for messages
   std::vector<std::string> formats;  ///< names for --format, which are endings of files; for text the ending is txt
   std::string path = "-";            ///< default of -o
   std::string standard = formats.front();

@@ -27,7 +27,7 @@ struct Piece {
   fmt::memory_buffer lines;
   std::string complaints;
   long overflows = 0;
-  std::string first_overflow;  ///< what is said of it
+  std::string first_overflow;  ///< message on the first infinite result
   ExitStatus status = ExitStatus::done;
   std::exception_ptr fault;  ///< of the first row that has no line
   double fraction_read = 0;  ///< of the table, with these rows; NaN if it has no known length

@@ -10,11 +10,11 @@ namespace contensou::program {
 
 namespace {
 
-constexpr std::size_t margin = 22;  ///< where meanings begin
+constexpr std::size_t margin = 22;  ///< column in which meanings begin
 constexpr const char* shared = " ('contensou help ";
 
-/// @param column  where the first line begins
-/// @param indent  where the others do
+/// @param column  column in which the first line begins
+/// @param indent  column in which the other lines begin
 std::string wrapped(std::string_view text, std::size_t column, std::size_t indent) {
   std::string lines;
   std::istringstream words{std::string(text)};

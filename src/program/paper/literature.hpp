@@ -5,16 +5,16 @@
 
 namespace contensou::program {
 
-/// A number that somebody else published, and what it is here.
+/// A number that others published, and the same number computed here.
 struct Published {
-  std::string_view name;    ///< what it is of
-  std::string_view source;  ///< authors, where, year
+  std::string_view name;    ///< the quantity
+  std::string_view source;  ///< authors, journal or title, year
   std::string_view link;    ///< its DOI or repository; empty if it has none
-  std::string_view read;    ///< what of the source was read: "abstract", "code", "in textbooks" or "as cited"
+  std::string_view read;    ///< part of the source that was read: "abstract", "code", "in textbooks" or "as cited"
   double published;
-  double allowed;         ///< half a unit of the last digit printed; of a closed expression, rounding
-  double computed;        ///< without that number
-  bool confirmed = true;  ///< what was found when it was written down
+  double allowed;         ///< half a unit of the last printed digit; for a closed expression, the rounding
+  double computed;        ///< computed without the published number
+  bool confirmed = true;  ///< recorded result: true if both agree
 
   bool agrees() const;
 };

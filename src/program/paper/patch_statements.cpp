@@ -11,9 +11,9 @@ namespace {
 
 using namespace zh98;
 
-constexpr double by_integral = 1e-10;        ///< what an integral over the patch may miss by
-constexpr double by_difference = 1e-6;       ///< a difference quotient
-constexpr double quantitatively_well = 0.1;  ///< the most that "well, in numbers" can mean
+constexpr double by_integral = 1e-10;        ///< allowed error of an integral over the patch
+constexpr double by_difference = 1e-6;       ///< allowed error of a difference quotient
+constexpr double quantitatively_well = 0.1;  ///< largest error that "well, in numbers" can mean
 
 template <class Integrand>
 double integral(Integrand integrand, double left, double right, unsigned halvings = 8) {

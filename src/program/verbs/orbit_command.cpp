@@ -154,7 +154,7 @@ class OrbitCommand final : public Verb {
         const double nominal = si::seconds(*start.experiment, tau);
         return load ? load->time_of(nominal) : nominal;
       };
-      const bool given = at != nullptr && at->in_seconds;  // as they were typed, not there and back
+      const bool given = at != nullptr && at->in_seconds;  // keep the typed values unconverted
       report.t = given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds));
     }
     if (reduction_) add_canonical(report);

@@ -58,7 +58,7 @@ struct Range {
 /// The starts of a sweep: every mu with every v0 with every u0. Their order is that of a C array, u0 the fastest.
 struct SweepGrid {
   Range mu;
-  bool mu_is_range;  ///< whether the array has an axis for it
+  bool mu_is_range;  ///< true if the array has an axis for mu
   Range u0;          ///< of a ball, its spin
   Range v0;
   std::optional<si::Experiment> ball = {};  ///< the grid and the stop times are in SI
