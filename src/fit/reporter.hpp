@@ -101,7 +101,7 @@ class Reporter {
   Eigen::MatrixXd covariance_;  ///< of the free parameters
   Eigen::VectorXd deviation_;   ///< standard errors of the free parameters
   Dependence dependence_[7];    ///< of the errors of each observable, where their size is not given
-  double variance_ = 1;         ///< factor of all variances, from the scatter of the residuals and the robust loss
+  double variance_ = 1;         ///< factor of all variances in a robust fit, else 1
   double quantile_ = normal_quantile;
   Fit fit_;
   std::optional<Eigen::VectorXd> better_;
