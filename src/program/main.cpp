@@ -77,8 +77,7 @@ class Verbs {
   Verb& complete(const std::string& name) {
     Part& part = *std::ranges::find(parts_, name, [](const Part& of) { return of.entry->name; });
     if (!part.verb) {
-      part.app->footer(
-          [entry = part.entry] { return "Example:\n  " + entry->example + "\n" + help_on_fields(*entry, false); });
+      part.app->footer("Example:\n  " + part.entry->example);
       part.verb = part.entry->make();
       part.verb->add_options(*part.app);
       part.app->set_help_flag();  // remove it and add it again: it becomes the last option

@@ -43,8 +43,8 @@ CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const s
               read);
   samples_
       .add(app, "--samples", "N",
-           fmt::format("number of instants{}, 2 or more, in place of --at; half of them while the body slides (default "
-                       "{})",
+           fmt::format("number of instants{}, 2 or more, in place of --at; "
+                       "half of them while the body slides (default {})",
                        extent, standard_samples),
            whole_number(2, max_samples))
       ->excludes(at);

@@ -27,7 +27,8 @@ class LawOption {
 
   /// The law of that name, of that exponent (pressure:P), of these formulas (phi = F; psi = G), or of the table in that
   /// file (with a / or ending in .csv); the standard one if none was given: of a start StartOptions::standard_law().
-  /// @throws BadInput           for an unknown name or an exponent out of range, formulas that are no law; BadLine for a bad line of the file
+  /// @throws BadInput           for an unknown name or an exponent out of range, formulas that are no law; BadLine for
+  /// a bad line of the file
   /// @throws std::system_error  if the file cannot be read
   reduction::Law read(const std::string& standard) const;
 

@@ -77,7 +77,7 @@ std::string drawn(const std::vector<portraits::Figure>& figures, portraits::Pict
   }
 }
 
-std::string usual_group() { return shared_group("Output of every verb", "output"); }
+std::string usual_group() { return shared_group("Output in general", "output"); }
 
 void OutputOptions::add(CLI::App& app) {
   app.option_defaults()->group("Output");
@@ -93,8 +93,8 @@ void OutputOptions::add(CLI::App& app) {
   file_.add(app, "-o,--output", "FILE",
             fmt::format("output file (default {}); its ending is one of {}",
                         usual.path == "-" ? "-, standard output" : usual.path, endings));
-  format_.add(app, "--format", "FORMAT", "format of an output without an ending: " + formats);
   app.option_defaults()->group(usual_group());
+  format_.add(app, "--format", "FORMAT", "format of an output without an ending: " + formats);
   if (!has_text) return;
   digits_.add(app, "--digits", "N",
               fmt::format("significant digits in text and in a table of tex, 1 to 17 (default {})", standard_digits),

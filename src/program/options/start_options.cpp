@@ -48,23 +48,20 @@ void BodyOptions::add_mu(CLI::App& app) {
     return parse_number(parts.front());
   };
   mu_.add(app, "--mu", takes_several_mu_ ? "M,..." : "M",
-          std::string("patch radius divided by the radius R: 0 < M <= 1 for a ball, 1 for a disc or ring") +
+          std::string("patch radius divided by R, 0 < M <= 1 (disc, ring: 1)") +
               (takes_several_mu_ ? "; several values give portraits side by side" : ""),
           read);
 }
 
 void BodyOptions::add_body(CLI::App& app) {
   body_.add(app, "--body", "BODY",
-            "ball (default), hollow-ball, disc (or puck), ring, or two numbers CHI,GAMMA: chi = 1 + m R^2/J about a "
-            "horizontal axis (1: cannot roll), gamma = m R^2/J_z",
-            parse_body);
+            "ball (default), hollow-ball, disc (or puck), ring, or CHI,GAMMA ('contensou help ball')", parse_body);
 }
 
 void BodyOptions::add_drive(CLI::App& app) {
   app.option_defaults()->group("Start");
   drive_.add(app, "--drive", "RHO",
-             "constant force along the slip divided by f N, from 0 to below 1 (default 0): u_r/f of rolling "
-             "resistance, or tan(angle)/(chi f) of a slope straight down",
+             "constant force along the slip divided by f N, 0 <= RHO < 1 ('contensou help ball')",
              [](const std::string& typed) {
                const double drive = parse_number(typed);
                if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
@@ -97,8 +94,8 @@ std::string ball_group() { return shared_group("Values that replace those of --b
 void StartOptions::add(CLI::App& app) {
   app.option_defaults()->group("Start");
   body_.add_mu(app);
-  u0_.add(app, "--u0", "U", "spin R omega_z at the start, of either sign, in any unit of speed", number);
-  v0_.add(app, "--v0", "V", "sliding speed at the start, >= 0, in the unit of --u0", number);
+  u0_.add(app, "--u0", "U", "spin R omega_z, of either sign, in any unit of speed", number);
+  v0_.add(app, "--v0", "V", "sliding speed, >= 0, in the unit of --u0", number);
   body_.add_body(app);
   add_ball(app, "body in SI units, in place of the four options above");
 }

@@ -16,7 +16,7 @@ void SystemOption::add(CLI::App& app) {
               "system to solve in place of (2.6), as formulas in u and v; also \"y' = F(x, y)\" or \"x'' = F(x, x')\"; "
               "--u0 and --v0 of either sign are the start");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
-             "functions whose sums with constant coefficients are tried as inverse integrating factor V of --system");
+             "functions whose linear combinations are tried as inverse integrating factor V of --system");
 }
 
 reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) const {

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t margin = 22;  ///< column in which meanings begin
 constexpr const char* shared = " ('contensou help ";
+constexpr long most_lines = 110;  ///< of the help of a verb
 
 /// @param column  column in which the first line begins
 /// @param indent  column in which the other lines begin
@@ -79,6 +80,21 @@ std::string help_on_fields(const VerbEntry& verb, bool all) {
   return text;
 }
 
+namespace {
+
+/// Returns the names of the fields of a verb, for a help that would be too long with their meanings.
+std::string names_of_fields(const VerbEntry& verb) {
+  std::vector<std::string> all;
+  for (auto [names, unit, meaning] : verb.fields.front().fields()) {
+    std::erase(names, '`');
+    all.push_back(names);
+  }
+  return fmt::format("\nColumns and fields of {}{}fields'):\n{}", verb.name, shared,
+                     help_paragraph(fmt::format("{}", fmt::join(all, "; ")), 2));
+}
+
+}  // namespace
+
 HelpFormatter::HelpFormatter() {
   label("SUBCOMMAND", "VERB");
   label("Positionals", "Arguments");
@@ -86,7 +102,12 @@ HelpFormatter::HelpFormatter() {
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-  return CLI::detail::rtrim(text = CLI::detail::find_and_replace(text, "\n\n\n", "\n\n")) + "\n";
+  text = CLI::detail::rtrim(text = CLI::detail::find_and_replace(text, "\n\n\n", "\n\n")) + "\n";
+  const auto verb = std::ranges::find(verbs(), app->get_name(), &VerbEntry::name);
+  if (verb == verbs().end()) return text;
+  const std::string fields = help_on_fields(*verb, false);
+  const auto lines = std::ranges::count(text, '\n') + std::ranges::count(fields, '\n');
+  return text + (lines <= most_lines ? fields : names_of_fields(*verb));
 }
 
 std::string HelpFormatter::make_group(std::string group, bool is_positional,

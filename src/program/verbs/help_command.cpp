@@ -52,9 +52,8 @@ std::string units() {
   for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
   return text + "\n" +
          help_paragraph(
-             "mu, u0 and v0 take no unit. mu is the patch radius divided by the radius of the body. u0 and v0 are in "
-             "any "
-             "common unit of speed, and times are then tau = (3 pi/2) f g t of the paper in that unit.");
+             "mu, u0 and v0 take no unit. mu is the patch radius divided by the radius of the body. u0 and v0 are "
+             "in any common unit of speed, and times are then tau = (3 pi/2) f g t of the paper in that unit.");
 }
 
 std::string files() {
@@ -101,10 +100,9 @@ std::string files() {
 
 std::string all_fields() {
   std::string text = help_paragraph(
-      "Names of columns in CSV and of members in JSON. JSON also has schema, which is 1, and version. Lines of CSV "
-      "that "
-      "begin with # are comments. The members of an object are columns of their own. u, v and tau are in one unit of "
-      "speed, which is m/s for a ball.");
+      "Names of columns in CSV and of members in JSON. JSON also has schema, which is 1, and version. "
+      "Lines of CSV that begin with # are comments. The members of an object are columns of their own. "
+      "u, v and tau are in one unit of speed, which is m/s for a ball.");
   for (const VerbEntry& entry : verbs()) text += help_on_fields(entry, true);
   return text;
 }
@@ -181,10 +179,11 @@ std::string ball() {
   StartOptions start;
   start.take_load_history();
   return options(
-      "Each of these options replaces a value of the body that --ball names. A verb offers those that it uses; its "
-      "help "
-      "lists them. 'contensou balls' lists the built-in bodies, 'contensou help files' the run files, 'contensou help "
-      "units' the units.",
+      "--body CHI,GAMMA gives the inertia of any body: chi = 1 + m R^2/J about a horizontal axis, 1 for a body that "
+      "cannot roll, and gamma = m R^2/J_z about the vertical. --drive RHO is u_r/f for rolling resistance u_r, and "
+      "tan(angle)/(chi f) on a slope straight down. Each of the following options replaces a value of the body that "
+      "--ball names. A verb offers those that it uses. 'contensou balls' lists the built-in bodies, 'contensou help "
+      "files' describes run files, 'contensou help units' lists the units.",
       ball_group(), [&](CLI::App& app) { start.add_ball(app); });
 }
 
@@ -200,11 +199,9 @@ std::string output() {
   OutputOptions output{{{"an answer", answer_formats("text")}}};
   BulkOptions bulk;
   std::string text = options(
-      "-o FILE names the output file, which is written whole or not at all; - is standard output. Its ending decides "
-      "the "
-      "format; --format decides if there is no ending. csv and json have all digits; npy is an array of NumPy. "
-      "Messages and progress go to "
-      "standard error.",
+      "-o FILE names the output file, which is written whole or not at all; - is standard output. "
+      "Its ending decides the format; --format decides if there is no ending. csv and json have all digits; "
+      "npy is an array of NumPy. Messages and progress go to standard error.",
       usual_group(), [&](CLI::App& app) {
         output.add(app);
         bulk.add(app);
