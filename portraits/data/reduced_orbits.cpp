@@ -15,8 +15,8 @@ namespace {
 
 [[noreturn]] void refuse_ray() {
   throw std::domain_error(
-      "the start lies on an axis or on an invariant ray, which the symmetry moves along itself: another start is "
-      "needed");
+      "the start lies on an axis or on an invariant ray, which the symmetry moves along itself: "
+      "another start is needed");
 }
 
 }  // namespace

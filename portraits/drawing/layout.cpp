@@ -391,9 +391,8 @@ class Compositor {
     constexpr double least_width = 9, least_height = 5;
     if (!(box.width >= least_width && box.height >= least_height)) {
       throw std::domain_error(
-          fmt::format("a figure of {:.4g} x {:.4g} mm leaves {:.3g} x {:.3g} mm for a panel, which needs {:.3g} x "
-                      "{:.3g} mm: make it "
-                      "larger, or leave out its title",
+          fmt::format("a figure of {:.4g} x {:.4g} mm leaves {:.3g} x {:.3g} mm for a panel, "
+                      "which needs {:.3g} x {:.3g} mm: make it larger, or leave out its title",
                       figure_.size.width_mm, figure_.size.height_mm, std::max(0.0, box.width * em_),
                       std::max(0.0, box.height * em_), least_width * em_, least_height * em_));
     }

@@ -191,8 +191,7 @@ void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, st
                       std::size_t whole) const {
   if (u0.size() != v0.size() || u0.size() != tau.size() || threads == 0) {
     throw std::domain_error(fmt::format(
-        "Flow::stop_times: arrays of one size and a thread or more are needed, got {} u0, {} v0, {} tau, {} "
-        "threads",
+        "Flow::stop_times: arrays of one size and a thread or more are needed, got {} u0, {} v0, {} tau, {} threads",
         u0.size(), v0.size(), tau.size(), threads));
   }
   if (by_table(std::max(whole, tau.size()))) return table().evaluate(u0, v0, tau, threads);

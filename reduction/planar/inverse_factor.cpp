@@ -1,8 +1,8 @@
 // The equation of V, README (R64), in a basis of functions: f . grad V - V div f = 0, one row for a point.
 //   [X, f] = g f for a generator X of the orbits, and areas grow at the rate div f, so V = f ^ X satisfies it.
-// Rows are divided by |F|/radius + |G|/radius + |div f|, and the basis is made orthonormal over the points. The singular
-// values are then the values (R66) of all V of the form; the terms of f . grad V, which vanish for V = 1 and a conservative
-// field, scale nothing.
+// Rows are divided by |F|/radius + |G|/radius + |div f|, and the basis is made orthonormal over the points. The
+// singular values are then the values (R66) of all V of the form; the terms of f . grad V, which vanish for V = 1 and a
+// conservative field, scale nothing.
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>

@@ -83,9 +83,9 @@ class ForcesOnTheWay {
     const double difference = sign * balance.difference(), larger = balance.larger();
     if (difference < -certainty * larger) {
       throw std::domain_error(fmt::format(
-          "QuadratureCurve: Phi {} {}r k Psi must hold for every k between the terminal ratio {} and {}, but law {} "
-          "has "
-          "Phi = {}, r k Psi = {} at k = {} for r = {}: k tends to another ratio; routes regularised and direct answer",
+          "QuadratureCurve: Phi {} {}r k Psi must hold for every k between the terminal ratio {} and {}, "
+          "but law {} has Phi = {}, r k Psi = {} at k = {} for r = {}: "
+          "k tends to another ratio; routes regularised and direct answer",
           sign > 0 ? '>' : '<', drive_ > 0 ? fmt::format("{} + ", drive_) : "", std::exp(chart_.log_terminal_ratio()),
           std::exp(chart_.log_far_ratio()), law_.name(), sliding, drag, k, r_));
     }

@@ -16,8 +16,8 @@ constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
 
 }  // namespace
 
-/// A motion depends on k = v/(patch radius |spin|) at the start. Where nothing shows the spin, two k can give a slip that
-/// slows down alike, with another friction each; so it is for a slip that nothing shows.
+/// A motion depends on k = v/(patch radius |spin|) at the start. Where nothing shows the spin, two k can give a slip
+/// that slows down alike, with another friction each; so it is for a slip that nothing shows.
 void Reporter::set_other_motions(Profile& profile) {
   // A patch that is free makes up for any spin: then profiles are wide.
   if (request_.free.patch_radius) return;

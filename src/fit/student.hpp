@@ -19,8 +19,8 @@ inline double student_share(double t, double n) {
   return 2 / std::numbers::pi * (angle + (n > 1 ? sine * std::cos(angle) * sum : 0));
 }
 
-/// 95 % of Student's distribution lie between minus that and that, within 1e-12 of it. Boost's distribution, which a test
-/// compares, would be a twentieth of the page of `contensou explore`.
+/// 95 % of Student's distribution lie between minus that and that, within 1e-12 of it. Boost's distribution, which a
+/// test compares, would be a twentieth of the page of `contensou explore`.
 /// @param n  degrees of freedom, a whole number >= 1
 inline double student_quantile(double n) {
   const double peak = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2)) / std::sqrt(n * std::numbers::pi);

@@ -83,7 +83,8 @@ TEST_CASE("of a ball with rolling friction the intervals hold the truth as often
 
 TEST_CASE("of a puck by x and y the intervals hold the truth, and every motion that fits as well is told",
           "[invariant]") {
-  // Another spin with another friction slows down alike: their sums of squares differ by less than chance in one film of six.
+  // Another spin with another friction slows down alike: their sums of squares differ by less than chance in one film
+  // of six.
   si::Experiment puck = si::find_ball("puck")->experiment;
   const si::Experiment asked = puck;
   puck.contact.friction = 0.1;

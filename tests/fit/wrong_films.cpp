@@ -17,7 +17,8 @@ using Eigen::ArrayXd;
 
 namespace {
 
-/// Counts the films of a motion that are told not to fit, or to determine neither friction nor patch radius nor a combination.
+/// Counts the films of a motion that are told not to fit, or to determine neither friction nor patch radius nor a
+/// combination.
 struct Told {
   int misfits = 0, open = 0;
 };

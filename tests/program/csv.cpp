@@ -108,8 +108,8 @@ TEST_CASE("a fault has its line, after the records before it, wherever the text 
       {"a\nb\"\nc\n", {"1: a [a]", "f:2: a quote inside a field: put the field in quotes and double those inside"}},
       {"a\n\"b\nc\"d\n",
        {"1: a [a]",
-        "f:2: a quote inside a field, or one that closes on line 3 only: put the field in quotes and double those "
-        "inside"}},
+        "f:2: a quote inside a field, or one that closes on line 3 only: "
+        "put the field in quotes and double those inside"}},
       {"a\n\"b\nc\",\"d\ne\n", {"1: a [a]", "f:3: the quotes that open here are never closed"}},
       {"a\n\"b\"c\n", {"1: a [a]", "f:2: a quote inside a field: put the field in quotes and double those inside"}},
       {"a\n\n\"b\nc\n", {"1: a [a]", "f:3: the quotes that open here are never closed"}},

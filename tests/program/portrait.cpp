@@ -69,8 +69,8 @@ TEST_CASE("portrait writes every view as script, as LaTeX and as data", "[cli]")
 
 TEST_CASE("portrait shows what its switches say", "[cli]") {
   const auto json = json_of(
-      "portrait --mu 0.3 --orbits 4 --isochrones 0 --through 0.5,1 --through -0.25,2 --against exact --format json -o "
-      "-");
+      "portrait --mu 0.3 --orbits 4 --isochrones 0 --through 0.5,1 "
+      "--through -0.25,2 --against exact --format json -o -");
   CHECK(json["orbits"].size() == 8);
   CHECK(json["isochrones"].empty());
   CHECK(json["through"].size() == 2);

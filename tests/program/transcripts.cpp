@@ -1,6 +1,8 @@
-// The sessions in transcripts/*.txt and in the documents' blocks of console: each command prints what is shown below it.
+// The sessions in transcripts/*.txt and in the documents' blocks of console: each command prints what is shown below
+// it.
 //
-//   $ COMMAND          is run by sh, where `contensou` is the program, in a new folder for each file. The folder contains the
+//   $ COMMAND          is run by sh, where `contensou` is the program, in a new folder for each file. The folder
+//   contains the
 //                      run files and tables that lie beside the document
 //   $ COMMAND ! WORDS  is refused as bad input: status 2, these words on standard error, nothing on standard output
 //   ! LINE             a line of standard error; those stand below what is on standard output

@@ -1,4 +1,5 @@
-// `stop` and `roll --uncertainty`: against differences of the program's own stop times, and against quantiles that need no samples.
+// `stop` and `roll --uncertainty`: against differences of the program's own stop times, and against quantiles that need
+// no samples.
 #include <cmath>
 #include <string>
 

@@ -203,8 +203,8 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
   CHECK(asked == systems * starts);
 }
 
-/// The scaled stop time over w, T(k), of a driven body with a ray: dT/dk = (1 - r Psi T)/D from (R2) and (R48), in steps
-/// from the ray's tangent, in more digits than a double has. It shares no code with the library, nor its laws.
+/// The scaled stop time over w, T(k), of a driven body with a ray: dT/dk = (1 - r Psi T)/D from (R2) and (R48), in
+/// steps from the ray's tangent, in more digits than a double has. It shares no code with the library, nor its laws.
 class ByTheRay {
  public:
   using Wide = std::conditional_t<(std::numeric_limits<long double>::digits > 60), long double,

@@ -61,7 +61,8 @@ void check_trajectories(const std::string& table, const Law& law) {
   CHECK_WITHIN_EPS(left_ln_v, promised);
 }
 
-/// The integral of a function of a state from where ln k is top to where it is bottom, by v d ln k/D along the orbit (R3).
+/// The integral of a function of a state from where ln k is top to where it is bottom, by v d ln k/D along the orbit
+/// (R3).
 template <class Function>
 double integral_between(const ReducedSystem& system, const Orbit& orbit, double bottom, double top, Function function) {
   const auto rate = [&](double ln_k) {

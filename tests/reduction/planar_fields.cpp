@@ -1,5 +1,5 @@
-// Random fields r' = r^d R(angle), angle' = r^(d-1) T(angle) with known zeros and poles of R and T, seen through a random
-// linear map, against steps by Odeint in (ln r, angle) and against the ends that the orders of R and T say.
+// Random fields r' = r^d R(angle), angle' = r^(d-1) T(angle) with known zeros and poles of R and T, seen through a
+// random linear map, against steps by Odeint in (ln r, angle) and against the ends that the orders of R and T say.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -231,8 +231,8 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
   }
 }
 
-// Against differences, for all laws, both signs of u, with and without a drive, before the slip has ended, long after, and
-// past the stop; and two spans of time, one after the other, against both at once.
+// Against differences, for all laws, both signs of u, with and without a drive, before the slip has ended, long after,
+// and past the stop; and two spans of time, one after the other, against both at once.
 TEST_CASE("the gradient of an instant is that of differences, and obeys the chain rule", "[gradient][route]") {
   using Part = InstantGradient::Part;
   const auto parts = [](const InstantGradient& all) {

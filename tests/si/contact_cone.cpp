@@ -25,8 +25,8 @@ Experiment gel(double slip, double spin) {
   return experiment;
 }
 
-/// From the cone and the principle of greatest dissipation alone: the point of the cone's border with the greatest power
-/// is searched for, acts for two microseconds, and is searched for again.
+/// From the cone and the principle of greatest dissipation alone: the point of the cone's border with the greatest
+/// power is searched for, acts for two microseconds, and is searched for again.
 FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) {
   struct Point {
     double force, moment;  // over f N, over c N

@@ -142,7 +142,8 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   const auto names = numbers.names();
   CHECK(names.size() == 13);
   CHECK(names[6].event == "rest");
-  // Without spin it slides at (f - u_r) chi g and rolls from then on: its centre slows at (f - u_r) g + u_r g, then u_r g.
+  // Without spin it slides at (f - u_r) chi g and rolls from then on: its centre slows at (f - u_r) g + u_r g, then u_r
+  // g.
   const double v = 0.5, f = experiment.contact.friction, chi = experiment.ball.body.inertia.chi, u_r = 0.01;
   const auto rest_time = [&](double friction_there, double resisting) {
     const double slides = v / (chi * (friction_there - resisting) * g);

@@ -64,7 +64,8 @@ TEST_CASE("a pool ball with spin creeps, and turns no more before it rests", "[r
 }
 
 TEST_CASE("without steps and in steps: one motion", "[route]") {
-  // Slow and fast spin, one that rolls already, one that rolls with topspin short of rolling, a resistance that holds it.
+  // Slow and fast spin, one that rolls already, one that rolls with topspin short of rolling, a resistance that holds
+  // it.
   const double R = pool(SlipAndSpin{1, 0}).ball.radius;
   const std::vector<std::pair<Start, double>> cases{{SlipAndSpin{1, 0}, 0.01},
                                                     {SlipAndSpin{1, 30}, 0.01},
@@ -151,7 +152,8 @@ TEST_CASE("a ball that does not slide the way it rolls is integrated; without re
   }
 }
 
-// Friction slows the ball down at f g, resistance its turning at chi u_r g - (chi - 1) f g, and it slides by the difference.
+// Friction slows the ball down at f g, resistance its turning at chi u_r g - (chi - 1) f g, and it slides by the
+// difference.
 TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole motion and the uncoupled one",
           "[formula]") {
   const double R = pool(SlipAndSpin{0, 0}).ball.radius, chi = 3.5;

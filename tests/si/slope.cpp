@@ -201,8 +201,8 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
   CHECK(held_first > shots / 80);
 }
 
-// Newton's and Euler's equations by SciPy's Radau, friction and resistance regularised below 1e-7 m/s. The ball rolls across
-// the slope and turns downhill; from the angle on at which it needs more friction than f N it slides.
+// Newton's and Euler's equations by SciPy's Radau, friction and resistance regularised below 1e-7 m/s. The ball rolls
+// across the slope and turns downhill; from the angle on at which it needs more friction than f N it slides.
 TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[reference][slope]") {
   const double R = find_ball("pool")->experiment.ball.radius;
   const Experiment experiment = ball_on(-6, Velocities{{0, 0.5}, {-0.5 / R, 0, 0}}, 0.19);

@@ -5,8 +5,9 @@
 
 namespace contensou::answers {
 
-/// Returns whether an exception is a fault of ours, such as an index out of range: its message says nothing to a reader.
-/// Bad input is a std::domain_error, and a failure of the numbers or of a file a std::runtime_error, in our own words.
+/// Returns whether an exception is a fault of ours, such as an index out of range: its message says nothing to a
+/// reader. Bad input is a std::domain_error, and a failure of the numbers or of a file a std::runtime_error, in our own
+/// words.
 bool is_fault(const std::exception& error);
 
 /// Returns a message of the library without the names of its classes and functions, such as "ReducedSystem: ".

@@ -105,8 +105,8 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     }
     const bool separator = table.names().size() == 1 && table.names().front().find(';') != std::string::npos;
     fail(
-        fmt::format("a track has a column t and one or more of {}, each with NAME{} where its errors are known; no {} "
-                    "here{}{}",
+        fmt::format("a track has a column t and one or more of {}, each with NAME{} where its errors are known; "
+                    "no {} here{}{}",
                     fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is", hints,
                     separator ? "; a comma or a tab must separate columns" : ""));
   }

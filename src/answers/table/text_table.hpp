@@ -6,8 +6,8 @@
 
 namespace contensou::answers {
 
-/// A table for people: lines of cells, each padded to the width of its column. A line does not end in spaces: words at its
-/// end are not padded, and may be longer than their column.
+/// A table for people: lines of cells, each padded to the width of its column. A line does not end in spaces: words at
+/// its end are not padded, and may be longer than their column.
 class TextTable {
  public:
   struct Column {

@@ -61,8 +61,8 @@ constexpr Field<MotionsBeside> beside_fields[]{
      },
      "", 0, " {`slip`, `spin`}"},
     {"models", "",
-     "worst errors as shares of the start; the law's own first; an engine's elliptic cone is elliptic, its box is the "
-     "textbook",
+     "worst errors as shares of the start; the law's own first; "
+     "an engine's elliptic cone is elliptic, its box is the textbook",
      [](const MotionsBeside& motions) {
        Json models = Json::array();
        for (const auto& [name, motion, slip, spin] : motions.models) {

@@ -14,11 +14,11 @@
 #include "answers/input/message.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
-#include "contensou/reduction/planar_kinds.hpp"
 #include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/planar_kinds.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/planar_steps.hpp"
 #include "contensou/reduction/stop_time.hpp"
@@ -542,8 +542,8 @@ std::vector<FieldText> reduce_fields() {
        "law of friction; patch radius over R; 1 + m R^2/J, m R^2/J_z; not with --system"},
       {"`system`", "", "the system as typed, with --system"},
       {"`u0`, `v0`, `drive`", "speed, speed, 1", "the start; drive over f N, with --drive"},
-      {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, "
-       "`b2`",
+      {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; "
+       "CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, `b2`",
        "",
        "c t d/dt + (A x + b) d/dx with x = (u, v); the first reduces the system; within names the part of the plane "
        "where it holds, if that is not the whole"},
@@ -566,8 +566,8 @@ std::vector<FieldText> reduce_fields() {
        fmt::format("{}; center: imaginary eigenvalues on the axis of a reversor, or V not 0",
                    fmt::join(reduction::planar_kinds, ", "))},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
-       "isolated zeros of the field where |u| and |v| are at most 2.5 max(|u0|, |v0|); eigenvalues [[re, im], [re, im]] "
-       "of its derivatives"},
+       "isolated zeros of the field where |u| and |v| are at most 2.5 max(|u0|, |v0|); eigenvalues [[re, im], "
+       "[re, im]] of its derivatives"},
       {"JSON `reversors`", "", "images of (u, v) under the maps that turn motions back, such as (u, -v)"},
       {"JSON `turn` {`factor`, `sigma`}", "", "a turn of a focus"},
       {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",

@@ -102,8 +102,7 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
     {"energy_balance", "J",
      "energies, if the mass is known; kept is that of rolling; `lost_rolling` with --rolling-friction; "
-     "`gained_on_slope` "
-     "with --slope. A ball that rolls down for ever: until slip and spin end",
+     "`gained_on_slope` with --slope. A ball that rolls down for ever: until slip and spin end",
      [](const Roll& roll) -> Json {
        if (!si::mass_is_known(roll.experiment.ball)) return {};
        const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();

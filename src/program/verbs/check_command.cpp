@@ -26,11 +26,10 @@ class CheckCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app);
     app.option_defaults()->group("Against a table");
-    against_.add(
-        app, "--against", "FILE",
-        "CSV of a motion by an engine or a camera, to compare with the law of --ball; - is standard input. Columns: t, "
-        "and slip,spin or vx,vy,wx,wy,wz, in SI units or as 'wz [rpm]'. The start is the first row, or --slip and "
-        "--spin");
+    against_.add(app, "--against", "FILE",
+                 "CSV of a motion by an engine or a camera, to compare with the law of --ball; "
+                 "- is standard input. Columns: t, and slip,spin or vx,vy,wx,wy,wz, in SI units or as 'wz [rpm]'. "
+                 "The start is the first row, or --slip and --spin");
     tolerance_.add(app, "--tolerance", "SHARE",
                    fmt::format("largest error that passes, as a share of slip and spin at the start (default {})",
                                standard_tolerance),

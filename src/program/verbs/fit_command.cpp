@@ -110,9 +110,8 @@ class FitCommand final : public Verb {
                      "law, or several to rank (default exact); 'contensou help laws' lists all of them");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES",
-              "numbers to find, of friction,patch,rolling_friction,slip,spin (default: all that the body has; never "
-              "the patch "
-              "of a disc or ring)",
+              "numbers to find, of friction,patch,rolling_friction,slip,spin (default: "
+              "all that the body has; never the patch of a disc or ring)",
               parse_free);
     app.add_flag("--robust", robust_, "give outliers less weight (Huber's loss)");
     app.add_flag("--plan", plan_, "predict the errors of a film with --fps and --noise; takes no FILE");

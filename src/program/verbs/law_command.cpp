@@ -63,8 +63,8 @@ class LawCommand final : public Verb {
     }
     if (!k_.given() && !batch_.given()) {
       throw BadInput(
-          "--k missing: give --k K1,K2,... or --batch FILE; or a picture, -o FILE ending in svg, pdf, png, eps, gp or "
-          "tex");
+          "--k missing: give --k K1,K2,... or --batch FILE; "
+          "or a picture, -o FILE ending in svg, pdf, png, eps, gp or tex");
     }
     const LawReport report = evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed));
     output.write(Answer{.members = members_of(law_fields, report), .columns = columns_of(law_columns, report)});

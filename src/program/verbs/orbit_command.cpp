@@ -105,8 +105,8 @@ class OrbitCommand final : public Verb {
                  "add the asymptotic solution for small mu: u_estimate (relative error of the order mu^4), v_estimate "
                  "and ln_v_estimate (mu^2)");
     app.add_flag("--reduction", reduction_,
-                 "add the canonical coordinates q = v/u and p = ln v, and integral, the first integral ln |u| - ln "
-                 "w(k)");
+                 "add the canonical coordinates q = v/u and p = ln v, "
+                 "and integral, the first integral ln |u| - ln w(k)");
     output_.add(app);
   }
 

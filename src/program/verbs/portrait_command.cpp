@@ -140,8 +140,8 @@ class PortraitCommand final : public Verb {
     figure_.add(app);
     app.option_defaults()->group("Output");
     app.add_flag("--facts", facts_,
-                 "print a table in place of the picture: the regime, the singular points and how orbits enter the "
-                 "origin");
+                 "print a table in place of the picture: "
+                 "the regime, the singular points and how orbits enter the origin");
     output_.add(app);
   }
 
@@ -287,8 +287,8 @@ class PortraitCommand final : public Verb {
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "part of the plane: |u| <= U and 0 <= v <= V (--system: |v| <= V), or U1:U2,V1:V2 in uv, patch, pair and with "
-        "--system",
+        "part of the plane: |u| <= U and 0 <= v <= V (--system: "
+        "|v| <= V), or U1:U2,V1:V2 in uv, patch, pair and with --system",
         into(window_, parse_window));
     window_argument_ = &looks_.back();
     add("--orbits", "N",

@@ -136,8 +136,8 @@ class RollCommand final : public Verb {
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV of starts with columns slip,spin or vx,vy,wx,wy,wz in SI units; - is standard input. Adds the "
-               "events");
+               "CSV of starts with columns slip,spin or vx,vy,wx,wy,wz in SI units; "
+               "- is standard input. Adds the events");
     app.add_flag("--keep-going", keep_going_, "continue after a bad row, with empty results");
     bulk_.add(app);
     figure_.add(app);

@@ -44,9 +44,8 @@ class StopCommand final : public Verb {
     app.add_flag("--gradient", gradient_,
                  "print the exact derivatives of tau_stop by u0, v0, mu, chi, gamma and the drive, too");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of the input, such as slip=1%,friction=5%; fit takes those of the run file. "
-                     "Prints that of "
-                     "the stop time");
+                     "standard deviations of the input, such as slip=1%,friction=5%; "
+                     "fit takes those of the run file. Prints that of the stop time");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "CSV of starts with columns mu,u0,v0, or with --ball slip,spin (m/s, rad/s); - is standard input. Adds "

@@ -85,8 +85,8 @@ CatalogueEntry curling_stone() {
       "Radii of stone and running band, 145 and 65 mm, and spin: DigitalCurling, simulator_fcv1.cpp; mass within\n"
       "the rules (17.24 to 19.96 kg). J_z of a disc and a thin band assumed; and a constant friction, where ice has\n"
       "less at speed: 0.0072 at 2 m/s to 0.0098 at 0.5 m/s in that simulator's fit. It does not curl here.",
-      "the curling stone does not curl here: its friction is the same at the front and at the back, so that it goes "
-      "straight"};
+      "the curling stone does not curl here: "
+      "its friction is the same at the front and at the back, so that it goes straight"};
 }
 
 }  // namespace

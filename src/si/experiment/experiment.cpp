@@ -153,8 +153,8 @@ void require_experiment(const Experiment& experiment) {
   require(gravity, experiment.environment.gravity);
   if (experiment.environment.load && experiment.environment.slope != 0) {
     throw std::domain_error(
-        "a load and a slope exclude each other: how hard gravity pulls down the slope is not said; give gravity, or no "
-        "slope");
+        "a load and a slope exclude each other: how hard gravity pulls down the slope is not said; "
+        "give gravity, or no slope");
   }
   if (experiment.ball.body.lies_flat()) {
     if (experiment.contact.rolling_friction != 0) {

@@ -65,9 +65,8 @@ double drive_of(const Experiment& experiment) {
   }
   if (environment.slope != 0 && !points_along(pull(environment), along)) {
     throw std::domain_error(
-        fmt::format("on a slope of {} degrees along x it must slide straight down, got a slip in the direction "
-                    "({:.3g}, {:.3g}), which "
-                    "the slope slows or turns{}",
+        fmt::format("on a slope of {} degrees along x it must slide straight down, "
+                    "got a slip in the direction ({:.3g}, {:.3g}), which the slope slows or turns{}",
                     environment.slope, along.x(), along.y(), integrated));
   }
   const double drive = drives_along(experiment, along, ball.body.inertia.chi).turning();
@@ -91,8 +90,8 @@ void require_stop(const Experiment& experiment) {
 void require_undriven(const Experiment& experiment, std::string_view what) {
   if (!is_driven(experiment)) return;
   throw std::domain_error(
-      fmt::format("{} takes neither rolling friction nor a slope: rolling_friction and slope must be 0, got {} and {} "
-                  "degrees",
+      fmt::format("{} takes neither rolling friction nor a slope: "
+                  "rolling_friction and slope must be 0, got {} and {} degrees",
                   what, experiment.contact.rolling_friction, experiment.environment.slope));
 }
 

@@ -56,9 +56,8 @@ void require_level(const Experiment& experiment) {
 
 [[noreturn]] void too_far_apart(const RollingGoal& goal) {
   throw std::domain_error(
-      fmt::format("no start in doubles begins to roll within 1e-6 of {} m and rolls on at {} m/s with a spin of {} "
-                  "rad/s: the three "
-                  "are too far apart for a double",
+      fmt::format("no start in doubles begins to roll within 1e-6 of {} m and rolls on at {} m/s "
+                  "with a spin of {} rad/s: the three are too far apart for a double",
                   goal.place, goal.speed, goal.spin));
 }
 

@@ -28,15 +28,16 @@ struct Equilibrium {
   Eigen::Vector2d x;
   Eigen::Matrix2d slopes;  ///< Jacobian of the field
 
-  /// True if imaginary eigenvalues are those of a center: x lies on the axis of a reflection that is a reversor, which closes
-  /// motions that meet the axis twice, or V is not 0 there, so that they are levels of H.
+  /// True if imaginary eigenvalues are those of a center: x lies on the axis of a reflection that is a reversor, which
+  /// closes motions that meet the axis twice, or V is not 0 there, so that they are levels of H.
   bool closes = false;
 
   /// Returns the eigenvalues of the Jacobian, the one with the smaller real or imaginary part first.
   std::pair<std::complex<double>, std::complex<double>> eigenvalues() const;
 
-  /// Returns the type by the linear part, one of planar_kinds: "saddle", "stable node", "unstable node", "stable focus",
-  /// "unstable focus", "center" (imaginary eigenvalues and `closes`), "center or focus" (imaginary eigenvalues), or "degenerate" (an eigenvalue 0).
+  /// Returns the type by the linear part, one of planar_kinds: "saddle", "stable node", "unstable node", "stable
+  /// focus", "unstable focus", "center" (imaginary eigenvalues and `closes`), "center or focus" (imaginary
+  /// eigenvalues), or "degenerate" (an eigenvalue 0).
   std::string_view kind() const;
 };
 
