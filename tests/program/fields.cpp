@@ -39,7 +39,7 @@ void add_names(Listed& listed, const std::string& names) {
       if (word == "in:") return;
       if (word == "JSON") to = &listed.json;
       if (word == "CSV" || word == "out:") to = &listed.csv;
-      if (word != "JSON" && word != "CSV" && word != "out:" && word != "or") to->insert(word);
+      if (word != "JSON" && word != "CSV" && word != "out:" && word != "or" && word != "every") to->insert(word);
       word.clear();
     }
     if (letter == '}' || letter == ']') --depth;
@@ -183,7 +183,8 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
         "portrait --orbits 2 -o - --mu 0.1,0.3"}},
       {"portrait --system",
        {"portrait --orbits 2 -o - --through 0.5,0.5" + system + "'u\\' = -u; v\\' = -2*v'",
-        "portrait --orbits 2 -o -" + system + "'u\\' = v; v\\' = u - u^3'"}},
+        "portrait --orbits 2 -o -" + system + "'u\\' = v; v\\' = u - u^3'",
+        "portrait --orbits 2 -o - --window 0:2,0:2" + system + "'u\\' = u*(1-v); v\\' = v*(u-1)'"}},
       {"portrait --facts", {"portrait --facts --mu 0.3", "portrait --facts --mu 0.3 --drive 0.1"}},
       {"sweep", {"sweep --mu 0.1 --u0 0:1:2 --v0 1", "sweep --ball pool --slip 0:1:2 --spin 1"}},
       {"check", {"check --mu 0.1 --u0 1 --v0 1", against}},

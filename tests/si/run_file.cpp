@@ -158,7 +158,7 @@ TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   CHECK(velocities_of(read(without, "x.toml", both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
   CHECK_THROWS_WITH(
       read(without, "x.toml", {{&velocity, {2, 3}}}),
-      "x.toml:1:1: 'angular_velocity' in [start] is missing: angular velocity, x, y and z (up), in rad/s");
+      "x.toml:1:1: 'angular_velocity' in [start] is missing: angular velocity about x, y and z (up), in rad/s");
   // And a slip or a spin takes the place of both; the other one is what these velocities have of it.
   const std::string general =
       with(with(good, "slip = 1.0", "velocity = [1, 2]"), "spin = 100", "angular_velocity = [10, 0, 7]");

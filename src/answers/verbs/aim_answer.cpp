@@ -30,16 +30,16 @@ struct AimReport {
 constexpr Field<AimReport> aim_row[]{
     {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
     {"ball", "", "body, as in stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
-    {"slip", "m/s", "the start: sliding speed, along x; of a ball that does not roll yet, that of its centre",
+    {"slip", "m/s", "sliding speed at the start, along x; of a ball that does not roll yet, speed of its centre",
      [](const AimReport& r) -> Json { return r.slip; }},
-    {"spin", "1/s", "the start: about the vertical",
+    {"spin", "1/s", "spin at the start, about the vertical",
      [](const AimReport& r) -> Json { return r.start.angular_velocity.z(); }},
-    {"velocity", "m/s", "the start, of the centre",
+    {"velocity", "m/s", "velocity of the centre at the start",
      [](const AimReport& r) -> Json {
        return {r.start.velocity.x(), r.start.velocity.y()};
      },
      "vx,", 0, " [x, y]"},
-    {"angular_velocity", "1/s", "the start",
+    {"angular_velocity", "1/s", "angular velocity at the start",
      [](const AimReport& r) -> Json {
        const Eigen::Vector3d& w = r.start.angular_velocity;
        return {w.x(), w.y(), w.z()};

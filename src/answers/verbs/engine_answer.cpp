@@ -74,12 +74,12 @@ constexpr Field<Contact> setting_fields[]{
     {"setting", "", "settings of the engine, nearest to the law first",
      [](const Contact& of) -> Json { return of.label; }},
     {"cone", "", "elliptic, box, pyramid, points or none", [](const Contact& of) -> Json { return of.cone; }},
-    {"moment_arm", "m", "the greatest moment over the load", [](const Contact& of) -> Json { return of.moment_arm; }},
+    {"moment_arm", "m", "greatest moment divided by the load", [](const Contact& of) -> Json { return of.moment_arm; }},
     {"t_slip", "s", "time until 1e-3 of the slip is left in the engine",
      [](const Contact& of) -> Json { return of.fade.slip; }},
     {"t_spin", "s", "time until 1e-3 of the spin is left in the engine",
      [](const Contact& of) -> Json { return of.fade.spin; }},
-    {"slip_length", "m", "that the contact slides in all",
+    {"slip_length", "m", "length that the contact slides in all",
      [](const Contact& of) -> Json { return of.fade.slip_length; }},
     {"turns", "", "turns about the vertical in the engine", [](const Contact& of) -> Json { return of.fade.turns; }},
 };
@@ -89,7 +89,7 @@ constexpr Field<EngineWithBall> name_fields[]{
      [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
 };
 constexpr Field<EngineWithBall> moment_fields[]{
-    {"", "", "the last of parameters",
+    {"", "", "last one of the parameters",
      [](const EngineWithBall& of) {
        const auto& all = of.use->parameters;
        return all.empty() ? Json::array({"", ""}) : Json::array({all.back().name, all.back().value(of.contact)});
@@ -100,7 +100,7 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"title", "", "full name", [](const EngineWithBall& of) -> Json { return of.engine->title; }, ""},
     {"repository", "", "repository on github.com",
      [](const EngineWithBall& of) -> Json { return of.engine->repository; }, ""},
-    {"version", "", "that was read", [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
+    {"version", "", "version that was read", [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
     {"parameters", "", "parameters to type in; the last one is that of the moment",
      [](const EngineWithBall& of) {
        Json parameters = Json::object();
@@ -114,9 +114,9 @@ constexpr Field<EngineWithBall> text_fields[]{
      ""},
     {"combination", "", "rule for the numbers of two bodies",
      [](const EngineWithBall& of) -> Json { return of.engine->combination; }, ""},
-    {"needs", "", "switches without which the numbers do nothing",
+    {"needs", "", "switches that the numbers need",
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
-    {"settings", "", "CSV has a row for each; none for a flat body that it has not, or was not read for",
+    {"settings", "", "settings, one row of CSV each; none for a flat body that the engine does not support",
      [](const EngineWithBall& of) {
        Json settings = Json::array();
        for (const Contact& setting : of.settings) settings.push_back(members_of(setting_fields, setting));
@@ -141,23 +141,23 @@ constexpr Field<Report> report_fields[]{
      [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},
     {"radius", "m", "radius of the ball", [](const Report& r) -> Json { return r.contact.radius; }, ""},
     {"mass", "kg", "mass of the ball", [](const Report& r) -> Json { return r.experiment.ball.mass; }, ""},
-    {"load", "N", "that presses it on the plane", [](const Report& r) -> Json { return load_of(r.experiment); }, ""},
-    {"friction", "", "f", [](const Report& r) -> Json { return r.contact.friction; }, ""},
-    {"patch_radius", "m", "a", [](const Report& r) -> Json { return r.contact.patch_radius; }, ""},
+    {"load", "N", "normal force on the plane", [](const Report& r) -> Json { return load_of(r.experiment); }, ""},
+    {"friction", "", "coefficient of friction f", [](const Report& r) -> Json { return r.contact.friction; }, ""},
+    {"patch_radius", "m", "radius a of the patch", [](const Report& r) -> Json { return r.contact.patch_radius; }, ""},
     {"pivoting_moment", "", "Psi(0) of the law", [](const Report& r) -> Json { return r.contact.pivoting_moment; }, ""},
-    {"moment_arm", "m", "f a Psi(0), the moment of spinning over the load",
+    {"moment_arm", "m", "f a Psi(0), moment of spinning divided by the load",
      [](const Report& r) -> Json { return r.own.moment_arm; }, ""},
-    {"slip", "m/s", "at the start", [](const Report& r) -> Json { return si::slip_at_start(r.experiment); }, ""},
-    {"spin", "1/s", "at the start", [](const Report& r) -> Json { return si::spin_at_start(r.experiment); }, ""},
+    {"slip", "m/s", "slip at the start", [](const Report& r) -> Json { return si::slip_at_start(r.experiment); }, ""},
+    {"spin", "1/s", "spin at the start", [](const Report& r) -> Json { return si::spin_at_start(r.experiment); }, ""},
     {"t_slip", "s", "time until 1e-3 of the slip is left under the law",
      [](const Report& r) -> Json { return r.own.fade.slip; }, "law_t_slip"},
     {"t_spin", "s", "time until 1e-3 of the spin is left under the law",
      [](const Report& r) -> Json { return r.own.fade.spin; }, "law_t_spin"},
-    {"slip_length", "m", "that the contact slides in all",
+    {"slip_length", "m", "length that the contact slides in all",
      [](const Report& r) -> Json { return r.own.fade.slip_length; }, "law_slip_length"},
     {"turns", "", "turns about the vertical under the law", [](const Report& r) -> Json { return r.own.fade.turns; },
      "law_turns"},
-    {"engines", "", "each with the fields from name on",
+    {"engines", "", "engines, each with the fields from name on",
      [](const Report& r) {
        Json engines = Json::array();
        for (const EngineWithBall& engine : r.engines) engines.push_back(members_of_engine(engine));

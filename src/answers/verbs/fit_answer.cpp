@@ -16,7 +16,7 @@ using fit::Estimate;
 using fit::Parameter;
 
 constexpr Field<Estimate> estimate_fields[]{
-    {"value", "", "estimate; where the data do not determine it, any of many",
+    {"value", "", "estimate; one of many if the data do not determine it",
      [](const Estimate& of) -> Json { return of.value; }},
     {"standard_error", "", "standard error; inf if the data do not determine the number",
      [](const Estimate& of) -> Json { return of.standard_error; }},
@@ -201,26 +201,27 @@ constexpr Field<FitReport> answer_fields[]{
      [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::spin)); }, "", 0, of_estimate},
     {"correlation", "", "correlation of friction and patch_radius",
      [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }, ""},
-    {"reduced_chi2", "", "1 where the noise is estimated",
+    {"reduced_chi2", "", "chi squared divided by the degrees of freedom; 1 if the noise is estimated",
      [](const FitReport& r) {
        const Json value = reduced_chi2(r.best, r.planned);
        return value.is_null() ? said_null : value;
      },
      ""},
-    {"degrees_of_freedom", "", "measured values less the numbers that were found",
+    {"degrees_of_freedom", "", "number of measured values minus that of estimates",
      [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }, ""},
     {"profiled", "", "true if the intervals are profile likelihood intervals",
      [](const FitReport& r) -> Json { return r.best.profiled; }, ""},
     {"fits", "", "true if the data may show this motion", [](const FitReport& r) -> Json { return r.best.fits(); }, ""},
-    {"misfits", "", "and if not why (status 1)", [](const FitReport& r) -> Json { return r.best.misfits; }, ""},
+    {"misfits", "", "reasons why the data cannot show it (status 1)",
+     [](const FitReport& r) -> Json { return r.best.misfits; }, ""},
     {"remarks", "", "further remarks",
      [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }, ""},
-    {"rolling_friction", "1", "rolling friction, of a ball that has it, or where it was searched",
+    {"rolling_friction", "1", "coefficient of rolling friction, if the ball has one or it was searched",
      [](const FitReport& r) {
        return r.best.rolls_with_friction() ? members_of_estimate(r.best.estimate(Parameter::rolling_friction)) : Json();
      },
      "", 0, of_estimate},
-    {"only", "", "the one combination of the two that the data determine, where they do no more",
+    {"only", "", "best known combination of friction and patch radius, if the data determine no more",
      [](const FitReport& r) -> Json {
        if (!r.best.only) return {};
        const auto& [friction_power, patch_power, value, error, interval] = *r.best.only;
@@ -267,7 +268,7 @@ constexpr Field<FitReport> answer_fields[]{
        return noise;
      },
      "", 0, " {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}"},
-    {"laws", "", "the best first",
+    {"laws", "", "laws, the best first",
      [](const FitReport& r) {
        Json laws = Json::array();
        for (const fit::Fit& fit : r.fits) {

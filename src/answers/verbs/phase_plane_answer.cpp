@@ -68,20 +68,20 @@ constexpr Field<ReducedSystem> system_fields[]{
 constexpr Field<TerminalRatios> regime_fields[]{
     {"r_low", "", "Phi/(k Psi) at k = 0, where the regime changes",
      [](const TerminalRatios& ratios) -> Json { return ratios.low; }},
-    {"r_high", "", "Phi/(k Psi) at k = infinity, where it changes again",
+    {"r_high", "", "Phi/(k Psi) at k = infinity, where the regime changes again",
      [](const TerminalRatios& ratios) -> Json { return ratios.high; }},
 };
 constexpr Field<End> end_fields[]{
-    {"limit", "", "zero, ray or infinity: of k, for most starts; CSV has a row for each end",
+    {"limit", "", "limit of k for most starts: zero, ray or infinity; CSV has a row for each end",
      [](const End& end) -> Json { return text_of(limits, end.ratio.regime); }},
     {"k_star", "", "limit of k", [](const End& end) -> Json { return end.ratio.k; }},
     {"k_star_accuracy", "", "relative error of k_star", [](const End& end) -> Json { return end.accuracy; }, nullptr,
      1},
-    {"k_from", "", "the starts that end there: from this k", [](const End& end) -> Json { return end.ratio.from; }},
+    {"k_from", "", "smallest k of the starts with this limit", [](const End& end) -> Json { return end.ratio.from; }},
     {"k_to", "", "largest k of these starts", [](const End& end) -> Json { return end.ratio.to; }},
 };
 constexpr Field<TerminalRatios> list_fields[]{
-    {"rays", "", "all k at which a half-line is an orbit",
+    {"rays", "", "invariant rays: all k at which a half-line is an orbit",
      [](const TerminalRatios& ratios) {
        Json rays = Json::array();
        for (const InvariantRay& ray : ratios.rays) {
@@ -129,7 +129,7 @@ constexpr Field<SingularPoint> point_fields[]{
      [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
 };
 constexpr Field<ReducedSystem> body_fields[]{
-    {"mu", "", "patch radius over R", [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
+    {"mu", "", "patch radius divided by R", [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
     {"body", "", "1 + m R^2/J, m R^2/J_z",
      [](const ReducedSystem& system) -> Json {
        return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};
@@ -139,12 +139,13 @@ constexpr Field<ReducedSystem> body_fields[]{
 constexpr Field<PhasePlane> plane_fields[]{
     {"mu_low", "", "r_low as a patch ratio of this body; not with --drive",
      [](const PhasePlane& plane) -> Json { return plane.points.front().k == 0 ? Json(plane.mu_low) : Json(); }, ""},
-    {"mu_high", "", "r_high as one", [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
-    {"tangent", "", "the half-line along which most orbits enter the origin",
+    {"mu_high", "", "r_high as a patch ratio of this body",
+     [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
+    {"tangent", "", "half-line along which most orbits enter the origin",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
-    {"contact_order", "", "the power of the speed by which they leave it",
+    {"contact_order", "", "power of the speed by which the orbits leave the half-line",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["contact_order"]; }, ""},
-    {"tangents", "", "both, at each end",
+    {"tangents", "", "half-line and contact order at each end",
      [](const PhasePlane& plane) {
        Json tangents = Json::array();
        for (std::size_t i = 0; i < plane.tangents.size(); ++i) tangents.push_back(tangent_of(plane, i));
@@ -263,7 +264,7 @@ std::vector<FieldText> phase_plane_fields() {
   return joined(
       {{{"JSON `law`, `r`, `drive`, `r_low`, `r_high`, `limit`, `k_star`, `k_star_accuracy`, `k_from`, `k_to`, "
          "`rays`, `ends`",
-         "", "as of terminal"}},
+         "", "fields of terminal"}},
        texts_of(body_fields),
        texts_of(plane_fields),
        texts_of(point_fields)});

@@ -538,27 +538,23 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
 
 std::vector<FieldText> reduce_fields() {
   return {
-      {"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "",
-       "law of friction; patch radius over R; 1 + m R^2/J, m R^2/J_z; not with --system"},
+      {"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "", "law of friction, patch ratio and inertia; not with --system"},
       {"`system`", "", "the system as typed, with --system"},
       {"`u0`, `v0`, `drive`", "speed, speed, 1", "the start; drive over f N, with --drive"},
       {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; "
        "CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, `b2`",
        "",
-       "c t d/dt + (A x + b) d/dx with x = (u, v); the first reduces the system; within names the part of the plane "
-       "where it holds, if that is not the whole"},
-      {"JSON `singular_values`", "", "singular values of the determining equations over the largest, ascending"},
-      {"`level`, `gap`", "", "a singular value below level counts as 0; the others are larger by the factor gap"},
+       "c t d/dt + (A x + b) d/dx with x = (u, v); the first one reduces the system; within: the part of the plane where it holds"},
+      {"JSON `singular_values`", "", "singular values of the determining equations, divided by the largest"},
+      {"`level`, `gap`", "", "values below level count as 0; the others are larger by the factor gap"},
       {"`form`, `factor`", "",
-       "scaling, or form of the inverse integrating factor V that solves the system, null for none; V as a formula, up "
-       "to a constant factor, or in words"},
+       "scaling, or the form of the inverse integrating factor V, or null; V as a formula, up to a constant factor, or in words"},
       {"`integral`", "", "first integral H as a formula, if it is recognised"},
       {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
-       "forms of V in the order in which they were tried; cleared is true for V times the denominator of the field"},
+       "forms of V in the order of the search; cleared: V was multiplied by the denominator of the field"},
       {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
-       "canonical coordinates of the start: v/u and ln v; with --system the angle of a direction, and ln of the "
-       "distance, over those of the start"},
-      {"`first_integral`", "", "p less its value on one orbit"},
+       "canonical coordinates of the start: v/u and ln v; with --system angle and logarithm of the distance"},
+      {"`first_integral`", "", "p minus its value on one orbit"},
       {"JSON `rays` [{`k` or `angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
        "invariant rays: direction of the motion, eigenvalues along the ray and across, 2 for a double ray"},
       {"`kind`, `undecided`", "", "type of the blown-up centre; null if not decided, and the reason"},
@@ -569,19 +565,19 @@ std::vector<FieldText> reduce_fields() {
        "isolated zeros of the field where |u| and |v| are at most 2.5 max(|u0|, |v0|); eigenvalues [[re, im], "
        "[re, im]] of its derivatives"},
       {"JSON `reversors`", "", "images of (u, v) under the maps that turn motions back, such as (u, -v)"},
-      {"JSON `turn` {`factor`, `sigma`}", "", "a turn of a focus"},
+      {"JSON `turn` {`factor`, `sigma`}", "", "scaling by one turn of a focus, and its logarithm"},
       {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
-       "orbit of the start, before and after it; turn by turn of a focus"},
+       "orbit of the start in both directions; a focus turn by turn"},
       {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
-       "starts to which the symmetry moves this one; their orbits are the same strip, higher in p by ln of the factor"},
+       "images of the start under the symmetry; their orbits are the strip, shifted in p by ln of the factor"},
       {"`tau_stop`, `accuracy`", "speed, 1",
-       "stop time, inf where the centre is not reached, null before a border or if not decided; its relative error"},
+       "stop time (inf if the centre is not reached, null before a border or if not decided) and relative error"},
       {"`end`", "", "end of the motion, with --system"},
       {"every `end`", "", fmt::format("{}; null if not decided", fmt::join(named_ends(), ", "))},
       {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
-       "the stop time by each route; section as of --system"},
+       "stop time by each route; section is the route of --system"},
       {"`period`", "", "time after which the motion returns"},
-      {"JSON `by_steps` {`difference`, `time`}", "", "relative difference from an integration in steps, and when"},
+      {"JSON `by_steps` {`difference`, `time`}", "", "relative difference from an integration in steps, and its time"},
   };
 }
 

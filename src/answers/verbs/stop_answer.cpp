@@ -142,7 +142,7 @@ constexpr auto of_ball = [](const StopReport& report, auto value) {
 constexpr Field<StopReport> fields[]{
     {"law", "", "name of the law of friction", [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
     {"route", "", "name of the route", [](const StopReport& r) -> Json { return name(r.route); }},
-    {"mu", "", "patch radius over R", [](const StopReport& r) -> Json { return r.start.system.mu(); }},
+    {"mu", "", "patch radius divided by R", [](const StopReport& r) -> Json { return r.start.system.mu(); }},
     {"body", "", "1 + m R^2/J, m R^2/J_z",
      [](const StopReport& r) -> Json {
        const auto [chi, gamma] = r.start.system.inertia();
@@ -215,7 +215,7 @@ constexpr Field<StopReport> fields[]{
      },
      "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
     {"uncertainty", "s or speed",
-     "standard deviation of t_stop (without --ball of tau_stop) to first order; quantiles of samples; "
+     "standard deviation of t_stop (without --ball of tau_stop) to first order; {probability, value} of samples; "
      "first_order_holds: true if the two agree; outside: share of samples with impossible values",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};

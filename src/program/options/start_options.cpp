@@ -60,8 +60,7 @@ void BodyOptions::add_body(CLI::App& app) {
 
 void BodyOptions::add_drive(CLI::App& app) {
   app.option_defaults()->group("Start");
-  drive_.add(app, "--drive", "RHO",
-             "constant force along the slip divided by f N, 0 <= RHO < 1 ('contensou help ball')",
+  drive_.add(app, "--drive", "RHO", "drive: force along the slip divided by f N, 0 <= RHO < 1",
              [](const std::string& typed) {
                const double drive = parse_number(typed);
                if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
@@ -97,12 +96,12 @@ void StartOptions::add(CLI::App& app) {
   u0_.add(app, "--u0", "U", "spin R omega_z, of either sign, in any unit of speed", number);
   v0_.add(app, "--v0", "V", "sliding speed, >= 0, in the unit of --u0", number);
   body_.add_body(app);
-  add_ball(app, "body in SI units, in place of the four options above");
+  add_ball(app);
 }
 
 void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer) {
   app.option_defaults()->group("Start");
-  ball_.add(app, "--ball", "NAME|FILE.toml", help + ": a built-in one ('contensou balls') or a run file");
+  ball_.add(app, "--ball", "NAME|FILE.toml", help);
   app.option_defaults()->group(ball_group());
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const si::Quantity& quantity = *si::quantities()[i];

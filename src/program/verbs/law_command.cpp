@@ -26,8 +26,8 @@ constexpr Field<LawReport> law_fields[]{
 };
 constexpr ColumnField<LawReport> law_columns[]{
     {"k", "", "ratio v/(mu abs(u))", [](const LawReport& r) { return &r.k; }},
-    {"phi", "", "force over f N", [](const LawReport& r) { return &r.phi; }},
-    {"psi", "", "moment over f N times patch radius", [](const LawReport& r) { return &r.psi; }},
+    {"phi", "", "force divided by f N", [](const LawReport& r) { return &r.phi; }},
+    {"psi", "", "moment divided by f N times patch radius", [](const LawReport& r) { return &r.psi; }},
 };
 
 std::vector<FieldText> law_texts() { return joined({texts_of(law_fields), texts_of(law_columns)}); }

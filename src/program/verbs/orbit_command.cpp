@@ -37,7 +37,7 @@ constexpr Field<OrbitReport> orbit_fields[]{
     {"law", "", "name of the law of friction",
      [](const OrbitReport& r) -> Json { return r.start.system.law().name(); }},
     {"route", "", "name of the route", [](const OrbitReport& r) -> Json { return name(r.route); }},
-    {"mu", "", "patch radius over R", [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
+    {"mu", "", "patch radius divided by R", [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
     {"u0", "speed", "R omega_z at the start", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
     {"v0", "speed", "sliding speed at the start", [](const OrbitReport& r) -> Json { return r.start.state.v; }},
     {"ball", "", "body, as in stop",
@@ -70,8 +70,7 @@ constexpr ColumnField<OrbitReport> orbit_columns[]{
     {"q", "", "v/u, with --reduction", [](const OrbitReport& r) { return unless_empty(r.q); }},
     {"p", "", "ln v, with --reduction", [](const OrbitReport& r) { return unless_empty(r.p); }},
     {"integral", "",
-     "first integral ln abs(u) - ln w(k), with --reduction, the same on every row; inf on the axes, on a ray and at "
-     "rest, where it has no value",
+     "first integral ln abs(u) - ln w(k), with --reduction, the same on every row; inf where it has no value",
      [](const OrbitReport& r) { return unless_empty(r.integral); }},
 };
 
