@@ -96,7 +96,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
       std::erase(crossings[next].joined, side);
       side = next;
     }
-    // Where V only touches 0, rounding draws dots.
+    // Rounding draws dots on curves on which V touches 0 without a change of sign.
     const double length = std::abs(line.front().x - line[line.size() / 2].x) / sides[0] +
                           std::abs(line.front().y - line[line.size() / 2].y) / sides[1];
     if (length * across > 1) lines.push_back(std::move(line));

@@ -7,7 +7,7 @@ namespace contensou::reduction {
 
 /// The data of StopTimeTable's loops: stop times tau* = pivoting |u0| + v0 M(k0), the function M as polynomials.
 ///
-/// With v_mu = v0/mu and D = |u0| + v_mu, a start lies on one of four branches. They meet at k0 = v_mu/|u0| = 1/2, 1
+/// Let v_mu = v0/mu and D = |u0| + v_mu. A start lies on one of four branches. They meet at k0 = v_mu/|u0| = 1/2, 1
 /// and 2. On each branch the coordinate
 ///   y = min(|u0|, v_mu, ||u0| - v_mu|)/D
 /// is 0 at k0 = 0, 1 or infinity, where M may be singular. The exponent of y + lowest and the first `cut_bits` bits of

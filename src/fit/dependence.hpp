@@ -15,8 +15,8 @@ struct Dependence {
 /// Estimates both from the residuals r of a fit, unbiased by the numbers that were fitted.
 ///
 /// Let J be the derivatives of the residuals, C = (J^T J)^-1 and A = J C^1/2, so that r = (1 - A A^T) e of errors e.
-/// Where these are independent and of variance s^2, E r_i r_j = s^2 (delta_ij - a_i a_j) with a_i the rows of A. So the
-/// rows z_i = (r_i, s a_i) have E z_i z_j = s^2 delta_ij. Hence
+/// Errors that are independent and of variance s^2 give E r_i r_j = s^2 (delta_ij - a_i a_j) with a_i the rows of A.
+/// The rows z_i = (r_i, s a_i) have E z_i z_j = s^2 delta_ij. Hence
 ///   sum z_i z_(i+1) / (n s^2)  estimates the correlation of neighbours; without any it is 0 +- 1/sqrt(n). One less it
 ///   is half of
 /// J. von Neumann's quotient (1941, doi:10.1214/aoms/1177731677).

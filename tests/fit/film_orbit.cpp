@@ -98,8 +98,8 @@ struct Off {
   double slip = 0, spin = 0, centre = 0, way = 0;
 };
 
-/// How far an orbit is from another route, over its whole motion and beyond, relative to the speeds and lengths of its
-/// own.
+/// Returns the largest differences of an orbit from another route, over its whole motion and beyond, divided by the
+/// speeds and lengths of the orbit.
 Off off(const si::Experiment& ball, const reduction::Law& law, double rolling, bool in_steps) {
   const si::Motion motion = in_steps ? si::Motion::in_steps(ball, law) : si::Motion::reduced(ball, law);
   const double rate = ball.contact.friction * ball.environment.gravity;

@@ -15,8 +15,8 @@ namespace contensou::fit {
 
 inline constexpr int trials = CONTENSOU_FULL_TESTS ? 1000 : 40;
 
-/// Of a parameter over many films: how often the 95 % interval has its true value; the error on the average, relative
-/// and in standard errors; its root mean square in standard errors.
+/// Score of a parameter over many films: share of the 95 % intervals that contain the true value; mean error, relative
+/// and in standard errors; root mean square of the error in standard errors.
 struct Score {
   double covered = 0, error = 0, bias = 0, spread = 0;
 };

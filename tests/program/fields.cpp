@@ -116,7 +116,7 @@ Written written_by(const std::vector<std::vector<std::string>>& runs, const std:
   return names;
 }
 
-/// Whether a name is listed, perhaps with a * for a part.
+/// Returns true if a name is listed; a * in the list stands for any text.
 bool has(const Names& listed, const std::string& name) {
   return std::ranges::any_of(listed, [&](const std::string& pattern) {
     return std::regex_match(name, std::regex(std::regex_replace(pattern, std::regex("\\*|LAW"), ".*")));

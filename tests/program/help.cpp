@@ -102,7 +102,7 @@ TEST_CASE("topics of help", "[cli]") {
 }
 
 TEST_CASE("every kind and every end that reduce prints stands in its help", "[cli]") {
-  // Of its columns only, with single blanks.
+  // The part on columns, with single blanks.
   std::string help = run_program("help reduce").out;
   help = std::regex_replace(help.substr(help.find("Columns and fields of reduce:")), std::regex("\\s+"), " ");
   const auto listed = [&](const std::string& field) {

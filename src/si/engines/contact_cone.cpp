@@ -17,7 +17,7 @@
 //
 //     dv/ds = -Phi,   dw/ds = -r Psi,   w = mu |u|,   mu = c/(f R),   r = gamma mu^2/chi,   k = v/w = f v/(c |omega|),
 //
-// Of all (Phi, Psi) of the cone the one acts that maximises Phi v + Psi w, the power divided by f N.
+// Friction is that (Phi, Psi) of the cone that maximises Phi v + Psi w, the power divided by f N.
 //
 // Ellipse, Phi^2 + Psi^2 <= 1. The velocity is normal to the ellipse at this point: the law elliptic:1.
 //

@@ -59,9 +59,9 @@ struct PlanarPortraitRequest {
 
 /// Computes the portrait. Each orbit goes through the middle of the widest gap that is left.
 ///
-/// With a scaling, every orbit is the scaled curve of its sector, and so is every isochrone. With an inverse
-/// integrating factor alone, every orbit is a quadrature, and there are no isochrones. Without a reduction
-/// (reduction::by_steps), orbits are steps in time.
+/// A scaling makes every orbit, and every isochrone, the scaled curve of its sector. An inverse integrating factor
+/// alone gives every orbit by a quadrature, without isochrones. A plane without a reduction (reduction::by_steps) has
+/// orbits by steps in time.
 ///
 /// @param name  name of the system, for titles
 /// @throws std::domain_error  if the window is empty or not finite, if a point lies outside it or the field has no

@@ -14,7 +14,8 @@ namespace contensou::portraits {
 ///     between r_low and r_high, and one above r_high;
 ///   - m(k) of the stop time for the same r, between its bounds if the law states them.
 ///
-/// With a drive, rays are where Phi = rho + r k Psi, beside the rays without it; m grows as 1/k towards k = 0.
+/// A drive rho moves the rays to Phi = rho + r k Psi; the rays without it are drawn beside them. Then m grows as 1/k
+/// towards k = 0.
 ///
 /// @param r      r of a body, marked in the first panel and drawn in the others
 /// @param drive  rho of ReducedSystem

@@ -74,7 +74,7 @@ class Motion {
  public:
   /// Computes the motion, without time steps if possible. Slip and spin are then one orbit of the reduced system.
   ///
-  /// With rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)).
+  /// Rolling friction or a slope makes them several orbits with a drive (reduction/README.md, (R53) to (R55)).
   /// The body must then slide in the direction in which it rolls, and straight down a slope. Any other such motion is
   /// integrated by the method of Cash and Karp 5(4).
   ///

@@ -44,8 +44,8 @@ EnergyLoss energy_loss(const Experiment& experiment);
 /// Returns the final rolling of an experiment, or the rest of a body that lies flat, under any friction law. The axes
 /// are those of the start (for SlipAndSpin x is along the initial slip).
 ///
-/// With x along the slip v, R omega_y + (1 - 1/chi) v is a first integral, for a homogeneous ball 7 R omega_y + 5 v
-/// (Zh98 after (2.5)). So the velocity of the centre along the slip falls by v0/chi, for this ball 2 v0/7.
+/// Let x point along the slip v. R omega_y + (1 - 1/chi) v is a first integral, for a homogeneous ball 7 R omega_y + 5
+/// v (Zh98 after (2.5)). The velocity of the centre along the slip therefore falls by v0/chi, for this ball 2 v0/7.
 Velocities final_motion(const Experiment& experiment);
 
 /// Returns the state of the motion, which slip, slip length and spin about the vertical determine.

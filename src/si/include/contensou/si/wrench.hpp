@@ -25,7 +25,7 @@ struct Wrench {
 ///
 /// It is the wrench of the law, with the sliding speed |v| replaced by V = sqrt(|v|^2 + s^2). With w = eps |omega|,
 ///   F = -f N Phi(V, w) v/V,    M = -f N eps Psi(V, w) sign(omega)
-/// So |F| <= f N, |M| <= f N eps Psi(0), and F.v + M omega <= 0 for every motion.
+/// Every motion satisfies |F| <= f N, |M| <= f N eps Psi(0) and F.v + M omega <= 0.
 ///
 /// Under a law with a dissipation potential R (all named laws except pade, which also has a kink at omega = 0), this is
 /// minus the gradient of the convex function f N R(V, w). The Jacobian is then symmetric and negative semidefinite, and
@@ -41,7 +41,7 @@ struct Wrench {
 /// under a moment Q < f N eps Psi(0) alone at eps |omega| = s/k with Psi(k) = Q/(f N eps), and at s Q/(K f N eps) for
 /// small Q. At speeds above s the effect of s is of the order of s^2 divided by the larger speed squared.
 ///
-/// With one Newton step per time step dt, s should be at least a dt/2, where a is the deceleration by friction alone
+/// A stepper with one Newton step per time step dt needs s >= a dt/2, where a is the deceleration by friction alone
 /// (for a ball 7/2 f g). With a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
 /// Steps that iterate to the solution need no such bound.
 class PatchFriction {
