@@ -12,9 +12,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
+#include "numerics/decomposition.hpp"
 #include "planar/inverse_factor.hpp"
 
 namespace contensou::reduction {
@@ -205,14 +204,20 @@ std::string factorised(Polynomial rest) {
 /// Values and derivatives of functions at a point: rows of value, d/du, d/dv.
 using Functions = std::function<Eigen::MatrixX3d(const Vector2d& x, const Jet& jet)>;
 
-/// Rows of (R64) in these functions, divided by 1/w of (R66) and by the size of the functions.
+/// Returns the functions of a form of V in u and v themselves, not in the coordinates of a box.
+Functions terms_of(FactorForm form) {
+  return [form](const Vector2d& x, const Jet& jet) -> Eigen::MatrixX3d {
+    return InverseFactor::terms(form, {Vector2d::Zero(), Vector2d::Ones()}, x, jet);
+  };
+}
+
+/// Returns the rows of (R64) in these functions, scaled as in (R66).
 MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
   MatrixXd rows(std::ssize(samples.points), functions(samples.points[0], samples.jets[0]).rows());
   for (Index k = 0; k < rows.rows(); ++k) {
     const Jet& jet = samples.jets[static_cast<std::size_t>(k)];
     const Eigen::MatrixX3d at = functions(samples.points[static_cast<std::size_t>(k)], jet);
-    const double size = jet.f.cwiseQuotient(samples.box.radii).lpNorm<1>() + std::abs(jet.slopes.trace());
-    rows.row(k) = (at.rightCols<2>() * jet.f - at.col(0) * jet.slopes.trace()).transpose() / (size > 0 ? size : 1);
+    rows.row(k) = weight(samples.box, jet) * (at.rightCols<2>() * jet.f - at.col(0) * jet.slopes.trace()).transpose();
   }
   return rows;
 }
@@ -226,14 +231,12 @@ std::optional<Coefficients> null_combination(const Functions& functions, const F
   }
   if (!(sizes.minCoeff() > 0) || rows.rows() < rows.cols()) return std::nullopt;
   for (Index i = 0; i < sizes.size(); ++i) sizes[i] = std::exp2(std::rint(std::log2(sizes[i])));
-  const MatrixXd scaled = rows * sizes.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(scaled, Eigen::ComputeThinV);
-  const VectorXd& values = svd.singularValues();
+  const SingularValues svd(rows * sizes.cwiseInverse().asDiagonal());
   const double mean = std::sqrt(static_cast<double>(rows.rows()));
-  const Index nullity = (values.array() <= exact * mean).count();
+  const Index nullity = (svd.values.array() <= exact * mean).count();
   if (nullity == 0) return std::nullopt;
   // To echelon form, the largest entries first.
-  MatrixXd basis = svd.matrixV().rightCols(nullity).transpose();
+  MatrixXd basis = svd.V.rightCols(nullity).transpose();
   for (Index row = 0; row < nullity; ++row) {
     Index pivot_row = 0, pivot = 0;
     basis.bottomRows(nullity - row).cwiseAbs().maxCoeff(&pivot_row, &pivot);
@@ -286,18 +289,6 @@ Functions monomials(int degree) {
   };
 }
 
-/// The functions 1, u, v times u' and v'.
-Eigen::MatrixX3d affine(const Vector2d& x, const Jet& jet) {
-  Eigen::MatrixX3d all(6, 3);
-  for (int k = 0; k < 2; ++k) {
-    const Eigen::RowVector2d slope = jet.slopes.row(k);
-    all.row(3 * k) << jet.f[k], slope;
-    all.row(3 * k + 1) << x[0] * jet.f[k], x[0] * slope + jet.f[k] * Eigen::RowVector2d(1, 0);
-    all.row(3 * k + 2) << x[1] * jet.f[k], x[1] * slope + jet.f[k] * Eigen::RowVector2d(0, 1);
-  }
-  return all;
-}
-
 /// The function of one variable whose values are given, as an integral.
 struct Known {
   const char* integral;  ///< text with {} in place of the variable
@@ -331,7 +322,7 @@ std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, c
     for (std::size_t i = 0; i < chosen.size(); ++i)
       part.col(static_cast<Index>(i)) = columns.col(static_cast<Index>(chosen[i]));
     if (!part.allFinite()) return std::nullopt;
-    const VectorXd factors = part.colPivHouseholderQr().solve(values);
+    const VectorXd factors = least_squares(part, values);
     const double size = values.lpNorm<Eigen::Infinity>();
     const auto found = rational(factors, exact * std::max(1., factors.lpNorm<Eigen::Infinity>()));
     if (!found || std::ranges::count(found->above, 0) > 0) return std::nullopt;
@@ -348,20 +339,16 @@ std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, c
     if ((part * rounded - values).lpNorm<Eigen::Infinity>() > exact * size) return std::nullopt;
     return text;
   };
-  for (std::size_t i = 0; i < known_count; ++i) {
-    if (auto found = fit({i})) return found;
-  }
-  for (std::size_t i = 0; i < known_count; ++i) {
-    for (std::size_t j = i + 1; j < known_count; ++j) {
-      if (auto found = fit({i, j})) return found;
-    }
-  }
-  for (std::size_t i = 0; i < known_count; ++i) {
-    for (std::size_t j = i + 1; j < known_count; ++j) {
-      for (std::size_t k = j + 1; k < known_count; ++k) {
-        if (auto found = fit({i, j, k})) return found;
+  for (std::size_t count = 1; count <= 3; ++count) {
+    std::array<bool, known_count> chosen{};
+    std::fill_n(chosen.begin(), count, true);
+    do {
+      std::vector<std::size_t> places;
+      for (std::size_t i = 0; i < known_count; ++i) {
+        if (chosen[i]) places.push_back(i);
       }
-    }
+      if (auto found = fit(places)) return found;
+    } while (std::ranges::prev_permutation(chosen).found);
   }
   return std::nullopt;
 }
@@ -407,7 +394,7 @@ FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
   if (!samples) return {};
   FactorFormula formula;
   if (field.basis.values) {
-    const auto found = null_combination([](const Vector2d&, const Jet& jet) { return jet.basis; }, *samples);
+    const auto found = null_combination(terms_of(FactorForm::basis), *samples);
     if (found) formula.factor = sum(field.basis.names, *found);
     return formula;
   }
@@ -423,8 +410,8 @@ FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
     formula.integral = separated_integral(field, v, *samples);
     return formula;
   }
-  if (const auto found = null_combination(affine, *samples)) {
-    const std::vector<std::string> names{"u'", "u u'", "v u'", "v'", "u v'", "v v'"};
+  if (const auto found = null_combination(terms_of(FactorForm::affine), *samples)) {
+    const std::vector<std::string> names{"u'", "v'", "v u'", "v v'", "u u'", "u v'"};
     formula.factor = sum(names, *found);
   }
   return formula;

@@ -64,13 +64,12 @@ struct Chebyshev {
   }
 };
 
-/// 1/(|F|/radius + |G|/radius + |div f|)
+}  // namespace
+
 double weight(const Box& box, const Jet& jet) {
   const double size = jet.f.cwiseQuotient(box.radii).lpNorm<1>() + std::abs(jet.slopes.trace());
   return size > 0 ? 1 / size : 0;
 }
-
-}  // namespace
 
 std::optional<Vector2d> value_of(const SmoothField& field, const Vector2d& x) {
   try {

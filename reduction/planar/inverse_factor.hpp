@@ -34,6 +34,9 @@ struct Box {
   Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
 };
 
+/// Returns the factor that scales a row of (R64): 1/(|F|/radius + |G|/radius + |div f|), or 0 if that is infinite.
+double weight(const Box& box, const Jet& jet);
+
 /// Returns the box about x in which V is fitted.
 Box box_about(const Eigen::Vector2d& x);
 
