@@ -130,12 +130,12 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   }
   if (std::ssize(samples) < least) {
     throw std::domain_error(
-        fmt::format("reduce: the field has values and differences at {} of {} points about |u| = {}, |v| = {}, and {} "
+        fmt::format("the field has values and differences at {} of {} points about |u| = {}, |v| = {}, and {} "
                     "are needed{}{}",
                     samples.size(), tried, around[0], around[1], least,
                     field.first_failure().empty() ? "" : "; the first failure: ", field.first_failure()));
   }
-  if (all_zero) throw std::domain_error("reduce: the field is 0 at every point that was tried");
+  if (all_zero) throw std::domain_error("the field is 0 at every point that was tried");
 
   // Rows and columns in turn; then without the points next to a kink, whose errors are the largest.
   const auto inverse = [](double length) { return length > 0 ? 1 / length : 1; };
@@ -413,9 +413,8 @@ Vector2d Generator::centre() const {
 PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
   const double size = around.stableNorm();
   if (!std::isfinite(size) || size == 0) {
-    throw std::domain_error(
-        fmt::format("reduce: a finite point other than 0 is needed, about which the field is sampled, got ({}, {})",
-                    around[0], around[1]));
+    throw std::domain_error(fmt::format(
+        "a finite point other than 0 is needed, about which the field is sampled, got ({}, {})", around[0], around[1]));
   }
   constexpr double large = 1e100;  // beyond, or below 1/large, squares may overflow
   const double unit = size < large && size > 1 / large ? 1 : std::ldexp(1, std::ilogb(size));

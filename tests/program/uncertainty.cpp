@@ -72,7 +72,7 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
   CHECK(uncertainty("--ball pool --uncertainty slip=1%,spin=1%,friction=1%").at("first_order_holds") == true);
   CHECK(uncertainty("--ball pool --uncertainty spin-deceleration=30%").at("first_order_holds") == false);
   CHECK_THAT(run_program("stop --ball pool --uncertainty spin_deceleration=30%").out,
-             Contains("the first order does not do here"));
+             Contains("the first order fails here"));
   // Independent numbers add by their squares; units; the same samples each time.
   const auto json = uncertainty("--ball pool --uncertainty slip=1cm/s,spin=2rad/s");
   const auto& shares = json.at("shares");

@@ -426,7 +426,7 @@ Json members_of(const Uncertainty& uncertainty) {
 std::string remarks_on(const Uncertainty& uncertainty) {
   std::string text;
   if (!std::ranges::all_of(uncertainty.parts, [](const auto& part) { return part.known.holds; }))
-    text = "the first order does not do here: it is off by more than a tenth of itself; take the samples\n";
+    text = "the first order fails here: it differs from the samples by more than a tenth of itself; use the samples\n";
   if (uncertainty.outside > 0)
     text += fmt::format("{:.2g} % of the samples were left out: no ball has such numbers\n", 100 * uncertainty.outside);
   return text;
