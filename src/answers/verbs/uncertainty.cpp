@@ -75,7 +75,7 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
 
   const auto require_smooth = [](const Spreadable& each) {
     if (each.number.value == 0 && !each.corner.empty())
-      throw BadInput(fmt::format("{} is 0, where {} and no first order: leave it out", each.number.name, each.corner));
+      throw BadInput(fmt::format("{1} no derivative at {0} = 0; leave {0} out", each.number.name, each.corner));
   };
   std::vector<Spread> named, numbers;
   bool with_own = false;
@@ -241,8 +241,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
     standards[i] = standard;
     if (standard == 0) continue;
     const auto slopes = varied.slopes(place);
-    if (!slopes)
-      throw BadInput(fmt::format("{} is {}, where {} and no first order: leave it out", name, value, corner));
+    if (!slopes) throw BadInput(fmt::format("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner));
     shares.col(i) = standard * *slopes;
     // The change of mu needs to be known to an eighth only.
     constexpr double step = 1e-3;
@@ -367,14 +366,14 @@ std::string label_of(std::string_view event, std::string_view of) {
 
 Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
                              const std::string& typed) {
-  Uncertainty result = event_uncertainty(experiment, law, rolling_below, typed, "the events have a corner");
+  Uncertainty result = event_uncertainty(experiment, law, rolling_below, typed, "the events have");
   if (si::spin_at_start(experiment) == 0)
     std::erase_if(result.parts, [](const auto& part) { return part.event == "spin_ends" || part.event == "turns"; });
   return result;
 }
 
 Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed) {
-  constexpr std::string_view corner = "the stop time has a corner";
+  constexpr std::string_view corner = "the stop time has";
   const auto& [system, state, given, motion] = start;
   if (given) {
     si::Experiment experiment = *given;
@@ -382,7 +381,7 @@ Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed) 
     experiment.start = si::SlipAndSpin{si::slip_at_start(*given), si::spin_at_start(*given)};
     return event_uncertainty(experiment, system.law(), {}, typed, corner);
   }
-  if (start.at_rest()) throw BadInput("it is of a motion, and this is rest: leave it out");
+  if (start.at_rest()) throw BadInput("a body at rest has no stop time to vary; leave it out");
   const reduction::StopTimeGradient by = start.flow().stop_time_gradient(state);
   const Varied varied{
       .numbers = {{{"u0", state.u}, "", corner}, {{"v0", state.v}, "", corner}, {{"mu", system.mu()}, ""}},

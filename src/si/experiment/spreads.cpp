@@ -54,7 +54,7 @@ std::optional<Component> find_component(std::string_view name) {
 std::optional<double> parse_spread(std::string_view text, std::string_view unit, double value) {
   static const Dimension percent{"", "%", "percent", {}};
   if (const auto share = parse_quantity(text, percent)) {
-    if (value == 0) throw std::domain_error("is 0, of which there is no %: give a number");
+    if (value == 0) throw std::domain_error("is 0, and so is every % of it: give a number");
     return *share / 100 * std::abs(value);
   }
   const Dimension* const dimension = find_dimension(unit);
