@@ -46,10 +46,9 @@ Polyline half_circle(double radius) {
 
 /// Adds singular points by kind, on the circle at infinity and on that of the origin.
 void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
-  using reduction::SingularKind;
   using reduction::SingularPlace;
-  const auto kind = [&](SingularKind which, Marks::Shape shape, const char* legend) {
-    Marks marks{{}, drawing.palette.highlight, 1.4, shape, legend};
+  const auto kind = [&](std::string_view which, Marks::Shape shape) {
+    Marks marks{{}, drawing.palette.highlight, 1.4, shape, which};
     for (const reduction::SingularPoint& point : drawing.portrait.plane.points) {
       if (point.kind != which) continue;
       if (point.place == SingularPlace::origin && map.hole == 0) continue;
@@ -60,10 +59,10 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
     }
     if (!marks.points.empty()) panel.marks.push_back(std::move(marks));
   };
-  kind(SingularKind::stable_node, Marks::Shape::dot, "stable node");
-  kind(SingularKind::unstable_node, Marks::Shape::circle, "unstable node");
-  kind(SingularKind::saddle, Marks::Shape::square, "saddle");
-  kind(SingularKind::degenerate, Marks::Shape::square, "degenerate");
+  kind("stable node", Marks::Shape::dot);
+  kind("unstable node", Marks::Shape::circle);
+  kind("saddle", Marks::Shape::square);
+  kind("degenerate", Marks::Shape::square);
 }
 
 /// Adds the directions of motion along the circles of the points at infinity and of the blown-up origin.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/planar_kinds.hpp"
 
 namespace contensou::reduction {
 
@@ -43,10 +44,10 @@ double excess_slope(const Law& law, double r, double k) {
 }
 
 /// Returns the kind from the signs of the eigenvalues, which are known even if the eigenvalues underflow.
-SingularKind kind_of(bool attracts_radially, double attracts_angularly) {
-  if (attracts_angularly == 0) return SingularKind::degenerate;
-  if (attracts_radially != (attracts_angularly > 0)) return SingularKind::saddle;
-  return attracts_radially ? SingularKind::stable_node : SingularKind::unstable_node;
+std::string_view kind_of(bool attracts_radially, double attracts_angularly) {
+  if (attracts_angularly == 0) return planar_kind("degenerate");
+  if (attracts_radially != (attracts_angularly > 0)) return planar_kind("saddle");
+  return attracts_radially ? planar_kind("stable node") : planar_kind("unstable node");
 }
 
 }  // namespace
@@ -57,11 +58,6 @@ std::string_view name(InvariantDirection direction) {
 }
 
 std::string_view name(SingularPlace place) { return place == SingularPlace::origin ? "origin" : "infinity"; }
-
-std::string_view name(SingularKind kind) {
-  constexpr std::array<std::string_view, 4> names{"saddle", "stable node", "unstable node", "degenerate"};
-  return names[static_cast<std::size_t>(kind)];
-}
 
 PhasePlane phase_plane(const Flow& flow) {
   const ReducedSystem& system = flow.system();
@@ -88,9 +84,7 @@ PhasePlane phase_plane(const Flow& flow) {
     for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
       const bool at_origin = place == SingularPlace::origin;
       const double radial = at_origin ? -fall : fall;
-      SingularPoint point{direction, place, k, mu * k, {}, radial, -approach, kind_of(at_origin, attraction)};
-      point.linear_part << radial, 0, 0, -approach;
-      plane.points.push_back(point);
+      plane.points.push_back({direction, place, k, mu * k, radial, -approach, kind_of(at_origin, attraction)});
     }
   };
 

@@ -161,7 +161,7 @@ py::list facts(const Flow& flow) {
   py::list points;
   for (const reduction::SingularPoint& point : reduction::phase_plane(flow).points) {
     points.append(py::make_tuple(name(point.direction), name(point.place), point.k, point.q, point.radial,
-                                 point.angular, name(point.kind)));
+                                 point.angular, point.kind));
   }
   return points;
 }

@@ -86,13 +86,9 @@ TEST_CASE("The linear parts are the derivatives of the regularised field in its 
       const double h = 1e-6 * scale;
       const auto across = [&](double angular) { return chart_field(system, point, 1, angular)[1]; };
       const double angular = at == 0 ? across(h) / h : (across(at + h) - across(at - h)) / (2 * h);
-      CHECK(point.linear_part(1, 1) == Approx(angular).epsilon(3e-5));
+      CHECK(point.angular == Approx(angular).epsilon(3e-5));
       const double radial = chart_field(system, point, 2, at)[0] - chart_field(system, point, 1, at)[0];
-      CHECK(point.linear_part(0, 0) == Approx(radial).epsilon(1e-11));
-      CHECK(point.linear_part(0, 1) == 0);
-      CHECK(point.linear_part(1, 0) == 0);
-      CHECK(point.radial == point.linear_part(0, 0));
-      CHECK(point.angular == point.linear_part(1, 1));
+      CHECK(point.radial == Approx(radial).epsilon(1e-11));
     }
   };
   for (const Law& law : named_laws()) {
@@ -110,7 +106,6 @@ TEST_CASE("The linear parts are the derivatives of the regularised field in its 
 TEST_CASE("Every half-line joins a saddle to a node, and the regime says which", "[phase_plane][invariant]") {
   using enum InvariantDirection;
   using enum SingularPlace;
-  using enum SingularKind;
   for (const Law& law : named_laws()) {
     const TerminalRatios limits = terminal_ratios(law, 1);
     const auto plane_at = [&](double r) { return phase_plane(ReducedSystem(law, 1, {1, r})); };
@@ -121,9 +116,9 @@ TEST_CASE("Every half-line joins a saddle to a node, and the regime says which",
       CHECK(plane.tangents[0].contact_order > 0);
       for (const SingularPoint& point : plane.points) {
         if (point.direction == tangent) {
-          CHECK(point.kind == (point.place == origin ? stable_node : saddle));
+          CHECK(point.kind == (point.place == origin ? "stable node" : "saddle"));
         } else {
-          CHECK(point.kind == (point.place == origin ? saddle : unstable_node));
+          CHECK(point.kind == (point.place == origin ? "saddle" : "unstable node"));
         }
       }
       const SingularPoint node = point_of(plane, tangent, origin);
@@ -148,12 +143,12 @@ TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit
     CHECK(low.tangents[0].direction == InvariantDirection::pivoting);
     CHECK(low.tangents[0].contact_order == 0);
     const SingularPoint merged = point_of(low, InvariantDirection::pivoting, SingularPlace::origin);
-    CHECK(merged.kind == SingularKind::degenerate);
+    CHECK(merged.kind == "degenerate");
     CHECK(merged.angular == 0);
     const PhasePlane high = phase_plane(ReducedSystem(*find_law(law), 1, {1, limits.high}));
     CHECK(high.points.size() == 4);
     CHECK(high.tangents[0].direction == InvariantDirection::sliding);
-    CHECK(point_of(high, InvariantDirection::sliding, SingularPlace::infinity).kind == SingularKind::degenerate);
+    CHECK(point_of(high, InvariantDirection::sliding, SingularPlace::infinity).kind == "degenerate");
   }
 }
 
@@ -170,8 +165,8 @@ TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plan
   // The ring's force is steeper there than any line.
   const PhasePlane ring = phase_plane(ReducedSystem(*find_law("ring"), 1, {1, 1}));
   CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::origin).angular == -INFINITY);
-  CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::origin).kind == SingularKind::stable_node);
-  CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::infinity).kind == SingularKind::saddle);
+  CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::origin).kind == "stable node");
+  CHECK(point_of(ring, InvariantDirection::ray, SingularPlace::infinity).kind == "saddle");
   CHECK(ring.tangents[0].contact_order == INFINITY);
 }
 
@@ -205,7 +200,7 @@ TEST_CASE("Orbits touch their tangent to the order of contact", "[phase_plane][r
 
 TEST_CASE("A patch ratio whose powers underflow has its kinds all the same", "[phase_plane][limit]") {
   const PhasePlane plane = phase_plane(ReducedSystem(PadeLaw{}, 1e-150));
-  CHECK(point_of(plane, InvariantDirection::pivoting, SingularPlace::origin).kind == SingularKind::stable_node);
-  CHECK(point_of(plane, InvariantDirection::pivoting, SingularPlace::infinity).kind == SingularKind::saddle);
+  CHECK(point_of(plane, InvariantDirection::pivoting, SingularPlace::origin).kind == "stable node");
+  CHECK(point_of(plane, InvariantDirection::pivoting, SingularPlace::infinity).kind == "saddle");
   CHECK(std::isfinite(plane.tangents[0].contact_order));
 }

@@ -124,9 +124,9 @@ constexpr Field<SingularPoint> point_fields[]{
        return {{"radial", point.radial}, {"angular", point.angular}};
      },
      nullptr, 0, " {`radial`, `angular`}"},
-    {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return name(point.kind); }},
+    {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return point.kind; }},
     {"separatrix", "", "true if the half-line is a separatrix",
-     [](const SingularPoint& point) -> Json { return point.kind == reduction::SingularKind::saddle; }},
+     [](const SingularPoint& point) -> Json { return point.kind == "saddle"; }},
 };
 constexpr Field<ReducedSystem> body_fields[]{
     {"mu", "", "patch radius divided by R", [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
@@ -208,7 +208,7 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
   table.add({"half-line", "at", "k", "q = v/|u|", "radial", "angular", "  kind"});
   for (const SingularPoint& point : plane.points) {
     table.add({std::string(name(point.direction)), std::string(name(point.place)), digits(point.k), digits(point.q),
-               digits(point.radial), digits(point.angular), fmt::format("  {}", name(point.kind))});
+               digits(point.radial), digits(point.angular), fmt::format("  {}", point.kind)});
   }
   text += table.text();
   text +=

@@ -3,8 +3,6 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 
@@ -23,16 +21,8 @@ enum class SingularPlace {
   infinity,  ///< on the circle at infinity of the Poincare disc
 };
 
-enum class SingularKind {
-  saddle,
-  stable_node,
-  unstable_node,
-  degenerate,  ///< the angular eigenvalue is 0; two points merge: r = r_low, r_high, or Phi/(k Psi) touches r
-};
-
 std::string_view name(InvariantDirection direction);
 std::string_view name(SingularPlace place);
-std::string_view name(SingularKind kind);
 
 /// A singular point of the regularised field (2.7) after desingularisation.
 ///
@@ -42,12 +32,13 @@ std::string_view name(SingularKind kind);
 struct SingularPoint {
   InvariantDirection direction;
   SingularPlace place;
-  double k;                     ///< v/(mu |u|): 0, the k of a ray, or infinity
-  double q;                     ///< mu k
-  Eigen::Matrix2d linear_part;  ///< d(radial', angular')/d(radial, angular), dimensionless
-  double radial;                ///< eigenvalue along the half-line
+  double k;        ///< v/(mu |u|): 0, the k of a ray, or infinity
+  double q;        ///< mu k
+  double radial;   ///< eigenvalue along the half-line, dimensionless
   double angular;  ///< eigenvalue across the half-line; -infinity if the law has an infinite slope (the ring at k = 1)
-  SingularKind kind;  ///< for a saddle, the half-line is a separatrix
+  /// One of planar_kinds: saddle, where the half-line is a separatrix; stable node; unstable node; or degenerate if the
+  /// angular eigenvalue is 0. Then two points merge: r = r_low, r_high, or Phi/(k Psi) touches r.
+  std::string_view kind;
 };
 
 /// The half-line along which orbits enter the origin.
