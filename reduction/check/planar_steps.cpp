@@ -101,8 +101,8 @@ struct SteppedSolution final : PlanarReduction::Solution {
 
   double factor(const Vector2d&) const override { throw std::domain_error("no inverse integrating factor was found"); }
   double end_time_error(const Vector2d&) const override { return std::numeric_limits<double>::quiet_NaN(); }
-  std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override {
-    return std::make_shared<const SteppedMotion>(field, start);
+  PlanarOrbit orbit(const Vector2d& start) const override {
+    return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start));
   }
   std::optional<double> first_integral(const Vector2d&) const override { return std::nullopt; }
   std::shared_ptr<const Solution> reversed() const override {

@@ -22,7 +22,10 @@ namespace contensou::reduction {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-struct FactorOrbit::Motion {
+namespace {
+
+/// A motion on the level of H.
+struct FactorMotion final : PlanarOrbit::Motion {
   /// A part of the orbit, along which one coordinate grows or falls.
   struct Panel {
     int along;            ///< this coordinate
@@ -38,35 +41,58 @@ struct FactorOrbit::Motion {
     }
   };
 
+  explicit FactorMotion(const Vector2d& from) : start(from) {
+    end = PlanarEnd::undecided;
+    end_time = std::numeric_limits<double>::quiet_NaN();
+    border_time_known = true;
+  }
+  Vector2d at(double time) const override;
+  Vector2d at_end() const override { return rest; }
+  std::optional<double> period() const override {
+    return end == PlanarEnd::periodic ? std::optional(turn_end) : std::nullopt;
+  }
+  Vector2d in_panels(double time) const;
+
   Vector2d start;
   std::vector<Panel> panels = {};
-  PlanarEnd end = PlanarEnd::undecided;
-  double end_time = std::numeric_limits<double>::quiet_NaN();
   double followed = 0;                  ///< time
   double turn_begin = 0, turn_end = 0;  ///< times of the last turn
-  std::string undecided = {};
   // Near an equilibrium, from `followed` on: rest + exp(t flow) offset.
   Vector2d rest = Vector2d::Zero(), offset = rest;
   Matrix2d flow = Matrix2d::Zero();
-
-  /// The state at a time that the panels cover.
-  Vector2d at(double time) const {
-    const Panel& panel = *std::prev(std::ranges::upper_bound(panels, time, {}, &Panel::begin));
-    const double left = time - panel.begin;
-    return panel.at(root_between([&](double t) { return panel.time(t) - left; }, -1, 1));
-  }
 };
 
-namespace {
+/// Returns the state at a time that the panels cover.
+Vector2d FactorMotion::in_panels(double time) const {
+  const Panel& panel = *std::prev(std::ranges::upper_bound(panels, time, {}, &Panel::begin));
+  const double left = time - panel.begin;
+  return panel.at(root_between([&](double t) { return panel.time(t) - left; }, -1, 1));
+}
+
+Vector2d FactorMotion::at(double time) const {
+  if ((end == PlanarEnd::periodic || end == PlanarEnd::cycle) && time > turn_end) {
+    time = turn_begin + std::fmod(time - turn_begin, turn_end - turn_begin);
+  }
+  if (time >= followed) {
+    if (end == PlanarEnd::equilibrium) {
+      const Vector2d away = matrix_exponential((time - followed) * flow) * offset;
+      return away.allFinite() ? Vector2d(rest + away) : rest;
+    }
+    if (time > followed || panels.empty()) {
+      throw std::domain_error(fmt::format("PlanarOrbit: the orbit was followed up to the time {}{}{}", followed,
+                                          undecided.empty() ? "" : ": ", undecided));
+    }
+  }
+  return in_panels(time);
+}
 
 /// The way of an orbit from panel to panel and from box to box.
 class Follower {
   using Samples = LegendreSeries::Samples;
-  using Panel = FactorOrbit::Motion::Panel;
+  using Panel = FactorMotion::Panel;
 
  public:
-  Follower(const SmoothField& field, const SmoothField& fitted, const InverseFactor& factor,
-           FactorOrbit::Motion& motion)
+  Follower(const SmoothField& field, const SmoothField& fitted, const InverseFactor& factor, FactorMotion& motion)
       : field_(field),
         fitted_(fitted),
         motion_(motion),
@@ -396,7 +422,7 @@ class Follower {
     const double extent = std::exchange(extent_, 0);
     motion_.turn_begin = std::exchange(motion_.turn_end, panel.begin + panel.time(t));
     if (!((passed_ - last).norm() <= near_ * extent)) return false;
-    const double missed = (motion_.at(motion_.turn_end - motion_.turn_begin) - motion_.start).norm();
+    const double missed = (motion_.in_panels(motion_.turn_end - motion_.turn_begin) - motion_.start).norm();
     const bool from_start = missed <= near_ * extent;
     constexpr double doubtful = 1e-6;
     if (!from_start && missed <= doubtful * extent) {
@@ -412,7 +438,7 @@ class Follower {
 
   const SmoothField& field_;
   const SmoothField& fitted_;
-  FactorOrbit::Motion& motion_;
+  FactorMotion& motion_;
   Vector2d x_;
   FactorForm form_;
   Box box_;
@@ -431,42 +457,11 @@ class Follower {
 
 }  // namespace
 
-std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
+std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
                                                   const InverseFactor& factor, const Vector2d& start, int most_parts) {
-  auto motion = std::make_shared<FactorOrbit::Motion>();
-  motion->start = start;
+  auto motion = std::make_shared<FactorMotion>(start);
   Follower(field, fitted, factor, *motion).follow(most_parts);
   return motion;
-}
-
-PlanarEnd FactorOrbit::end() const { return motion_->end; }
-double FactorOrbit::end_time() const { return motion_->end_time; }
-const std::string& FactorOrbit::undecided() const { return motion_->undecided; }
-
-std::optional<double> FactorOrbit::period() const {
-  return motion_->end == PlanarEnd::periodic ? std::optional(motion_->turn_end) : std::nullopt;
-}
-
-Vector2d FactorOrbit::at(double time) const {
-  const Motion& motion = *motion_;
-  if (!(time >= 0)) throw std::domain_error(fmt::format("FactorOrbit: times >= 0 are required, got {}", time));
-  if ((motion.end == PlanarEnd::periodic || motion.end == PlanarEnd::cycle) && time > motion.turn_end) {
-    time = motion.turn_begin + std::fmod(time - motion.turn_begin, motion.turn_end - motion.turn_begin);
-  }
-  if (time >= motion.followed) {
-    if (motion.end == PlanarEnd::equilibrium) {
-      const Vector2d offset = matrix_exponential((time - motion.followed) * motion.flow) * motion.offset;
-      return offset.allFinite() ? Vector2d(motion.rest + offset) : motion.rest;
-    }
-    if (time > motion.followed || motion.panels.empty()) {
-      throw std::domain_error(time >= motion.end_time
-                                  ? fmt::format("FactorOrbit: the orbit ends at the time {}", motion.end_time)
-                                  : fmt::format("FactorOrbit: the orbit was followed up to the time {}{}{}",
-                                                motion.followed, motion.undecided.empty() ? "" : ": ",
-                                                motion.undecided));
-    }
-  }
-  return motion.at(time);
 }
 
 }  // namespace contensou::reduction

@@ -4,13 +4,14 @@
 
 #include "contensou/reduction/integrating_factor.hpp"
 #include "planar/inverse_factor.hpp"
+#include "planar/solution.hpp"
 
 namespace contensou::reduction {
 
 /// Follows the level of H through the start to its end.
 /// @param fitted  the field with the same orbits for which V has its form
 /// @param factor  in a box about `start`
-std::shared_ptr<const FactorOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
+std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
                                                   const InverseFactor& factor, const Eigen::Vector2d& start,
                                                   int most_parts);
 

@@ -108,10 +108,13 @@ void FactorReduction::Solved::look_for_factor() {
 }
 
 FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
-  if (!start.allFinite() || !value_of(field, start)) {
+  const auto value = value_of(field, start);
+  if (!start.allFinite() || !value) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
-  auto solved = std::make_shared<Solved>(Solved{field, field, start});
+  // V may vanish at an equilibrium.
+  const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
+  auto solved = std::make_shared<Solved>(Solved{field, field, value->isZero(0) ? beside : start});
   solved->look_for_factor();
   if (!solved->factor && field.denominator) {
     solved->fitted = with_cleared_denominator(field);
@@ -132,20 +135,6 @@ double FactorReduction::first_integral(const Vector2d& x) const {
 
 namespace {
 
-struct FactorMotion final : PlanarOrbit::Motion {
-  explicit FactorMotion(FactorOrbit of) : orbit(std::move(of)) {
-    end = orbit.end();
-    end_time = orbit.end_time();
-    undecided = orbit.undecided();
-    border_time_known = true;
-  }
-  Vector2d at(double time) const override { return orbit.at(time); }
-  Vector2d at_end() const override { return orbit.at(end_time); }
-  std::optional<double> period() const override { return orbit.period(); }
-
-  FactorOrbit orbit;
-};
-
 struct FactorSolution final : PlanarReduction::Solution {
   FactorSolution(PlanarField of, FactorReduction by) : Solution(std::move(of), by.form()), reduction(std::move(by)) {}
 
@@ -154,11 +143,10 @@ struct FactorSolution final : PlanarReduction::Solution {
     return reduction.factor_pieces(low, high);
   }
   double end_time_error(const Vector2d&) const override { return 1e-12; }
-  std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override {
-    return std::make_shared<const FactorMotion>(reduction.orbit(start));
-  }
-  std::shared_ptr<const PlanarOrbit::Motion> part_of_orbit(const Vector2d& start) const override {
-    return std::make_shared<const FactorMotion>(reduction.orbit(start, FactorReduction::parts_of_a_picture));
+  PlanarOrbit orbit(const Vector2d& start) const override { return reduction.orbit(start); }
+  PlanarOrbit part_of_orbit(const Vector2d& start) const override {
+    constexpr int parts = 150;
+    return reduction.orbit(start, parts);
   }
   std::optional<double> first_integral(const Vector2d& x) const override { return reduction.first_integral(x); }
   std::shared_ptr<const Solution> reversed() const override {
@@ -234,11 +222,11 @@ FactorFormula FactorReduction::formula() const {
   return recognised(solved_->fitted, solved_->start);
 }
 
-FactorOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
+PlanarOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
   if (!start.allFinite() || !value_of(solved_->field, start)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
-  return FactorOrbit(follow(solved_->field, solved_->fitted, solved_->found(), start, most_parts));
+  return PlanarOrbit(follow(solved_->field, solved_->fitted, solved_->found(), start, most_parts));
 }
 
 }  // namespace contensou::reduction

@@ -25,8 +25,6 @@ using std::numbers::pi;
 
 namespace {
 
-double angle_of(const Vector2d& n) { return std::atan2(n[1], n[0]); }
-
 /// The root of a function that grows with x, below `high`, where it is not negative.
 double root_below(const std::function<double(double)>& function, double high) {
   double width = 1, low = high - width;
@@ -46,14 +44,11 @@ struct StripPlace {
 };
 
 /// Solution by a scaling: README (R42) to (R45).
-struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_from_this<ScalingSolution> {
+struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<ScalingSolution> {
   ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
 
-  PlanarCanonical canonical(const Vector2d& x) const override;
-  Vector2d point(double q, double p) const override { return section.point(turned({1, 0}, q), p); }
-  std::shared_ptr<const PlanarOrbit::Motion> orbit(const Vector2d& start) const override;
+  PlanarOrbit orbit(const Vector2d& start) const override;
   double end_time_error(const Vector2d& x) const override;
-  double factor(const Vector2d& x) const override { return cross(field(x), scaling->matrix * (x - centre)); }
   std::optional<double> first_integral(const Vector2d& x) const override;
   std::shared_ptr<const Solution> reversed() const override {
     return std::make_shared<const ScalingSolution>(reversed_field(), *scaling, point(0, 0), noise);
@@ -67,7 +62,6 @@ struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_fro
   double end_time(const StripPlace& place, double p) const;
   Vector2d along_ray(const Vector2d& n, double radial, double p, double time) const;
 
-  SectionField section;
   double noise;  ///< relative error of the field's values
   Directions directions;
   std::vector<Strip> strips;
@@ -75,9 +69,7 @@ struct ScalingSolution final : PlanarReduction::Solution, std::enable_shared_fro
 
 ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around,
                                  double given_noise)
-    : Solution(std::move(given), "scaling"), section(field, generator, around), noise(std::max(given_noise, eps)) {
-  scaling = generator;
-  centre = section.centre();
+    : SectionSolution(std::move(given), generator, around), noise(std::max(given_noise, eps)) {
   const auto refuse = [](const Vector2d& n) {
     throw UndecidedRays(
         fmt::format("at the angle {:.6g} the field points along the scaling within rounding: "
@@ -265,12 +257,6 @@ Vector2d ScalingSolution::along_ray(const Vector2d& n, double radial, double p, 
   return section.point(n, p + (growth == 0 ? radial * way : std::log1p(growth * way) / c));
 }
 
-PlanarCanonical ScalingSolution::canonical(const Vector2d& x) const {
-  const auto [n, p] = section.canonical(x);
-  const auto rates = section(n);
-  return {angle_of(n), p, rates ? rates->radial / rates->angular : std::numeric_limits<double>::quiet_NaN()};
-}
-
 double ScalingSolution::end_time_error(const Vector2d& x) const {
   const auto time_from = [&x](const ScalingSolution& solution) {
     const auto [n, p] = solution.section.canonical(x);
@@ -347,7 +333,7 @@ struct ScalingMotion final : PlanarOrbit::Motion {
   StripPlace place;
 };
 
-std::shared_ptr<const PlanarOrbit::Motion> ScalingSolution::orbit(const Vector2d& start) const {
+PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
   auto motion = std::make_shared<ScalingMotion>();
   motion->solution = shared_from_this();
   std::tie(motion->n, motion->p) = section.canonical(start);
@@ -355,7 +341,7 @@ std::shared_ptr<const PlanarOrbit::Motion> ScalingSolution::orbit(const Vector2d
   motion->end = end(motion->place);
   motion->end_time = end_time(motion->place, motion->p);
   if (motion->end == PlanarEnd::undecided) motion->undecided = undecided;
-  return motion;
+  return PlanarOrbit(std::move(motion));
 }
 
 Vector2d ScalingMotion::at(double time) const {
@@ -434,8 +420,13 @@ std::string_view name(PlanarEnd end) {
   return names[static_cast<std::size_t>(end)];
 }
 
+std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(PlanarField field, const Generator& scaling,
+                                                                   const Vector2d& around, double noise) {
+  return std::make_shared<const ScalingSolution>(std::move(field), scaling, around, noise);
+}
+
 PlanarReduction::PlanarReduction(PlanarField field, const Generator& scaling, const Vector2d& around, double noise)
-    : solution_(std::make_shared<const ScalingSolution>(std::move(field), scaling, around, noise)) {}
+    : solution_(solved_by_scaling(std::move(field), scaling, around, noise)) {}
 PlanarReduction::PlanarReduction(std::shared_ptr<const Solution> solution) : solution_(std::move(solution)) {}
 
 const PlanarField& PlanarReduction::field() const { return solution_->field; }
@@ -485,12 +476,12 @@ double PlanarReduction::first_integral(const Vector2d& x) const {
 PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
   require_point(start);
   if (start == centre()) return PlanarOrbit(std::make_shared<const Rest>(start));
-  return PlanarOrbit(solution_->orbit(start));
+  return solution_->orbit(start);
 }
 
 PlanarOrbit PlanarReduction::part_of_orbit(const Vector2d& start) const {
   require_point(start);
-  return start == centre() ? orbit(start) : PlanarOrbit(solution_->part_of_orbit(start));
+  return start == centre() ? orbit(start) : solution_->part_of_orbit(start);
 }
 
 PlanarReduction PlanarReduction::reversed() const { return PlanarReduction(solution_->reversed()); }
@@ -509,11 +500,11 @@ Vector2d PlanarOrbit::at(double time) const {
   switch (motion_->end) {
     case PlanarEnd::centre:
     case PlanarEnd::rest:
+    case PlanarEnd::equilibrium:
       return motion_->at_end();
-    case PlanarEnd::border:
-      throw std::domain_error(fmt::format("PlanarOrbit: at the time {} it is beyond a border", time));
     default:
-      throw std::domain_error(fmt::format("PlanarOrbit: the orbit is at infinity at the time {}", motion_->end_time));
+      throw std::domain_error(fmt::format("PlanarOrbit: the orbit ends at the time {}, at {}", motion_->end_time,
+                                          motion_->end == PlanarEnd::border ? "a border" : "infinity"));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/planar_reduction.hpp"
+#include "planar/section_field.hpp"
 
 namespace contensou::reduction {
 
@@ -23,10 +25,8 @@ struct PlanarReduction::Solution {
 
   virtual double factor(const Eigen::Vector2d& x) const = 0;
   virtual std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d&, const Eigen::Vector2d&) const { return {}; }
-  virtual std::shared_ptr<const PlanarOrbit::Motion> orbit(const Eigen::Vector2d& start) const = 0;
-  virtual std::shared_ptr<const PlanarOrbit::Motion> part_of_orbit(const Eigen::Vector2d& start) const {
-    return orbit(start);
-  }
+  virtual PlanarOrbit orbit(const Eigen::Vector2d& start) const = 0;
+  virtual PlanarOrbit part_of_orbit(const Eigen::Vector2d& start) const { return orbit(start); }
   virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
@@ -55,6 +55,31 @@ struct PlanarReduction::Solution {
   std::string undecided;
   std::string_view kind;
 };
+
+/// A solution by a scaling, in the coordinates of its section.
+struct SectionSolution : PlanarReduction::Solution {
+  SectionSolution(PlanarField given, const Generator& generator, const Eigen::Vector2d& around)
+      : Solution(std::move(given), "scaling"), section(field, generator, around) {
+    scaling = generator;
+    centre = section.centre();
+  }
+
+  static double angle_of(const Eigen::Vector2d& n) { return std::atan2(n[1], n[0]); }
+
+  PlanarCanonical canonical(const Eigen::Vector2d& x) const override {
+    const auto [n, p] = section.canonical(x);
+    const auto rates = section(n);
+    return {angle_of(n), p, rates ? rates->radial / rates->angular : std::numeric_limits<double>::quiet_NaN()};
+  }
+  Eigen::Vector2d point(double q, double p) const override { return section.point(turned({1, 0}, q), p); }
+  double factor(const Eigen::Vector2d& x) const override { return cross(field(x), scaling->matrix * (x - centre)); }
+
+  SectionField section;
+};
+
+/// Solves a system by its scaling. Arguments and exceptions are those of the constructor of PlanarReduction.
+std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(PlanarField field, const Generator& scaling,
+                                                                   const Eigen::Vector2d& around, double noise);
 
 struct PlanarOrbit::Motion {
   virtual ~Motion() = default;

@@ -170,7 +170,7 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
         factors.add(wanted, reduction.factor(x), std::abs(wanted) + std::abs(unit), example.text);
       }
     }
-    const FactorOrbit orbit = reduction.orbit(example.start, parts);
+    const PlanarOrbit orbit = reduction.orbit(example.start, parts);
     for (const double time : {0.02, 0.5, 2.0}) {
       const Vector2d wanted = stepped(example.field, example.start, time), got = orbit.at(time);
       CAPTURE(time, wanted, got);
@@ -197,7 +197,7 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
 TEST_CASE("Periods are those of closed forms and of a quadrature in 30 digits", "[factor]") {
   WorstCase periods("period");
   const auto add = [&](const Formulas& field, const Vector2d& start, double wanted, const std::string& what) {
-    const FactorOrbit orbit = reduced(field, start).orbit(start);
+    const PlanarOrbit orbit = reduced(field, start).orbit(start);
     CAPTURE(what);
     REQUIRE(orbit.end() == PlanarEnd::periodic);
     REQUIRE(orbit.period());
@@ -270,7 +270,7 @@ TEST_CASE("No V is found for systems that have none", "[factor]") {
 TEST_CASE("The ends of orbits and their times", "[factor]") {
   const auto orbit = [](const Formulas& field, const Vector2d& start) { return reduced(field, start).orbit(start); };
   const auto ends = [&](const Formulas& field, const Vector2d& start, PlanarEnd end, double time) {
-    const FactorOrbit there = orbit(field, start);
+    const PlanarOrbit there = orbit(field, start);
     CAPTURE(there.undecided(), start, there.end_time());
     CHECK(there.end() == end);
     CHECK(there.undecided().empty());
@@ -285,7 +285,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
   };
   // v = u^2/3 + C u^10 about (1, 2), u - 1 = exp(-t)/2: near the equilibrium a curve on which V = 0 is within rounding.
   const Formulas node = [](Dual u, Dual v) { return std::array{1 - u, (u - 1) * (u - 1) - 10 * (v - 2)}; };
-  const FactorOrbit to_node = ends(node, {1.5, 1}, PlanarEnd::equilibrium, infinity);
+  const PlanarOrbit to_node = ends(node, {1.5, 1}, PlanarEnd::equilibrium, infinity);
   for (const double t : {1.0, 10.0, 30.0, 1e4}) {
     const double a = std::exp(-t) / 2, b = a * a / 8 - (1 + 1. / 32) * std::exp(-10 * t);
     CHECK((to_node.at(t) - Vector2d(1 + a, 2 + b)).norm() < 1e-13);
@@ -302,7 +302,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
         return std::array{-2 * u * v, 2 * u * v - v};
       },
       {1.3, 0.7}, PlanarEnd::equilibrium, infinity);
-  const FactorOrbit to_cycle = ends(hopf, {0.1, 0}, PlanarEnd::cycle, infinity);
+  const PlanarOrbit to_cycle = ends(hopf, {0.1, 0}, PlanarEnd::cycle, infinity);
   CHECK((to_cycle.at(100) - Vector2d(std::cos(100), std::sin(100))).norm() < 1e-10);
   // Infinity in finite time and for ever; a pole, and the border of a root.
   ends(
@@ -326,14 +326,14 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
       {1.3, 0.7}, PlanarEnd::border, pi / 2 - 1.3);
   // Not decided: the separatrix of the double well, that rounding is beside.
   const auto open = [&](const Formulas& field, const Vector2d& start, const std::string& reason) {
-    const FactorOrbit there = orbit(field, start);
+    const PlanarOrbit there = orbit(field, start);
     CHECK(there.end() == PlanarEnd::undecided);
     CHECK(std::isnan(there.end_time()));
     CHECK_THAT(there.undecided(), Contains(reason));
     CHECK_THROWS_WITH(there.at(1e6), Contains("was followed up to the time"));
   };
   open(well, {std::sqrt(2), 0}, "saddle");
-  const FactorOrbit resting = orbit(lotka, {1.3, 0.7});
+  const PlanarOrbit resting = orbit(lotka, {1.3, 0.7});
   CHECK_THROWS_WITH(resting.at(-1), Contains("times >= 0"));
 }
 

@@ -47,8 +47,6 @@ struct FactorFormula {
   std::string factor, integral;
 };
 
-class FactorOrbit;
-
 /// x' = f(x) solved by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68).
 ///
 ///     const FactorReduction reduction({field, jacobian}, start);
@@ -59,7 +57,8 @@ class FactorOrbit;
 /// Accuracy  relative 1e-12 of states and times, where the motion does not amplify rounding.
 class FactorReduction {
  public:
-  /// Looks for V in a box of 30 % about the start: form after form, the first that holds. If the field has a
+  /// Looks for V in a box of 30 % about the start, or about (1.25 u, 0.8 v) if the start (u, v) is an equilibrium. It
+  /// tries form after form and takes the first that holds. If the field has a
   /// denominator D and V has no form, V D follows, which is a factor of D f.
   /// @throws std::domain_error  unless the start is finite and the field has a value there
   FactorReduction(SmoothField field, const Eigen::Vector2d& start);
@@ -100,39 +99,11 @@ class FactorReduction {
   /// Returns the orbit of another start, or of this one. V is fitted anew from box to box.
   /// @param most_parts  number of parts after which the end is left open
   /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
-  FactorOrbit orbit(const Eigen::Vector2d& start, int most_parts = 32000) const;
-  static constexpr int parts_of_a_picture = 150;
+  PlanarOrbit orbit(const Eigen::Vector2d& start, int most_parts = 32000) const;
 
  private:
   struct Solved;
   std::shared_ptr<const Solved> solved_;
-};
-
-/// One motion of a system with an inverse integrating factor.
-class FactorOrbit {
- public:
-  struct Motion;  // planar/factor_orbit.cpp
-  explicit FactorOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
-
-  /// Returns its end: equilibrium, infinity, border, periodic, cycle or undecided.
-  PlanarEnd end() const;
-
-  /// Returns the time of the end; infinity if it takes for ever, NaN if it is not decided.
-  double end_time() const;
-
-  /// Returns the period of a periodic orbit.
-  std::optional<double> period() const;
-
-  /// Returns the reason why the end is not decided; empty if it is.
-  const std::string& undecided() const;
-
-  /// Returns the state at a time after the start.
-  /// @throws std::domain_error  unless time >= 0; from the end time on, and for an undecided end beyond the last time
-  ///                            followed
-  Eigen::Vector2d at(double time) const;
-
- private:
-  std::shared_ptr<const Motion> motion_;
 };
 
 }  // namespace contensou::reduction
