@@ -432,6 +432,7 @@ PlanarReduction::PlanarReduction(std::shared_ptr<const Solution> solution) : sol
 const PlanarField& PlanarReduction::field() const { return solution_->field; }
 std::string_view PlanarReduction::form() const { return solution_->form; }
 const Generator* PlanarReduction::scaling() const { return solution_->scaling ? &*solution_->scaling : nullptr; }
+const Flow* PlanarReduction::flow() const { return solution_->flow(); }
 const Vector2d& PlanarReduction::centre() const { return solution_->centre; }
 bool PlanarReduction::star() const { return solution_->star; }
 const std::vector<PlanarRay>& PlanarReduction::rays() const { return solution_->rays; }

@@ -36,6 +36,8 @@ struct PlanarReduction::Solution {
   virtual PlanarCanonical canonical(const Eigen::Vector2d&) const { throw without_scaling(); }
   virtual Eigen::Vector2d point(double, double) const { throw without_scaling(); }
 
+  virtual const Flow* flow() const { return nullptr; }
+
   PlanarField reversed_field() const {
     return [forward = field](const Eigen::Vector2d& x) -> Eigen::Vector2d { return -forward(x); };
   }

@@ -1,5 +1,6 @@
 #include "contensou/reduction/planar_reduction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -76,6 +77,113 @@ TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law
   CHECK(times.count() == 1000);
   CHECK_WITHIN_EPS(times, 2000);
   CHECK_WITHIN_EPS(points, 4500);  // 1e-12
+}
+
+TEST_CASE("system (2.6) solved by its flow agrees with the solution by the values of its field", "[planar][route]") {
+  std::mt19937 random(26);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  WorstCase radial("R"), angular("dT/dq"), times("end time"), points("state"),
+      integrals("difference of first integrals");
+  const std::vector<Inertia> bodies{homogeneous_ball, {1, 2}, {1, 1}, {3, 40}};
+  std::vector<Law> laws = named_laws();
+  laws.push_back(*find_law("pressure:0.3"));
+  laws.push_back(*find_law("elliptic:0.7"));
+  int with_rays = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Law& law = laws[static_cast<std::size_t>(i) % laws.size()];
+    const Inertia body = bodies[static_cast<std::size_t>(i / 5) % bodies.size()];
+    const double mu = std::pow(10, uniform(-2, 0.4)), drive = i % 3 == 0 ? 0.9 * uniform(0.01, 1) : 0;
+    const ReducedSystem system(law, mu, body, drive);
+    const Vector2d around(1 / mu, 1);
+    const PlanarReduction by_values = reduced(planar_field(system), around), by_flow = reduced(Flow(system));
+    const std::string what =
+        fmt::format("{}, mu = {}, body {},{}, drive {}", law.name(), mu, body.chi, body.gamma, drive);
+    CAPTURE(what);
+    REQUIRE(by_flow.flow() != nullptr);
+    CHECK(by_values.flow() == nullptr);
+    CHECK(by_flow.form() == "scaling");
+    CHECK(by_flow.kind() == by_values.kind());
+    CHECK(by_flow.centre() == by_values.centre());
+    REQUIRE(by_flow.rays().size() == by_values.rays().size());
+    with_rays += by_flow.rays().size() > 4;
+    for (std::size_t j = 0; j < by_flow.rays().size(); ++j) {
+      const PlanarRay &got = by_flow.rays()[j], &wanted = by_values.rays()[j];
+      CAPTURE(wanted.q, wanted.order);
+      CHECK(std::abs(wrapped(got.q - wanted.q)) < 1e-13);
+      CHECK(got.attracts == wanted.attracts);
+      CHECK(got.to_centre == wanted.to_centre);
+      // sigma depends on the size of the section.
+      radial.add(wanted.radial * around.norm(), got.radial, what);
+      if (std::isfinite(wanted.angular)) {
+        angular.add(wanted.angular * around.norm(), got.angular, what);
+        CHECK(got.order == wanted.order);
+      }
+    }
+    REQUIRE(by_flow.sectors().size() == by_values.sectors().size());
+    for (std::size_t j = 0; j < by_flow.sectors().size(); ++j) {
+      // Both lists are counter-clockwise. The first sector may be another one.
+      const PlanarSector& got = by_flow.sectors()[j];
+      const auto same = std::ranges::find_if(by_values.sectors(), [&](const PlanarSector& other) {
+        return std::abs(wrapped(got.from - other.from)) < 1e-13 &&
+               std::abs(got.to - got.from - (other.to - other.from)) < 1e-13;
+      });
+      REQUIRE(same != by_values.sectors().end());
+      const PlanarSector& wanted = *same;
+      CHECK(std::pair(got.from_ray, got.to_ray) == std::pair(wanted.from_ray, wanted.to_ray));
+      // Two orbits of each sector: the difference of both first integrals is the same.
+      const double one = uniform(0.05, 0.95), other = uniform(0.05, 0.95);
+      double differences[2]{};
+      for (int n : {0, 1}) {
+        const double q = wanted.from + (wanted.to - wanted.from) * (n == 0 ? one : other);
+        const Vector2d x = std::exp(uniform(-2, 2)) * Vector2d(std::cos(q), std::sin(q));
+        const PlanarCanonical here = by_flow.canonical(x), there = by_values.canonical(x);
+        CHECK(std::abs(wrapped(here.q - there.q)) < 1e-15);
+        CHECK(here.p == Approx(there.p + std::log(around.norm())).margin(1e-14));
+        CHECK((by_flow.point(here.q, here.p) - x).norm() < 1e-14 * x.norm());
+        CHECK(by_flow.factor(x) == by_values.factor(x));
+        CHECK(by_flow.end(x) == by_values.end(x));
+        times.add(by_values.end_time(x), by_flow.end_time(x), what);
+        const double time = uniform(0, 0.99) * by_flow.end_time(x);
+        const Vector2d wanted_state = by_values.orbit(x).at(time), state = by_flow.orbit(x).at(time);
+        for (int k : {0, 1}) points.add(wanted_state[k], state[k], wanted_state.norm(), what);
+        differences[n] = by_flow.first_integral(x) - by_values.first_integral(x);
+        CHECK(by_flow.first_integral(2 * x) == Approx(by_flow.first_integral(x) + std::numbers::ln2).epsilon(1e-12));
+        CHECK(by_flow.reversed().end(x) == by_values.reversed().end(x));
+      }
+      integrals.add(differences[0], differences[1], 1 + std::abs(differences[0]), what);
+    }
+    for (const PlanarReduction* plane : {&by_flow, &by_values}) {
+      CHECK_THROWS_AS(plane->first_integral({0, 1}), std::domain_error);
+      if (drive > 0) CHECK_THROWS_AS(plane->orbit({1, 0}), std::domain_error);  // two motions leave this point
+      if (drive == 0) CHECK_THROWS_AS(plane->first_integral({1, 0}), std::domain_error);
+    }
+    CHECK(by_flow.end_time({0, -2}) == Approx(by_values.end_time({0, -2})).epsilon(1e-13));
+    CHECK(by_flow.end_time({0, 0}) == 0);
+    CHECK(by_flow.end_time_error(around) < 1e-13);
+  }
+  CHECK(with_rays > 20);
+  CHECK_WITHIN_EPS(radial, 100);
+  CHECK_WITHIN_EPS(angular, 1e7);  // beside the kink of a law
+  CHECK_WITHIN_EPS(times, 200);
+  CHECK_WITHIN_EPS(points, 4500);
+  CHECK_WITHIN_EPS(integrals, 500);
+}
+
+TEST_CASE("where a ray of (2.6) merges with an axis, its order is that of the solution by values", "[planar][limit]") {
+  for (const char* law : {"pade", "exact", "uniform"}) {
+    const TerminalRatios limits = terminal_ratios(*find_law(law), 1);
+    for (double r : {limits.low, limits.high}) {
+      const ReducedSystem system(*find_law(law), 1, {1, r});
+      const PlanarReduction by_values = reduced(planar_field(system)), by_flow = reduced(Flow(system));
+      CAPTURE(law, r);
+      CHECK(by_flow.kind() == by_values.kind());
+      REQUIRE(by_flow.rays().size() == by_values.rays().size());
+      for (std::size_t j = 0; j < by_flow.rays().size(); ++j) {
+        CHECK(by_flow.rays()[j].attracts == by_values.rays()[j].attracts);
+        CHECK(by_flow.rays()[j].order == Approx(by_values.rays()[j].order));
+      }
+    }
+  }
 }
 
 TEST_CASE("a focus whose centre is not smooth: its spiral and its stop are exact", "[planar][exact]") {
