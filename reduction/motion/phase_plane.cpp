@@ -78,44 +78,35 @@ PhasePlane phase_plane(const Flow& flow) {
 
   const double body_scale = std::sqrt(chi / gamma);
   PhasePlane plane{terminal, body_scale * std::sqrt(terminal.low), body_scale * std::sqrt(terminal.high), {}, {}};
-  // Adds the two points of a half-line. fall is the rate of the speed along it divided by the speed, approach the rate
-  // of the angle next to it, attraction its sign.
-  const auto add = [&](InvariantDirection direction, double k, double fall, double approach, double attraction) {
+  // Adds the two points of a half-line, and the tangent if orbits end there. fall is the rate of the speed along it
+  // divided by the speed. order is the rate of the angle next to it divided by fall; attraction is the sign of order.
+  const auto add = [&](InvariantDirection direction, double k, double fall, double order, double attraction) {
     for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
       const bool at_origin = place == SingularPlace::origin;
       const double radial = at_origin ? -fall : fall;
-      plane.points.push_back({direction, place, k, mu * k, radial, -approach, kind_of(at_origin, attraction)});
+      plane.points.push_back({direction, place, k, mu * k, radial, -fall * order, kind_of(at_origin, attraction)});
+    }
+    if (std::ranges::count(terminal.ends, k, &TerminalRatio::k) > 0) {
+      plane.tangents.push_back({direction, k, std::max(0.0, order)});
     }
   };
 
-  // README (R16), (R17). mu may underflow in the rates, but cancels in their ratios, the orders of contact.
+  // README (R16), (R17). mu may underflow in the rates, but not in the orders.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
-  const double fall_pivoting = pivoting_rate * law.pivoting_moment() * mu * mu * weight(0);
-  const double approach_pivoting =
-      below_low == 0 ? 0 : sliding_rate * mu * weight(0) * (law.force_slope() - r * law.pivoting_moment());
-  if (system.drive() == 0) add(InvariantDirection::pivoting, 0, fall_pivoting, approach_pivoting, below_low);
-  if (terminal.ends.front().regime == TerminalRegime::zero) {
-    const double order = law.force_slope() / (r * law.pivoting_moment()) - 1;
-    plane.tangents.push_back({InvariantDirection::pivoting, 0, below_low == 0 ? 0 : std::max(0.0, order)});
+  const double moment = law.pivoting_moment();
+  if (system.drive() == 0) {
+    add(InvariantDirection::pivoting, 0, pivoting_rate * moment * mu * mu * weight(0),
+        below_low == 0 ? 0 : law.force_slope() / (r * moment) - 1, below_low);
   }
-
   for (const InvariantRay& ray : terminal.rays) {
-    const double fall = pivoting_rate * law(slip_of_ratio(ray.k)).moment * mu * mu * weight(ray.k);
-    const bool touches = ray.attracts_above != ray.attracts_below;
-    const double approach = touches ? 0 : sliding_rate * mu * weight(ray.k) * excess_slope(law, r, ray.k);
-    add(InvariantDirection::ray, ray.k, fall, approach, touches ? 0 : ray.attracts() ? 1 : -1);
-    if (ray.attracts_above || ray.attracts_below) {
-      plane.tangents.push_back({InvariantDirection::ray, ray.k, std::max(0.0, approach / fall)});
-    }
+    const double drag = law(slip_of_ratio(ray.k)).moment;
+    const double sign = ray.attracts_above != ray.attracts_below ? 0 : ray.attracts() ? 1 : -1;
+    add(InvariantDirection::ray, ray.k, pivoting_rate * drag * mu * mu * weight(ray.k),
+        sign == 0 ? 0 : excess_slope(law, r, ray.k) / (r * drag), sign);
   }
-
-  const double fall_sliding = sliding_rate * 45 * pi * pi * (1 - system.drive());
-  const double approach_sliding = below_high == 0 ? 0 : fall_sliding * (r / terminal.high - 1);
-  add(InvariantDirection::sliding, infinity, fall_sliding, approach_sliding, -below_high);
-  if (terminal.ends.back().regime == TerminalRegime::infinity) {
-    plane.tangents.push_back({InvariantDirection::sliding, infinity, std::max(0.0, approach_sliding / fall_sliding)});
-  }
+  add(InvariantDirection::sliding, infinity, sliding_rate * 45 * pi * pi * (1 - system.drive()),
+      below_high == 0 ? 0 : r / terminal.high - 1, -below_high);
   return plane;
 }
 
