@@ -33,32 +33,51 @@ bool holds_widely(const SmoothField& field, const FactorFit& fit) {
 
 }  // namespace
 
-struct FactorReduction::Solved {
-  SmoothField field;
-  SmoothField fitted;  ///< for which the factor has its form: the same, or with its denominator cleared
+struct FactorReduction::Solved final : PlanarReduction::Solution,
+                                       std::enable_shared_from_this<FactorReduction::Solved> {
+  Solved(const SmoothField& given, const Vector2d& from)
+      : Solution(given.value, ""), smooth(given), fitted(given), start(from) {}
+
+  SmoothField smooth;
+  SmoothField fitted;  ///< for which V has its form: the same, or with its denominator cleared
   Vector2d start;
   bool cleared = false;
   std::vector<TriedForm> tried = {};
-  std::optional<InverseFactor> factor = {};
+  std::optional<InverseFactor> v = {};
 
   void look_for_factor();
 
+  double factor(const Vector2d& x) const override { return at(x).first; }
+  std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override;
+  PlanarOrbit orbit(const Vector2d& from) const override { return followed(from, usual_parts); }
+  PlanarOrbit part_of_orbit(const Vector2d& from) const override {
+    constexpr int parts = 150;
+    return followed(from, parts);
+  }
+  PlanarOrbit followed(const Vector2d& from, int most_parts) const;
+  double end_time_error(const Vector2d&) const override { return 1e-12; }
+  std::optional<double> first_integral(const Vector2d& x) const override {
+    constexpr int halvings = 12;
+    return integral(start, x, at(start).first, halvings);
+  }
+  std::shared_ptr<const Solution> reversed() const override;
+
   const InverseFactor& found() const {
-    if (!factor) throw std::domain_error("FactorReduction: no inverse integrating factor was found");
-    return *factor;
+    if (!v) throw std::domain_error("FactorReduction: no inverse integrating factor was found");
+    return *v;
   }
 
   /// V at a point of the box; the field there.
   std::pair<double, Vector2d> at(const Vector2d& x) const {
-    const InverseFactor& v = found();
-    if (!holds_everywhere(v.form()) && !(v.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
+    const InverseFactor& fit = found();
+    if (!holds_everywhere(fit.form()) && !(fit.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
       throw std::domain_error(
           fmt::format("FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", x[0], x[1],
-                      start[0], start[1], v.box().radii[0], v.box().radii[1]));
+                      start[0], start[1], fit.box().radii[0], fit.box().radii[1]));
     }
-    const auto f = value_of(field, x);
+    const auto f = value_of(smooth, x);
     std::optional<Jet> of_form;
-    if (v.form() == FactorForm::basis) {
+    if (fit.form() == FactorForm::basis) {
       of_form = jet_of(fitted, x);
     } else if (const auto g = cleared ? value_of(fitted, x) : f) {
       of_form = {*g, Eigen::Matrix2d::Zero()};
@@ -66,8 +85,8 @@ struct FactorReduction::Solved {
     if (!f || !of_form) {
       throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", x[0], x[1]));
     }
-    const double value = v(x, *of_form)[0];
-    return {cleared ? value * field.denominator(start)[0] / field.denominator(x)[0] : value, *f};
+    const double value = fit(x, *of_form)[0];
+    return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
   }
 
   /// Integral of dH along a straight line.
@@ -75,11 +94,11 @@ struct FactorReduction::Solved {
     const Vector2d way = to - from;
     LegendreSeries::Samples samples;
     for (int i = 0; i < LegendreSeries::order; ++i) {
-      const auto [v, f] = at(from + (1 + LegendreSeries::points()[i]) / 2 * way);
-      if (!(v * sign > 0)) {
+      const auto [here, f] = at(from + (1 + LegendreSeries::points()[i]) / 2 * way);
+      if (!(here * sign > 0)) {
         throw std::domain_error("FactorReduction: V = 0 between the start and the point, where H is infinite");
       }
-      samples[i] = (f[0] * way[1] - f[1] * way[0]) / v / 2;
+      samples[i] = (f[0] * way[1] - f[1] * way[0]) / here / 2;
     }
     constexpr double accurate = 1e-14;
     if (depth == 0 || LegendreSeries::tail(samples) <= accurate * samples.abs().maxCoeff()) {
@@ -98,12 +117,12 @@ void FactorReduction::Solved::look_for_factor() {
   for (int i = 0; i <= halvings && !samples; ++i, box.radii /= 2) samples = sample(fitted, box);
   constexpr double large = 1e4;
   const int first = fitted.basis.values ? factor_forms : 0, end = fitted.basis.values ? first + 1 : factor_forms;
-  for (int i = first; samples && i < end && !factor; ++i) {
+  for (int i = first; samples && i < end && !v; ++i) {
     const auto fit = fit_factor(static_cast<FactorForm>(i), *samples);
     if (!fit) continue;
     tried.push_back(fit->tried);
     tried.back().cleared = cleared;
-    if (fit->small && fit->tried.gap >= large && holds_widely(fitted, *fit)) factor = fit->factor;
+    if (fit->small && fit->tried.gap >= large && holds_widely(fitted, *fit)) v = fit->factor;
   }
 }
 
@@ -114,78 +133,48 @@ FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
   }
   // V may vanish at an equilibrium.
   const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
-  auto solved = std::make_shared<Solved>(Solved{field, field, value->isZero(0) ? beside : start});
+  auto solved = std::make_shared<Solved>(field, value->isZero(0) ? beside : start);
   solved->look_for_factor();
-  if (!solved->factor && field.denominator) {
+  if (!solved->v && field.denominator) {
     solved->fitted = with_cleared_denominator(field);
     solved->cleared = true;
     solved->look_for_factor();
   }
+  if (solved->v) solved->form = name(solved->v->form());
   solved_ = std::move(solved);
 }
 
-std::string_view FactorReduction::form() const { return solved_->factor ? name(solved_->factor->form()) : ""; }
+std::string_view FactorReduction::form() const { return solved_->form; }
 const std::vector<TriedForm>& FactorReduction::tried() const { return solved_->tried; }
-double FactorReduction::factor(const Vector2d& x) const { return solved_->at(x).first; }
 
-double FactorReduction::first_integral(const Vector2d& x) const {
-  constexpr int halvings = 12;
-  return solved_->integral(solved_->start, x, solved_->at(solved_->start).first, halvings);
-}
-
-namespace {
-
-struct FactorSolution final : PlanarReduction::Solution {
-  FactorSolution(PlanarField of, FactorReduction by) : Solution(std::move(of), by.form()), reduction(std::move(by)) {}
-
-  double factor(const Vector2d& x) const override { return reduction.factor(x); }
-  std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override {
-    return reduction.factor_pieces(low, high);
-  }
-  double end_time_error(const Vector2d&) const override { return 1e-12; }
-  PlanarOrbit orbit(const Vector2d& start) const override { return reduction.orbit(start); }
-  PlanarOrbit part_of_orbit(const Vector2d& start) const override {
-    constexpr int parts = 150;
-    return reduction.orbit(start, parts);
-  }
-  std::optional<double> first_integral(const Vector2d& x) const override { return reduction.first_integral(x); }
-  std::shared_ptr<const Solution> reversed() const override {
-    return std::make_shared<const FactorSolution>(reversed_field(), reduction.reversed());
-  }
-
-  FactorReduction reduction;
-};
-
-}  // namespace
-
-FactorReduction FactorReduction::reversed() const {
+std::shared_ptr<const PlanarReduction::Solution> FactorReduction::Solved::reversed() const {
   const auto back = [](const SmoothField& forth) {
-    SmoothField field = forth;
-    field.value = [f = forth.value](const Vector2d& x) -> Vector2d { return -f(x); };
+    SmoothField turned = forth;
+    turned.value = [f = forth.value](const Vector2d& x) -> Vector2d { return -f(x); };
     if (forth.jacobian) {
-      field.jacobian = [slopes = forth.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
+      turned.jacobian = [slopes = forth.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
     }
-    return field;
+    return turned;
   };
-  FactorReduction other = *this;
-  auto solved = std::make_shared<Solved>(*solved_);
-  solved->field = back(solved->field);  // V is the same
-  solved->fitted = back(solved->fitted);
-  other.solved_ = std::move(solved);
+  auto other = std::make_shared<Solved>(back(smooth), start);
+  other->fitted = back(fitted);
+  other->cleared = cleared;
+  other->v = v;  // it is the same
+  other->form = form;
   return other;
 }
 
 PlanarReduction FactorReduction::reduction() const {
   solved_->found();
-  return PlanarReduction(std::make_shared<const FactorSolution>(solved_->field.value, *this));
+  return PlanarReduction(solved_);
 }
 
-std::vector<FactorPiece> FactorReduction::factor_pieces(const Vector2d& low, const Vector2d& high) const {
+std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& low, const Vector2d& high) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const FactorForm form = solved_->found().form();
-  if (form == FactorForm::constant || form == FactorForm::product) return {};  // without zeros
-  if (holds_everywhere(form)) {
-    return {{low, high, [solved = solved_](const Vector2d& x) {
+  const FactorForm shape = found().form();
+  if (shape == FactorForm::constant || shape == FactorForm::product) return {};  // without zeros
+  if (holds_everywhere(shape)) {
+    return {{low, high, [solved = shared_from_this()](const Vector2d& x) {
                try {
                  return solved->at(x).first;
                } catch (const std::domain_error&) {
@@ -199,11 +188,11 @@ std::vector<FactorPiece> FactorReduction::factor_pieces(const Vector2d& low, con
     constexpr double aside = 0.03;
     const Vector2d radii = (to - from) / 2;
     const Vector2d middle = from + radii + aside * Vector2d(radii[0], -radii[1] / 2);
-    const auto samples = sample(solved_->fitted, {middle, (1 + aside) * radii});
-    const auto fit = samples ? fit_factor(form, *samples) : std::nullopt;
+    const auto samples = sample(fitted, {middle, (1 + aside) * radii});
+    const auto fit = samples ? fit_factor(shape, *samples) : std::nullopt;
     if (fit && fit->small) {
       if (!fit->unique) return;
-      pieces.push_back({from, to, [v = fit->factor](const Vector2d& x) { return v(x, {})[0]; }});
+      pieces.push_back({from, to, [part = fit->factor](const Vector2d& x) { return part(x, {})[0]; }});
     } else if (halvings > 0) {
       for (int i = 0; i < 4; ++i) {
         const Vector2d part(i % 2, i / 2);
@@ -222,11 +211,15 @@ FactorFormula FactorReduction::formula() const {
   return recognised(solved_->fitted, solved_->start);
 }
 
-PlanarOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
-  if (!start.allFinite() || !value_of(solved_->field, start)) {
-    throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
+PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_parts) const {
+  if (!from.allFinite() || !value_of(smooth, from)) {
+    throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
-  return PlanarOrbit(follow(solved_->field, solved_->fitted, solved_->found(), start, most_parts));
+  return PlanarOrbit(follow(smooth, fitted, found(), from, most_parts));
+}
+
+PlanarOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
+  return solved_->followed(start, most_parts);
 }
 
 }  // namespace contensou::reduction

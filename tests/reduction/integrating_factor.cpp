@@ -162,12 +162,14 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
     const FactorReduction reduction = reduced(example.field, example.start);
     REQUIRE(reduction.form() == example.form);
     CHECK(reduction.tried().back().form == example.form);
+    const PlanarReduction plane = reduction.reduction();
+    CHECK(plane.form() == example.form);
     if (example.factor) {
-      const double unit = reduction.factor(example.start) / example.factor(example.start[0], example.start[1]);
+      const double unit = plane.factor(example.start) / example.factor(example.start[0], example.start[1]);
       for (const Vector2d& way : {Vector2d(0.2, 0.1), Vector2d(-0.1, 0.2), Vector2d(-0.2, -0.2)}) {
         const Vector2d x = example.start + way.cwiseProduct(example.start);
         const double wanted = unit * example.factor(x[0], x[1]);
-        factors.add(wanted, reduction.factor(x), std::abs(wanted) + std::abs(unit), example.text);
+        factors.add(wanted, plane.factor(x), std::abs(wanted) + std::abs(unit), example.text);
       }
     }
     const PlanarOrbit orbit = reduction.orbit(example.start, parts);
@@ -178,9 +180,9 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
       if (time > 0.02) continue;
       // H, in lengths across the orbit, beside H of a point there.
       const Vector2d f = smooth(example.field).value(got);
-      levels.add(0, reduction.first_integral(got) * reduction.factor(got) / f.norm(), got.norm(), example.text);
+      levels.add(0, plane.first_integral(got) * plane.factor(got) / f.norm(), got.norm(), example.text);
       const Vector2d beside = got + 1e-3 * Vector2d(-f[1], f[0]) / f.norm();
-      CHECK(std::abs(reduction.first_integral(beside) * reduction.factor(got) / f.norm() - 1e-3) < 1e-5);
+      CHECK(std::abs(plane.first_integral(beside) * plane.factor(got) / f.norm() - 1e-3) < 1e-5);
     }
     // An orbit from a later point is the rest of this one; V is then fitted in other boxes.
     const Vector2d later = reduction.orbit(orbit.at(0.7), parts).at(0.8);
@@ -255,7 +257,7 @@ TEST_CASE("No V is found for systems that have none", "[factor]") {
     const FactorReduction reduction = reduced(field, start);
     CHECK(reduction.form() == "");
     CHECK_THROWS_WITH(reduction.orbit(start), Contains("no inverse integrating factor was found"));
-    CHECK_THROWS_AS(reduction.factor(start), std::domain_error);
+    CHECK_THROWS_AS(reduction.reduction(), std::domain_error);
   };
   none([](Dual u, Dual v) { return std::array{v, v * (1 - u * u) - u}; }, {1.3, 0.7});
   none([](Dual u, Dual v) { return std::array{v, -sin(u) - v / 5}; }, {1.3, 0.7});
@@ -335,6 +337,10 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
   open(well, {std::sqrt(2), 0}, "saddle");
   const PlanarOrbit resting = orbit(lotka, {1.3, 0.7});
   CHECK_THROWS_WITH(resting.at(-1), Contains("times >= 0"));
+  // From an equilibrium, beside which V is found.
+  CHECK(reduced(lotka, {1, 1}).form() == "polynomial");
+  CHECK(orbit(lotka, {1, 1}).at(5) == Vector2d(1, 1));
+  CHECK(orbit(lotka, {1, 1}).end() == PlanarEnd::equilibrium);
 }
 
 TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README (R65)", "[factor]") {
@@ -352,12 +358,12 @@ TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README
     for (const double angle : {0.05, 0.3, 0.8, 1.4, 1.9, 2.7}) {
       const Vector2d n(std::cos(angle), std::sin(angle)), g = field.value(std::sqrt(2) * n) / std::sqrt(2);
       const double t = n[0] * g[1] - n[1] * g[0], p = 0.4 * angle;
-      const double here = reduction.factor(plane.point(angle, p)) / (std::exp(p) * t);
+      const double here = reduction.reduction().factor(plane.point(angle, p)) / (std::exp(p) * t);
       if (ratio == 0) ratio = here;
       CHECK(std::abs(here / ratio - 1) < by_differences);
     }
     for (const PlanarRay& ray : plane.rays()) {
-      CHECK(std::abs(reduction.factor(plane.point(ray.q, 0))) < by_differences * std::abs(ratio));
+      CHECK(std::abs(reduction.reduction().factor(plane.point(ray.q, 0))) < by_differences * std::abs(ratio));
     }
     // The same motion by the flow.
     const Orbit flow = Flow(system).orbit({start[0], start[1]});
@@ -381,9 +387,9 @@ TEST_CASE("Differences take the place of a Jacobian", "[factor]") {
 
 TEST_CASE("Values outside the box of V, and starts without values, are refused", "[factor]") {
   const FactorReduction reduction = reduced(lotka, {1.3, 0.7});
-  CHECK_THROWS_WITH(reduction.factor({3, 3}), Contains("outside the box"));
-  CHECK_THROWS_WITH(reduction.first_integral({3, 3}), Contains("outside the box"));
+  CHECK_THROWS_WITH(reduction.reduction().factor({3, 3}), Contains("outside the box"));
+  CHECK_THROWS_WITH(reduction.reduction().first_integral({3, 3}), Contains("outside the box"));
   CHECK_THROWS_WITH(reduction.orbit({NAN, 1}), Contains("no value at"));
   CHECK_THROWS_WITH(reduced(kepler, {0, 1}), Contains("no value at"));
-  CHECK_THROWS_WITH(reduced(hopf, {0.9, 0.3}).first_integral({1.1, 0.3}), Contains("V = 0 between"));
+  CHECK_THROWS_WITH(reduced(hopf, {0.9, 0.3}).reduction().first_integral({1.1, 0.3}), Contains("V = 0 between"));
 }

@@ -50,7 +50,7 @@ struct FactorFormula {
 /// x' = f(x) solved by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68).
 ///
 ///     const FactorReduction reduction({field, jacobian}, start);
-///     if (reduction.found()) reduction.orbit(start).at(0.5);
+///     if (reduction.found()) reduction.reduction().orbit(start).at(0.5);
 ///
 /// A value; copies share what is solved.
 ///
@@ -73,33 +73,20 @@ class FactorReduction {
   /// Returns the forms in the order in which they were tried.
   const std::vector<TriedForm>& tried() const;
 
-  /// Returns V, which is 1 at the start unless the start lies on V = 0.
-  /// @throws std::domain_error  if none was found; outside the box, unless V is affine
-  double factor(const Eigen::Vector2d& x) const;
-
-  /// Returns V in the parts of the rectangle [low, high] in which V may vanish: see PlanarReduction::factor_pieces.
-  /// @throws std::domain_error  if none was found
-  std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
-
   /// Returns V, up to a constant factor, and H, up to constants, if V has rational coefficients: their residual (R66)
   /// is below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
   FactorFormula formula() const;
 
-  /// Returns H, dH = (F dv - G du)/V, which is constant along orbits and 0 at the start.
-  /// @throws std::domain_error  as factor; and if V vanishes between the start and x
-  double first_integral(const Eigen::Vector2d& x) const;
-
-  /// Returns the system whose motions go the other way, with the same V.
-  FactorReduction reversed() const;
-
-  /// Returns the system as one that is solved.
+  /// Returns the system as one that is solved. V is 1 at the start unless the start lies on V = 0. V and H have values
+  /// in the box of the start, H only where V does not vanish in between; V that is affine has values everywhere.
   /// @throws std::domain_error  if no factor was found
   PlanarReduction reduction() const;
 
   /// Returns the orbit of another start, or of this one. V is fitted anew from box to box.
   /// @param most_parts  number of parts after which the end is left open
   /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
-  PlanarOrbit orbit(const Eigen::Vector2d& start, int most_parts = 32000) const;
+  PlanarOrbit orbit(const Eigen::Vector2d& start, int most_parts = usual_parts) const;
+  static constexpr int usual_parts = 32000;
 
  private:
   struct Solved;
