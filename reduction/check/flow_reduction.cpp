@@ -99,7 +99,7 @@ std::vector<PlanarRay> FlowSolution::rays_of_quadrant() const {
     const double radial = section(n)->radial;
     const bool degenerate = point.kind == planar_kind("degenerate");
     quadrant.push_back({angle_of(n), attracts, true, radial, degenerate ? 0 : radial * (point.angular / point.radial),
-                        degenerate ? order_of_contact(system, point.k) : 1});
+                        degenerate ? order_of_contact(system, point.k) : 1, point.k});
   }
   return quadrant;
 }

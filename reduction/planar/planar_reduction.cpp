@@ -219,7 +219,9 @@ StripPlace ScalingSolution::place(const Vector2d& n) const {
     if (ray != rays.end()) return {.radial = ray->radial};
   }
   const auto rates = section(n);
-  if (!directions.star || !rates) throw std::domain_error("PlanarReduction: the field has no value at this point");
+  if (!directions.star || !rates) {
+    throw std::domain_error("PlanarReduction: no single motion leaves this point, or the field has no value there");
+  }
   return {.radial = rates->radial};
 }
 

@@ -112,6 +112,8 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       CHECK(std::abs(wrapped(got.q - wanted.q)) < 1e-13);
       CHECK(got.attracts == wanted.attracts);
       CHECK(got.to_centre == wanted.to_centre);
+      CHECK(std::isnan(wanted.k));
+      CHECK(std::atan(mu * got.k) == Approx(std::abs(std::asin(std::sin(got.q)))).margin(1e-14));
       // sigma depends on the size of the section.
       radial.add(wanted.radial * around.norm(), got.radial, what);
       if (std::isfinite(wanted.angular)) {

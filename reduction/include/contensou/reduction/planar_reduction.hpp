@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -48,6 +49,7 @@ struct PlanarRay {
   double radial;   ///< R: dp = R d sigma, d sigma = exp(-c p) dt; an eigenvalue of the field blown up at the centre
   double angular;  ///< dT/dq, the other eigenvalue; on the counter-clockwise side unless only the other side is a ray
   double order;    ///< a of |T| ~ |q - q_ray|^a: 1 for a simple ray, 2 for a double one
+  double k = std::numeric_limits<double>::quiet_NaN();  ///< |v|/(mu |u|), if `reduced` made the system
 };
 
 /// The directions between two rays or borders, which no orbit crosses.
@@ -204,7 +206,7 @@ class PlanarOrbit {
   /// Returns the reason why the end is not decided; empty if it is.
   const std::string& undecided() const;
 
-  /// Returns the state at a time after the start; from end_time on the centre, if the motion ends there.
+  /// Returns the state at a time after the start; from end_time on the point of rest, if the motion ends in one.
   /// @throws std::domain_error  unless time >= 0; for a time at which it is at infinity or beyond a border
   Eigen::Vector2d at(double time) const;
 
