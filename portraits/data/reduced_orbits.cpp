@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contensou/reduction/flow.hpp"
+
 namespace contensou::portraits {
 
 using Eigen::Vector2d;
@@ -19,19 +21,18 @@ namespace {
       "another start is needed");
 }
 
-}  // namespace
-
-ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start) {
-  const double ln_u = std::log(std::abs(start.u)), ln_v = std::log(start.v), ln_mu = std::log(flow.system().mu());
+/// Orbits of (2.6). ln v is finite where v, and its angle, are too small for a double.
+ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start) {
+  const double ln_u = std::log(std::abs(start[0])), ln_v = std::log(std::abs(start[1]));
+  const double ln_mu = std::log(flow.system().mu()), ln_k = ln_v - ln_mu - ln_u;
   if (!std::isfinite(ln_u) || !std::isfinite(ln_v)) refuse_ray();
-  const double ln_k = ln_v - ln_mu - ln_u, sign = start.u < 0 ? -1 : 1;
   ReducedOrbits from{.start = {ln_k, ln_v}, .orbit = std::vector<Polyline>(1)};
   for (const auto& ray : flow.terminal().rays) {
     from.rays.push_back(std::log(ray.k));
     if (std::abs(from.rays.back() - ln_k) < 1e-12) refuse_ray();
   }
   const reduction::SimilarityCurve& curve = *flow.solution().through(ln_k);
-  const double integral = flow.log_first_integral(start.u, ln_v), xi = curve.chart().coordinate(ln_k);
+  const double integral = flow.log_first_integral(start[0], ln_v), xi = curve.chart().coordinate(ln_k);
   const auto at = [&](double there) {
     const double x = curve.chart().log_ratio(there);
     return Point{x, integral + curve.ln_w(there) + ln_mu + x};
@@ -44,11 +45,17 @@ ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start
     from.orbit[0].push_back(at(there));
     there -= 0.05 + 0.02 * std::max(0.0, std::abs(there) - 8);
   }
-  from.in_plane = [=](Point point) { return Point{sign * std::exp(point.y - point.x - ln_mu), std::exp(point.y)}; };
+  from.in_plane = [=](Point point) {
+    return Point{std::copysign(std::exp(point.y - point.x - ln_mu), start[0]),
+                 std::copysign(std::exp(point.y), start[1])};
+  };
   return from;
 }
 
+}  // namespace
+
 ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vector2d& start) {
+  if (plane.flow()) return orbits_of_flow(*plane.flow(), start);
   if (plane.kind() == "bordered") throw std::domain_error("the field has borders or jumps: its sectors are not drawn");
   if (start == plane.centre() || plane.star()) refuse_ray();
   const auto [q, p, slope] = plane.canonical(start);

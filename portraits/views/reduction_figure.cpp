@@ -8,14 +8,18 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/reduced_orbits.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "views/palette.hpp"
-#include "views/reduced_panels.hpp"
 
 namespace contensou::portraits {
 
-using std::numbers::ln2;
+using std::numbers::ln2, std::numbers::pi;
 
 namespace {
+
+constexpr double strip_below = 4.5, strip_above = 3.2;  // range of p below and above the start, in the strip
+constexpr double plane_widths = 2.2;                    // size of the window of the plane divided by that of the start
 
 Colour colour_of_copy(double shift) { return viridis(0.425 * (1 + shift / copy_shifts.back())); }
 
@@ -69,8 +73,7 @@ Panel collapse(const ReducedOrbits& from) {
   return panel;
 }
 
-}  // namespace
-
+/// Fills both panels, whose axes are given: rays, copies of the orbit of the start, the action of the symmetry.
 Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& title, const AskedSize& size) {
   const Palette colours = palette(false);
   const auto mapped = [&](Polyline line) {
@@ -135,23 +138,36 @@ Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& tit
   return figure;
 }
 
-Figure reduction_figure(const reduction::Flow& flow, reduction::State start, const AskedSize& size) {
-  const ReducedOrbits from = reduced_orbits(flow, start);
-  const auto [ln_k, ln_v] = from.start;
-  const double width = plane_widths * start.u;
-  Panel plane, strip;
-  plane.x = {math("u"), std::min(width, 0.0), std::max(width, 0.0), false, {}};
-  plane.y = {math("v"), 0, plane_widths * start.v, false, {}};
-  strip.x = {
-      "ln " + math("k") + ",  " + math("k = v/(μ|u|)"), std::min(ln_k, 0.0) - 4, std::max(ln_k, 0.0) + 3, false, {}};
-  strip.y = {math("p") + " = ln " + math("v"), ln_v - strip_below, ln_v + strip_above, false, {}};
-  Figure figure = draw(from, plane, strip,
-                       title_of("The reduction of (2.6)", fmt::format("{:.3g}", flow.system().mu()),
-                                shortened(flow.system().law().name())),
-                       size);
-  figure.panels.push_back(collapse(from));
-  figure.size = fitted({270, 105}, 3, size);
-  return figure;
+}  // namespace
+
+Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const std::string& name,
+                        const AskedSize& size) {
+  const ReducedOrbits from = reduced_orbits(plane, start);
+  const auto [x, p] = from.start;
+  Panel in_plane, strip;
+  strip.y = {math("p"), p - strip_below, p + strip_above, false, {}};
+  if (const reduction::Flow* flow = plane.flow()) {
+    const Eigen::Vector2d far = plane_widths * start;
+    in_plane.x = {math("u"), std::min(far[0], 0.0), std::max(far[0], 0.0), false, {}};
+    in_plane.y = {math("v"), std::min(far[1], 0.0), std::max(far[1], 0.0), false, {}};
+    strip.x = {"ln " + math("k") + ",  " + math("k = v/(μ|u|)"), std::min(x, 0.0) - 4, std::max(x, 0.0) + 3, false, {}};
+    strip.y.name = math("p") + " = ln " + math("v");
+    Figure figure = draw(from, in_plane, strip,
+                         title_of("The reduction of (2.6)", fmt::format("{:.3g}", flow->system().mu()),
+                                  shortened(flow->system().law().name())),
+                         size);
+    figure.panels.push_back(collapse(from));
+    figure.size = fitted({270, 105}, 3, size);
+    return figure;
+  }
+  const Eigen::Vector2d centre = plane.centre();
+  const double half = plane_widths * (start - centre).lpNorm<Eigen::Infinity>();
+  const double first = from.rays.empty() ? 0 : from.rays[0];
+  in_plane.x = {math("u"), centre[0] - half, centre[0] + half, false, {}};
+  in_plane.y = {math("v"), centre[1] - half, centre[1] + half, false, {}};
+  in_plane.to_scale = true;
+  strip.x = {math("q") + ", the angle", first, first + 2 * pi, false, {}};
+  return draw(from, in_plane, strip, "The reduction of  " + shortened(name), size);
 }
 
 }  // namespace contensou::portraits

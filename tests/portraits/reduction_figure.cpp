@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
@@ -53,6 +54,10 @@ Figure figure_of(const Eigen::Matrix2d& matrix, const Vector2d& start) {
   return reduction_figure(reduction::PlanarReduction(field, scaling, start), start, "linear");
 }
 
+Figure figure_of(const reduction::Flow& flow, const reduction::State& start) {
+  return reduction_figure(reduction::reduced(flow), {start.u, start.v}, "(2.6)");
+}
+
 Eigen::Matrix2d matrix(double a, double b, double c, double d) { return (Eigen::Matrix2d() << a, b, c, d).finished(); }
 
 }  // namespace
@@ -63,7 +68,7 @@ TEST_CASE("a copy in plane and strip is the motion from the start so many times 
       const double mu = law == std::string("uniform") ? 1 : 0.3;
       const reduction::Inertia body = mu == 1 ? reduction::Inertia{.chi = 1, .gamma = 2} : reduction::Inertia{};
       const reduction::Flow flow({*reduction::find_law(law), mu, body});
-      const Figure figure = reduction_figure(flow, start);
+      const Figure figure = figure_of(flow, start);
       INFO(law << " from " << start.u << ", " << start.v);
       check_shifts(figure);
       const auto in_plane = by_size(figure.panels[0]), in_strip = by_size(figure.panels[1]);
@@ -93,7 +98,7 @@ TEST_CASE("a copy in plane and strip is the motion from the start so many times 
 TEST_CASE("copies over their starts are one line, other starts are not", "[route]") {
   for (const reduction::State start : {reduction::State{1, 1}, {-0.2, 0.3}}) {
     const reduction::Flow flow({reduction::HertzLaw{}, 1});
-    const Figure figure = reduction_figure(flow, start);
+    const Figure figure = figure_of(flow, start);
     REQUIRE(figure.panels.size() == 3);
     const Panel& panel = figure.panels[2];
     const double integral = flow.log_first_integral(start.u, std::log(start.v));
@@ -125,7 +130,7 @@ TEST_CASE("copies over their starts are one line, other starts are not", "[route
 TEST_CASE("an orbit comes to the stop for any mu and any start", "[limit]") {
   for (const double mu : {1.0, 0.01, 1e-4}) {
     for (const reduction::State start : {reduction::State{1, 1e-20}, {1, 1}, {1e-20, 1}}) {
-      const Figure figure = reduction_figure(reduction::Flow({reduction::HertzLaw{}, mu}), start);
+      const Figure figure = figure_of(reduction::Flow({reduction::HertzLaw{}, mu}), start);
       const Polyline& line = by_size(figure.panels[0])[3]->lines[0];
       INFO("mu = " << mu << " from " << start.u << ", " << start.v);
       CHECK(line.size() < 4400);
@@ -184,10 +189,10 @@ TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
 TEST_CASE("what the symmetry moves along itself has no strip", "[limit]") {
   const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
   for (const reduction::State start : {reduction::State{0, 1}, {1, 0}, {0, 0}}) {
-    CHECK_THROWS_AS(reduction_figure(flow, start), std::domain_error);
+    CHECK_THROWS_AS(figure_of(flow, start), std::domain_error);
   }
   const reduction::Flow puck({*reduction::find_law("uniform"), 1, {.chi = 1, .gamma = 2}});
-  CHECK_THROWS_AS(reduction_figure(puck, {1, puck.terminal().rays[0].k}), std::domain_error);
+  CHECK_THROWS_AS(figure_of(puck, reduction::State{1, puck.terminal().rays[0].k}), std::domain_error);
   CHECK_THROWS_AS(figure_of(matrix(-1, 0, 0, -1), {1, 1}), std::domain_error);  // a star
   CHECK_THROWS_AS(figure_of(matrix(-1, 0, 0, -2), {0, 1}), std::domain_error);
 }

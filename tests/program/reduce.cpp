@@ -277,6 +277,16 @@ TEST_CASE("reduce solves systems without a scaling by an inverse integrating fac
   CHECK_THAT(picture.err, Contains("this system has none"));
 }
 
+TEST_CASE("reduce solves from an equilibrium, and with a drive from v = 0", "[cli]") {
+  const Json rest = json_of_system("u' = u*(1-v); v' = v*(u-1)");
+  CHECK(rest["form"] == "polynomial");
+  CHECK(rest["end"] == "equilibrium");
+  const Json creeping = json_of("reduce --mu 0.3 --u0 1 --v0 0 --drive 0.2 --format json");
+  CHECK(creeping["tau_stop"] == json_of("stop --mu 0.3 --u0 1 --v0 0 --drive 0.2 --format json")["tau_stop"]);
+  CHECK_FALSE(creeping.contains("first_integral"));
+  CHECK(creeping["routes"].back().contains("failure"));  // two motions leave v = 0
+}
+
 TEST_CASE("reduce solves quotients with their denominator cleared", "[cli]") {
   const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7"};
   const Json plain = json_of_system("y' = x/y + 1/(x*y)", start);

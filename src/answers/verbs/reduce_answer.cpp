@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,13 +29,22 @@ namespace contensou::answers {
 
 using Eigen::Vector2d;
 using reduction::Generator;
+using reduction::PlanarCanonical;
 using reduction::PlanarEnd;
 using reduction::PlanarOrbit;
+using reduction::PlanarRay;
 using reduction::PlanarReduction;
 using reduction::PlanarSymmetries;
 using std::numbers::pi;
 
 namespace {
+
+/// Adds a part to the text of an answer.
+void add_text(Answer& answer, std::function<std::string(const Digits&)> text) {
+  answer.text = [before = answer.text, text = std::move(text)](const Digits& digits) {
+    return (before ? before(digits) : "") + text(digits);
+  };
+}
 
 Json json_of(const Generator& x) {
   Json json{{"time", x.time},
@@ -77,15 +88,6 @@ std::string text_of(const Generator& x, std::string_view time, const Digits& dig
   return text;
 }
 
-Json symmetry_members(const PlanarSymmetries& found) {
-  Json generators = Json::array();
-  for (const Generator& x : found.generators) generators.push_back(json_of(x));
-  return {{"generators", generators},
-          {"singular_values", found.singular_values},
-          {"level", found.level},
-          {"gap", found.gap}};
-}
-
 std::string text_of(const PlanarSymmetries& found, std::string_view time, const Digits& digits) {
   std::string text;
   for (const Generator& x : found.generators) {
@@ -108,13 +110,24 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
                                  : "the errors of differences exceed all of them\n");
 }
 
-/// A row of CSV: the members that are one number or text, and the first generator.
-Json row_of(const Json& members, const PlanarSymmetries& found) {
-  Json row;
-  for (const auto& [name, value] : members.items()) {
+void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_view time) {
+  Json generators = Json::array();
+  for (const Generator& x : found.generators) generators.push_back(json_of(x));
+  answer.members.update({{"generators", generators},
+                         {"singular_values", found.singular_values},
+                         {"level", found.level},
+                         {"gap", found.gap}});
+  add_text(answer, [=](const Digits& digits) { return text_of(found, time, digits); });
+}
+
+/// Adds the row of CSV: the members that are one number or text, and the first generator. Text does without the lists
+/// that `numbers` makes.
+ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved) {
+  Json& row = answer.rows.emplace_back();
+  for (const auto& [name, value] : answer.members.items()) {
     if (value.is_primitive() && !value.is_null()) row[name] = value;
   }
-  if (members.contains("canonical")) row.update(members["canonical"]);
+  if (answer.members.contains("canonical")) row.update(answer.members["canonical"]);
   if (!found.generators.empty()) {
     const Generator& x = found.generators.front();
     row.update({{"time", x.time},
@@ -125,19 +138,31 @@ Json row_of(const Json& members, const PlanarSymmetries& found) {
                 {"b1", x.shift[0]},
                 {"b2", x.shift[1]}});
   }
-  return row;
+  if (const auto lists = std::exchange(answer.numbers, {})) {
+    answer.numbers = [all = answer, lists]() mutable {
+      all.members.update(lists().members);
+      return all;
+    };
+  }
+  return {std::move(answer), solved || !found.generators.empty()};
 }
 
-/// The orbit of the start in the strip, and the starts of its copies: each is the same curve with another p.
-Json strip_members(const portraits::ReducedOrbits& from, const char* x,
-                   const std::function<double(const Vector2d&)>& time_left) {
+/// Returns the orbit of the start in the strip, and the starts of its copies: each is the same curve with another p.
+Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
   constexpr std::size_t most = 100;
+  const portraits::ReducedOrbits from = portraits::reduced_orbits(plane, start);
+  const auto time_left = [&](const Vector2d& x) {
+    if (plane.flow()) return plane.flow()->stop_time({x[0], x[1]}).tau;
+    const auto there = plane.orbit(x);
+    return or_infinity(there.end() == PlanarEnd::centre ? there.end_time() : infinity);
+  };
   const auto place = [&](portraits::Point at) {
     const auto [u, v] = from.in_plane(at);
     return Vector2d(u, v);
   };
   Json strip = Json::array(), copies = Json::array();
   for (const portraits::Polyline& line : from.orbit) {
+    const char* const x = plane.flow() ? "ln_k" : "q";
     Json columns{{x, Json::array()}, {"p", {}}, {"u", {}}, {"v", {}}, {"tau_left", {}}};
     const std::size_t step = (line.size() + most - 1) / most;
     for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
@@ -147,15 +172,14 @@ Json strip_members(const portraits::ReducedOrbits& from, const char* x,
       columns["p"].push_back(line[i].y);
       columns["u"].push_back(at[0]);
       columns["v"].push_back(at[1]);
-      columns["tau_left"].push_back(or_infinity(time_left(at)));
+      columns["tau_left"].push_back(time_left(at));
     }
     strip.push_back(std::move(columns));
   }
   for (const double shift : portraits::copy_shifts) {
-    const Vector2d start = place({from.start.x, from.start.y + shift});
-    if (!start.allFinite()) continue;
-    copies.push_back(
-        {{"factor", std::exp(shift)}, {"u0", start[0]}, {"v0", start[1]}, {"tau_stop", or_infinity(time_left(start))}});
+    const Vector2d copy = place({from.start.x, from.start.y + shift});
+    if (!copy.allFinite()) continue;
+    copies.push_back({{"factor", std::exp(shift)}, {"u0", copy[0]}, {"v0", copy[1]}, {"tau_stop", time_left(copy)}});
   }
   return {{"strip", strip}, {"copies", copies}};
 }
@@ -204,27 +228,37 @@ struct Equilibria {
   }
 };
 
-/// Adds the members of a system that its scaling solves.
-/// @return their text
-std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const PlanarReduction& plane,
-                                                            const PlanarOrbit& orbit, const Vector2d& start,
-                                                            bool at_centre) {
-  const auto canonical = plane.canonical(start);
+/// Returns canonical coordinates: for (2.6) v/u and ln v, as in the paper, and on an axis their limits.
+PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x) {
+  const reduction::Flow* flow = plane.flow();
+  if (flow == nullptr) return plane.canonical(x);
+  const double q = x[0] == 0 ? infinity : x[1] / x[0] + 0.0;  // no -0
+  const bool limit = q == 0 || std::isinf(q);
+  return {q, std::log(x[1]), limit ? infinity : reduction::separated_slope(flow->system(), q)};
+}
+
+/// Adds a solution by a scaling.
+void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& start, bool at_centre) {
+  const bool is_paper = plane.flow() != nullptr;
+  const auto canonical = shown_canonical(plane, start);
   std::optional<double> integral;
   try {
     if (!at_centre) integral = plane.first_integral(start);
   } catch (const std::domain_error&) {
     // on a ray it has no value
   }
+  std::vector<PlanarRay> shown = plane.rays();
+  if (is_paper) std::erase_if(shown, [](const PlanarRay& ray) { return ray.q < 0 || ray.q > pi / 2; });
   Json rays = Json::array();
-  for (const auto& ray : plane.rays()) {
-    rays.push_back({{"angle", ray.q},
-                    {"attracts", ray.attracts},
-                    {"to_centre", ray.to_centre},
-                    {"radial", ray.radial},
-                    {"angular", or_infinity(ray.angular)},
-                    {"order", ray.order}});
+  for (const PlanarRay& ray : shown) {
+    rays.push_back({{is_paper ? "k" : "angle", is_paper ? ray.k : ray.q}, {"attracts", ray.attracts}});
+    if (is_paper) continue;
+    rays.back().update({{"to_centre", ray.to_centre},
+                        {"radial", ray.radial},
+                        {"angular", or_infinity(ray.angular)},
+                        {"order", ray.order}});
   }
+  Json& members = answer.members;
   if (!at_centre) {
     members["canonical"] = {{"q", canonical.q}, {"p", canonical.p}, {"dp_dq", or_infinity(canonical.dp_dq)}};
   }
@@ -232,20 +266,18 @@ std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const
   const std::string_view kind = plane.kind();
   members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
   if (!plane.undecided().empty()) members["undecided"] = plane.undecided();
-  if (integral && !kind.empty() && kind != "bordered") {
-    members.update(strip_members(portraits::reduced_orbits(plane, start), "q", [&](const Vector2d& x) {
-      const auto there = plane.orbit(x);
-      return there.end() == PlanarEnd::centre ? there.end_time() : infinity;
-    }));
-  }
   if (plane.turn()) members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
-  if (at_centre) members.update({{"end", name(orbit.end())}, {"tau_stop", 0.0}});
-  return [=](const Digits& digits) {
+  if (at_centre) members.update({{"end", name(PlanarEnd::centre)}, {"tau_stop", 0.0}});
+  if (integral && (is_paper || (!kind.empty() && kind != "bordered"))) {
+    answer.numbers = [=] { return Answer{.members = strip_members(plane, start)}; };
+  }
+  add_text(answer, [=](const Digits& digits) {
     std::string lines =
         fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]),
                     plane.kind().empty() ? "not decided, as " + plane.undecided() : std::string(plane.kind()));
-    for (const auto& ray : plane.rays()) {
-      lines += fmt::format("ray         at the angle {}{}: {}, the motion on it goes {}\n", digits(ray.q),
+    for (const PlanarRay& ray : shown) {
+      lines += fmt::format("ray         {}{}{}: {}, the motion on it goes {}\n", is_paper ? "k = " : "at the angle ",
+                           digits(is_paper ? ray.k : ray.q),
                            ray.order == 2   ? ", double"
                            : ray.order == 3 ? ", triple"
                                             : "",
@@ -259,28 +291,31 @@ std::function<std::string(const Digits&)> solved_by_scaling(Json& members, const
                            digits(plane.turn()->factor), digits(plane.turn()->sigma));
     }
     if (at_centre) return lines + "tau_stop    0: the start is the centre\n";
-    lines += fmt::format("canonical   q = {} (angle), p = {}, dp/dq = {}\n", digits(canonical.q), digits(canonical.p),
-                         digits(canonical.dp_dq));
-    return lines +
-           (integral
-                ? fmt::format("integral    p - L(q) = {}\n", digits(*integral))
-                : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n"));
-  };
+    lines += fmt::format("canonical   q = {}{}{}, p = {}{}, dp/dq = {}\n", is_paper ? "v/u = " : "",
+                         digits(canonical.q), is_paper ? "" : " (angle)", is_paper ? "ln v = " : "",
+                         digits(canonical.p), digits(canonical.dp_dq));
+    if (!integral) {
+      return lines +
+             "integral    none: the start is on the ray, which the symmetry moves along itself, or on a border\n";
+    }
+    return lines + fmt::format("integral    {} = {}\n", is_paper ? "ln |u| - ln w(k)" : "p - L(q)", digits(*integral));
+  });
 }
 
-/// Adds the members of a solution by V alone and returns its text. For a scaling, solved_by_scaling does so.
-std::function<std::string(const Digits&)> solved_by_factor(Json& members, const SolvedPlane& solved) {
+/// Adds a solution by V alone.
+void add_factor(Answer& answer, const SolvedPlane& solved) {
   const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
   const std::string_view form = solved.plane->form();
   const std::string v = fmt::format("{}{}", form == "basis" ? "a sum of the basis" : form, divided);
   const auto [factor, integral] = solved.formula();
+  Json& members = answer.members;
   members["factor"] = factor.empty() ? v + ", 1 at the start" : fmt::format("{}{}", factor, divided);
   if (!integral.empty()) members["integral"] = integral;
   members["kind"] = nullptr;
   std::string lines = fmt::format("solution    by quadrature along H = constant, dH = (u' dv - v' du)/V; V is {}\n", v);
   if (!factor.empty()) lines += fmt::format("            V = {}{}, up to a constant factor\n", factor, divided);
   if (!integral.empty()) lines += fmt::format("            H = {}\n", integral);
-  return [=](const Digits&) { return lines; };
+  add_text(answer, [=](const Digits&) { return lines; });
 }
 
 /// Difference between the states by the solution and by steps at a time: at 95 % of a finite end time, else at 5. It is
@@ -300,10 +335,10 @@ std::optional<BySteps> by_steps(const PlanarReduction& plane, const PlanarOrbit&
   }
 }
 
-/// Adds the members of the end of the orbit.
-/// @return their text
-std::function<std::string(const Digits&)> end_of(Json& members, const PlanarReduction& plane, const PlanarOrbit& orbit,
-                                                 const Vector2d& start) {
+/// Adds the end of the orbit.
+void add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start) {
+  Json& members = answer.members;
+  const PlanarOrbit orbit = plane.orbit(start);
   const PlanarEnd end = orbit.end();
   const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
@@ -341,11 +376,11 @@ std::function<std::string(const Digits&)> end_of(Json& members, const PlanarRedu
     };
     return fmt::format("tau_stop    {}{}\n", digits(tau_stop), words());
   };
-  return [=](const Digits& digits) {
+  add_text(answer, [=](const Digits& digits) {
     return end_text(digits) + (stepped ? fmt::format("by steps    at t = {} the state differs by {:.0e}\n",
                                                      digits(stepped->time), stepped->difference)
                                        : std::string("by steps    not compared: one of the two gives no state\n"));
-  };
+  });
 }
 
 }  // namespace
@@ -374,8 +409,11 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
                                start[0], start[1]));
   }
   const PlanarSymmetries found = reduction::find_symmetries(field.value, start);
-  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}};
-  answer.members.update(symmetry_members(found));
+  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}, .text = [=](const Digits& digits) {
+                  return fmt::format("system      {}\nstart       u = {}, v = {}\n", text, digits(start[0]),
+                                     digits(start[1]));
+                }};
+  add_symmetries(answer, found, "t");
   const SolvedPlane solved = solve_planar(field, found, start);
   answer.members["form"] = solved.plane ? Json(solved.plane->form()) : Json();
   if (!solved.tried.empty()) {
@@ -389,30 +427,21 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
   Equilibria equilibria{reduction::find_equilibria(field, start), reduction::find_reversors(field, start)};
   if (solved.plane) prove_centers(equilibria.zeros, *solved.plane);
   answer.members.update(equilibria.members());
-  std::function<std::string(const Digits&)> solution;
-  if (solved.plane) {
-    const PlanarReduction& plane = *solved.plane;
-    const bool at_centre = plane.scaling() != nullptr && is_centre(*plane.scaling(), start);
-    const PlanarOrbit orbit = plane.orbit(at_centre ? plane.centre() : start);
-    solution = plane.scaling() ? solved_by_scaling(answer.members, plane, orbit, start, at_centre)
-                               : solved_by_factor(answer.members, solved);
-    if (!at_centre) {
-      solution = [before = solution, after = end_of(answer.members, plane, orbit, start)](const Digits& digits) {
-        return before(digits) + after(digits);
-      };
-    }
+  add_text(answer,
+           [=, tried = solved.tried](const Digits& digits) { return text_of(tried) + equilibria.text(digits); });
+  if (solved.plane && solved.plane->scaling()) {
+    const bool at_centre = is_centre(*solved.plane->scaling(), start);
+    add_scaling(answer, *solved.plane, start, at_centre);
+    if (!at_centre) add_end(answer, *solved.plane, start);
+  } else if (solved.plane) {
+    add_factor(answer, solved);
+    add_end(answer, *solved.plane, start);
   } else if (!found.generators.empty()) {
-    solution = [why = solved.why_not](const Digits&) {
+    add_text(answer, [why = solved.why_not](const Digits&) {
       return fmt::format("solution    none by quadrature: {}\n", why);
-    };
+    });
   }
-  answer.text = [=, tried = solved.tried](const Digits& digits) {
-    return fmt::format("system      {}\nstart       u = {}, v = {}\n{}{}{}{}", text, digits(start[0]), digits(start[1]),
-                       text_of(found, "t", digits), text_of(tried), equilibria.text(digits),
-                       solution ? solution(digits) : "");
-  };
-  answer.rows = {row_of(answer.members, found)};
-  return {std::move(answer), solved.plane || !found.generators.empty()};
+  return finished(answer, found, solved.plane.has_value());
 }
 
 ReduceAnswer reduce_answer(const GivenStart& given) {
@@ -424,9 +453,9 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   }
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
+  const reduction::PlanarField field = reduction::planar_field(system);
   // Sampled about k = 1, where both speeds change, whatever the start: by the scaling that is found all are alike.
-  const PlanarSymmetries found =
-      reduction::find_symmetries(reduction::planar_field(system), Vector2d(1 / system.mu(), 1));
+  const PlanarSymmetries found = reduction::find_symmetries(field, Vector2d(1 / system.mu(), 1));
   if (!found.scaling) {
     // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
     throw std::runtime_error(fmt::format(
@@ -434,106 +463,77 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
         "they change; stop, orbit and portrait take such a mu",
         system.mu()));
   }
-  const PlanarReduction plane(reduction::planar_field(system), *found.scaling, start, found.residual);
-  const reduction::Flow flow = given.flow();
-  const reduction::StopTime stop = flow.stop_time(state);
-
-  Json rays = Json::array();
-  const auto ends_at = [&](double k) {
-    return std::ranges::any_of(flow.terminal().ends, [k](const auto& end) { return end.k == k; });
-  };
-  const bool driven = system.drive() > 0;  // then v = 0 is no ray
-  if (!driven) rays.push_back({{"k", 0}, {"attracts", ends_at(0)}});
-  for (const auto& ray : flow.terminal().rays) rays.push_back({{"k", ray.k}, {"attracts", ray.attracts()}});
-  rays.push_back({{"k", infinity}, {"attracts", ends_at(infinity)}});
-
-  Json routes = Json::array();
-  const std::vector<reduction::Route> ways = reduction::routes(system);
-  for (reduction::Route route : ways) {
-    try {
-      // The first is the way of `flow`, which is solved.
-      const double tau = route == ways.front() ? stop.tau : reduction::stop_time(system, state, route).tau;
-      routes.push_back({{"name", name(route)}, {"tau_stop", tau}});
-    } catch (const std::runtime_error& failure) {  // a stepper did not come to the stop
-      routes.push_back({{"name", name(route)}, {"failure", words_of(failure.what())}});
-    }
-  }
-  routes.push_back({{"name", "section"}, {"tau_stop", plane.end_time(start)}});
-
+  const PlanarReduction plane = reduction::reduced(given.flow());
+  const double tau = plane.flow()->stop_time(state).tau;
   Answer answer{.members = {{"law", system.law().name()},
                             {"mu", system.mu()},
                             {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
                             {"u0", state.u},
                             {"v0", state.v}}};
-  if (driven) answer.members["drive"] = system.drive();
-  answer.members.update(symmetry_members(found));
-  // The axes are rays themselves: there q and p are limits, and the first integral has no value.
-  std::optional<double> integral;
-  if (given.slides_and_spins()) {
-    const auto canonical = reduction::to_canonical(state);
-    answer.members["canonical"] = {
-        {"q", canonical.q}, {"p", canonical.p}, {"dp_dq", reduction::separated_slope(system, canonical.q)}};
-    try {
-      integral = flow.log_first_integral(state.u, std::log(state.v));
-      answer.members["first_integral"] = *integral;
-    } catch (const std::domain_error&) {
-      // on an invariant ray
-    }
-  } else {
-    answer.members["canonical"] = {{"q", state.u == 0 ? infinity : 0.0}, {"p", std::log(state.v)}, {"dp_dq", infinity}};
-  }
-  answer.members.update({{"rays", rays}, {"kind", plane.kind()}, {"tau_stop", stop.tau}, {"routes", routes}});
-  if (integral) {
-    answer.members.update(strip_members(portraits::reduced_orbits(flow, state), "ln_k", [&](const Vector2d& x) {
-      return flow.stop_time(reduction::State{x[0], x[1]}).tau;
-    }));
-  }
-
-  answer.text = [=, system = system, state = state, members = answer.members](const Digits& digits) {
+  if (system.drive() > 0) answer.members["drive"] = system.drive();
+  const double k = state.v / (system.mu() * std::abs(state.u)), r = system.r();
+  add_text(answer, [=, system = system, state = state](const Digits& digits) {
     const double mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma;
-    const double sliding = 2 * chi / (3 * pi), pivoting = 2 * gamma * mu / (3 * pi), r = system.r();
+    const double sliding = 2 * chi / (3 * pi), pivoting = 2 * gamma * mu / (3 * pi);
     std::string text = fmt::format("system      law {}, mu = {}, chi = {}, gamma = {}, r = {}; k = v/({} |u|)\n",
                                    system.law().name(), digits(mu), digits(chi), digits(gamma), digits(r), digits(mu));
-    text += fmt::format("(2.6)       du/dtau = -{} Psi(k) sign(u),  dv/dtau = -{} {}\n", digits(pivoting),
-                        digits(sliding), driven ? fmt::format("(Phi(k) - {})", digits(system.drive())) : "Phi(k)");
+    text +=
+        fmt::format("(2.6)       du/dtau = -{} Psi(k) sign(u),  dv/dtau = -{} {}\n", digits(pivoting), digits(sliding),
+                    system.drive() > 0 ? fmt::format("(Phi(k) - {})", digits(system.drive())) : "Phi(k)");
     text += fmt::format("(2.7)       du/dbeta = W du/dtau,  dv/dbeta = W dv/dtau,  smooth at u = v = 0\n");
     text += fmt::format("(2.8)       dtau = W dbeta,  W = ({} |u| + {} v) ({} |u| + {} v)\n", digits(16 * mu),
                         digits(15 * pi), digits(8 * mu), digits(3 * pi));
-    text += fmt::format("start       u = {}, v = {}, k = {}\n", digits(state.u), digits(state.v),
-                        digits(state.v / (mu * std::abs(state.u))));
-    text += text_of(found, "tau", digits);
-    const Json& canonical = members.at("canonical");
-    text +=
-        fmt::format("canonical   q = v/u = {}, p = ln v = {}, dp/dq = {}\n", digits(canonical.at("q").get<double>()),
-                    digits(canonical.at("p").get<double>()), digits(canonical.at("dp_dq").get<double>()));
-    text += integral
-                ? fmt::format("integral    ln |u| - ln w(k) = {}, the same along the orbit\n", digits(*integral))
-                : std::string("integral    none: the start is on the ray, which the symmetry moves along itself\n");
-    if (integral && !driven && system.law().as<reduction::PadeLaw>() != nullptr && r < 2) {
+    return text + fmt::format("start       u = {}, v = {}, k = {}\n", digits(state.u), digits(state.v), digits(k));
+  });
+  add_symmetries(answer, found, "tau");
+  add_scaling(answer, plane, start, false);
+
+  Json routes = Json::array();
+  const auto add_route = [&](std::string_view name, const std::function<double()>& time) {
+    try {
+      routes.push_back({{"name", name}, {"tau_stop", time()}});
+    } catch (const std::exception& failure) {  // a stepper did not come to the stop
+      routes.push_back({{"name", name}, {"failure", words_of(failure.what())}});
+    }
+  };
+  const std::vector<reduction::Route> ways = reduction::routes(system);
+  for (reduction::Route route : ways) {
+    // The first is the way of the flow, which is solved.
+    add_route(name(route),
+              [&] { return route == ways.front() ? tau : reduction::stop_time(system, state, route).tau; });
+  }
+  add_route("section", [&] {
+    // The other quadrants are mirror images. A multiple zero of T on an axis shows on both sides of it alone.
+    const bool simple = std::ranges::all_of(plane.rays(), [](const PlanarRay& ray) { return ray.order == 1; });
+    const auto quadrant = [&](const Vector2d& x) -> Vector2d {
+      return simple && x.minCoeff() < 0 ? Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()) : field(x);
+    };
+    const Vector2d there = start.cwiseAbs();
+    return PlanarReduction(quadrant, *found.scaling, there, found.residual).end_time(there);
+  });
+  answer.members.update({{"tau_stop", tau}, {"routes", routes}});
+  const bool closed = answer.members.contains("first_integral") && system.drive() == 0 &&
+                      system.law().as<reduction::PadeLaw>() != nullptr && r < 2;
+  add_text(answer, [=, state = state](const Digits& digits) {
+    std::string text;
+    if (closed) {
       const double a = r / (2 - r), b = a - r / (5 - r), A = 8 * (2 - r), B = 3 * pi * (5 - r);
-      const double k = state.v / (mu * std::abs(state.u));
-      text += fmt::format("orbit       |u| k^-{} ({} + {} k)^{} = {}\n", digits(a), digits(A), digits(B), digits(b),
-                          digits(std::exp(std::log(std::abs(state.u)) - a * std::log(k) + b * std::log(A + B * k))));
+      text = fmt::format("orbit       |u| k^-{} ({} + {} k)^{} = {}\n", digits(a), digits(A), digits(B), digits(b),
+                         digits(std::exp(std::log(std::abs(state.u)) - a * std::log(k) + b * std::log(A + B * k))));
     }
-    for (const Json& ray : members.at("rays")) {
-      text += fmt::format("ray         k = {}: {}\n", digits(ray.at("k").get<double>()),
-                          ray.at("attracts").get<bool>() ? "attracts" : "repels");
-    }
-    text += fmt::format("origin      {}, not smooth\n", plane.kind());
-    text += fmt::format("tau_stop    {}\n", digits(stop.tau));
-    for (const Json& route : members.at("routes")) {
+    text += fmt::format("tau_stop    {}\n", digits(tau));
+    for (const Json& route : routes) {
+      const auto name = route.at("name").get<std::string>();
       if (route.contains("failure")) {
-        text += fmt::format("  {:<12}none: {}\n", route.at("name").get<std::string>(),
-                            route.at("failure").get<std::string>());
-        continue;
+        text += fmt::format("  {:<12}none: {}\n", name, route.at("failure").get<std::string>());
+      } else {
+        const auto time = route.at("tau_stop").get<double>();
+        text += fmt::format("  {:<12}{:.15g}, {}\n", name, time, difference(time, tau));
       }
-      text += fmt::format("  {:<12}{:.15g}, {}\n", route.at("name").get<std::string>(),
-                          route.at("tau_stop").get<double>(), difference(route.at("tau_stop").get<double>(), stop.tau));
     }
     return text;
-  };
-  answer.rows = {row_of(answer.members, found)};
-  return {std::move(answer), true};
+  });
+  return finished(answer, found, true);
 }
 
 std::vector<FieldText> reduce_fields() {

@@ -35,10 +35,7 @@ reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) co
 
 reduction::PlanarReduction SystemOption::solve(const reduction::SmoothField& field,
                                                const Eigen::Vector2d& around) const {
-  // About an equilibrium V is not looked for.
-  const Eigen::Vector2d beside(1.25 * around[0], 0.8 * around[1]);
-  const Eigen::Vector2d& start = field.value(around).isZero(0) ? beside : around;
-  SolvedPlane solved = solve_planar(field, reduction::find_symmetries(field.value, start), start);
+  SolvedPlane solved = solve_planar(field, reduction::find_symmetries(field.value, around), around);
   return solved.plane ? *std::move(solved.plane) : reduction::by_steps(field.value);
 }
 

@@ -28,7 +28,7 @@ class ReduceCommand final : public Verb {
     if (system_.given()) return run_system(output);
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     if (!output.picture()) return write(reduce_answer(start), output);
-    return draw(portraits::reduction_figure(reduction::Flow(start.system), start.state, figure_.size()), output);
+    return draw(reduction::reduced(start.system), {start.state.u, start.state.v}, output);
   }
 
  private:
@@ -43,7 +43,7 @@ class ReduceCommand final : public Verb {
           "the picture of reduce shows how a scaling moves orbits, and this system has none: 'contensou portrait "
           "--system' draws its plane");
     }
-    return draw(portraits::reduction_figure(plane, start, system_.text(), figure_.size()), output);
+    return draw(plane, start, output);
   }
 
   static ExitStatus write(const ReduceAnswer& reduced, const Output& output) {
@@ -51,8 +51,9 @@ class ReduceCommand final : public Verb {
     return reduced.found ? ExitStatus::done : ExitStatus::check_failed;
   }
 
-  ExitStatus draw(portraits::Figure figure, const Output& output) {
-    output.write({figure_.apply(std::move(figure), output.format)});
+  ExitStatus draw(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const Output& output) {
+    const std::string name = system_.given() ? system_.text() : "(2.6)";
+    output.write({figure_.apply(portraits::reduction_figure(plane, start, name, figure_.size()), output.format)});
     return ExitStatus::done;
   }
 

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "contensou/portraits/figure.hpp"
-#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::portraits {
@@ -31,12 +30,9 @@ inline constexpr double orbits_beyond = 12;
 inline constexpr std::array copy_shifts{-3 * std::numbers::ln2, -2 * std::numbers::ln2, -std::numbers::ln2,
                                         std::numbers::ln2,      2 * std::numbers::ln2,  3 * std::numbers::ln2};
 
-/// Returns orbits of (2.6), with x = ln k and p = ln v.
-/// @throws std::domain_error  for a start on an axis or an invariant ray, which the symmetry maps onto itself
-ReducedOrbits reduced_orbits(const reduction::Flow& flow, reduction::State start);
-
-/// Returns orbits of any system solved by its scaling, with q and p of PlanarCanonical; q continues beyond pi.
-/// @throws std::domain_error  for a start on a ray or at the centre, and for a field with borders
+/// Returns orbits of a system solved by its scaling, with q and p of PlanarCanonical; q continues beyond pi. For (2.6)
+/// solved by its flow it returns the orbit of the start alone, with x = ln k and p = ln |v|.
+/// @throws std::domain_error  for a start on a ray or at the centre; for a field with borders, except (2.6)
 ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start);
 
 }  // namespace contensou::portraits
