@@ -9,25 +9,6 @@
 
 namespace contensou::reduction {
 
-Canonical to_canonical(State state) {
-  require_state("to_canonical", state);
-  if (state.u == 0 || state.v == 0) {
-    throw std::domain_error(fmt::format(
-        "to_canonical: the axes u = 0 and v = 0 are invariant and have no canonical coordinates, got u = {}, v = {}",
-        state.u, state.v));
-  }
-  return {state.v / state.u, std::log(state.v)};
-}
-
-State from_canonical(Canonical point) {
-  if (point.q == 0 || !std::isfinite(point.q) || !std::isfinite(point.p)) {
-    throw std::domain_error(
-        fmt::format("from_canonical: q must be finite and not 0, p finite; got q = {}, p = {}", point.q, point.p));
-  }
-  const double v = std::exp(point.p);
-  return {v / point.q, v};
-}
-
 double separated_slope(const ReducedSystem& system, double q) {
   if (q == 0 || !std::isfinite(q)) {
     throw std::domain_error(fmt::format("separated_slope: q must be finite and not 0, got {}", q));
