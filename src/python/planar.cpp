@@ -83,7 +83,7 @@ void bind_planar(py::module_& module) {
                   })
       .def_static("of_flow",
                   [](const reduction::Flow& flow) {
-                    return Planar({reduction::planar_field(flow.system())}, {1, flow.system().mu()});
+                    return Planar({reduction::planar_field(flow.system())}, {1, flow.system().mu()}, reduced(flow));
                   })
       .def_property_readonly("generators",
                              [](const Planar& planar) {
@@ -110,7 +110,7 @@ void bind_planar(py::module_& module) {
                              [](const Planar& planar) {
                                py::list list;
                                for (const auto& [form, value, gap, residual, cleared] : planar.solved_plane.tried) {
-                                 list.append(py::make_tuple(form, value, gap, residual));
+                                 list.append(py::make_tuple(form, value, gap, residual, cleared));
                                }
                                return list;
                              })

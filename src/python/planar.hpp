@@ -30,10 +30,13 @@ auto interruptible(Function compute) {
 /// A planar system, its symmetries, and its motions if one of them is a scaling.
 class Planar {
  public:
-  Planar(reduction::SmoothField given, const Eigen::Vector2d& around) : field(std::move(given)), start(around) {
+  /// @param known  solution, if there is one
+  Planar(reduction::SmoothField given, const Eigen::Vector2d& around,
+         const std::optional<reduction::PlanarReduction>& known = {})
+      : field(std::move(given)), start(around) {
     interruptible([&] {
       symmetries = reduction::find_symmetries(field.value, around);
-      solved_plane = answers::solve_planar(field, symmetries, around);
+      solved_plane = known ? answers::SolvedPlane{known, ""} : answers::solve_planar(field, symmetries, around);
     });
   }
 

@@ -234,19 +234,6 @@ void bind_reduction(py::module_& module) {
            })
       .def("terminal", &terminal)
       .def("facts", &facts)
-      .def("first_integral",
-           [](const Flow& flow, const Numbers& u, const Numbers& v) {
-             py::array_t<double> result(std::vector<py::ssize_t>(u.shape(), u.shape() + u.ndim()));
-             for (py::ssize_t i = 0; i < u.size(); ++i) {
-               const double speed = v.data()[i];
-               try {
-                 result.mutable_data()[i] = flow.log_first_integral(u.data()[i], std::log(speed));
-               } catch (const std::domain_error&) {  // on an axis or a ray
-                 result.mutable_data()[i] = std::numeric_limits<double>::quiet_NaN();
-               }
-             }
-             return result;
-           })
       .def(
           "check",
           [](const Flow& flow, double u, double v) {

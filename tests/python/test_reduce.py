@@ -84,10 +84,20 @@ def test_zhuravlev_s_system():
     states = flow.orbit(u=1, v=1).at([0, 1, 5])
     np.testing.assert_allclose(reduction.first_integral(states["u"], states["v"]), reduction.first_integral(1, 1), atol=1e-12)
     u, v = np.array([1.0, 1e-3, 0, 5]), np.array([1.0, 2, 1, 0])
-    np.testing.assert_allclose(reduction.stop_time(u=u, v=v), flow.stop_time(u=u, v=v), rtol=1e-12)
+    assert (reduction.stop_time(u=u, v=v) == flow.stop_time(u=u, v=v)).all()  # the flow solves it
+    assert reduction.stop_time(u=-1, v=-2) == flow.stop_time(u=1, v=2)
+    assert (reduction.kind, reduction.form, len(reduction.rays)) == ("stable node", "scaling", 4)
     facts = flow.facts()
     assert len(facts) == 4 and {point.place for point in facts} == {"origin", "infinity"}
     assert {point.kind for point in facts} == {"saddle", "stable node", "unstable node"}
+
+
+def test_v_is_found_from_an_equilibrium_and_with_the_denominator_cleared():
+    rabbits = ct.reduce("u' = u*(1-v); v' = v*(u-1)", u=1, v=1)
+    assert rabbits.form == "polynomial" and rabbits.orbit(1, 1).end == "equilibrium"
+    assert [tried[-1] for tried in rabbits.tried] == [False] * len(rabbits.tried)
+    quotient = ct.reduce("y' = (y^2-3*x^2*y+x)/(x^3-2*x*y)", u=1.3, v=0.7)
+    assert quotient.tried[-1][0] == quotient.form == "constant" and quotient.tried[-1][-1]
 
 
 def test_a_generator_says_whether_it_holds_everywhere():

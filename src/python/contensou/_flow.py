@@ -216,15 +216,11 @@ class FlowReduction(Reduction):
     def __init__(self, flow: Flow) -> None:
         system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
         super().__init__(_core.Planar.of_flow(flow._core), system, None, (FlowReduction, (flow,)))
-        self._flow = flow
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
         u, v = together(u=u, v=v)
         with np.errstate(divide="ignore", invalid="ignore"):
             return (v / u)[()], np.log(v)[()]
-
-    def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
-        return self._flow._core.first_integral(*together(u=u, v=v))[()]
 
 
 _kept_flow = lru_cache(maxsize=64)(Flow)

@@ -51,7 +51,8 @@ class Reduction:
     verdict:          found, none, or undecided: the field's noise hides the effect of a generator
     solved:           True if a scaling or an inverse integrating factor solves it; else the methods raise ValueError
     form:             the solution: "scaling", or the form of the factor, such as "polynomial"; else None
-    tried:            forms of the factor that were tried: (form, least singular value, gap, residual)
+    tried:            forms of the factor that were tried: (form, least singular value, gap, residual, cleared); cleared:
+                      V was multiplied by the denominator of the field
 
     orbit and portrait show the motions of the system. Points are numbers, or arrays of shapes that broadcast; results
     without a value are NaN.
@@ -66,7 +67,7 @@ class Reduction:
         self.verdict = core.verdict
         self.solved = core.solved
         self.form: Optional[str] = core.form
-        self.tried: tuple[tuple[str, float, float, float], ...] = tuple(core.tried)
+        self.tried: tuple[tuple[str, float, float, float, bool], ...] = tuple(core.tried)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._again
