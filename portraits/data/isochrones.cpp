@@ -17,19 +17,18 @@ using reduction::State;
 /// from 0 to 2 quarter turns, on the ellipse that the rectangle's sides span.
 class Directions {
  public:
-  Directions(const reduction::Flow& flow, const Rectangle& rectangle) : flow_(flow), rectangle_(rectangle) {
-    const auto& [low, high, logarithmic] = rectangle;
-    const double u = std::max(std::abs(low.u), std::abs(high.u));
+  Directions(const reduction::Flow& flow, const Window& window, bool logarithmic)
+      : flow_(flow), sides_{window.u(), window.v()}, logarithmic_(logarithmic) {
+    const auto& [low, high] = window;
     constexpr int steps = 360;
-    const double first = logarithmic ? std::log(low.v / high.u) : 0;
-    const double last = logarithmic ? std::log(high.v / low.u) : 2;
+    const double first = logarithmic ? std::log(low[1] / high[0]) : 0;
+    const double last = logarithmic ? std::log(high[1] / low[0]) : 2;
     for (int i = 0; i <= steps; ++i) all_.push_back(first + (last - first) * i / steps);
     if (logarithmic) return;
-    sides_ = {u, high.v};
     // Add directions down to k = 1e-4 next to the axis v = 0, where ln k changes fast.
     for (int decade = -4; decade <= 3; ++decade) {
       const double k = std::pow(10, decade);
-      const double quarter = std::atan(k * flow.system().mu() * u / high.v) / (std::numbers::pi / 2);
+      const double quarter = std::atan(k * flow.system().mu() * sides_.u / sides_.v) / (std::numbers::pi / 2);
       all_.insert(all_.end(), {quarter, 2 - quarter});
     }
     std::ranges::sort(all_);
@@ -40,7 +39,7 @@ class Directions {
   /// Returns the state in a direction whose stop time is 1.
   State unit(double direction) const {
     State ray{std::exp(-direction / 2), std::exp(direction / 2)};
-    if (!rectangle_.logarithmic) {
+    if (!logarithmic_) {
       const double quarter = direction < 1 ? direction : 2 - direction;
       const double angle = quarter * std::numbers::pi / 2;
       ray = {quarter == 1 ? 0 : sides_.u * std::cos(angle), sides_.v * std::sin(angle)};
@@ -52,14 +51,22 @@ class Directions {
 
  private:
   const reduction::Flow& flow_;
-  const Rectangle& rectangle_;
-  State sides_{};
+  State sides_;
+  bool logarithmic_;
   std::vector<double> all_;
 };
 
 }  // namespace
 
-IsochroneTimes asked_times(std::vector<double> times, double unit) {
+IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int usual) {
+  const double unit = request.time_unit;
+  std::vector<double> times = request.isochrone_times;
+  if (times.empty()) {
+    if (request.isochrones == 0) return {{}, 0};
+    const double step = request.isochrones ? step_for(last / unit, *request.isochrones, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5})
+                                           : step_for(last / unit, usual, {1, 2, 5});
+    return {multiples(0, last, step * unit), step * unit};
+  }
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   const double step = times.front();
@@ -72,16 +79,9 @@ IsochroneTimes asked_times(std::vector<double> times, double unit) {
   return {times, even ? step * unit : 0};
 }
 
-IsochroneTimes even_times(double last, double unit, std::optional<int> asked, int usual) {
-  const double step =
-      asked ? step_for(last / unit, *asked, {1, 2, 5, 2.5, 4, 3, 6, 8, 1.5}) : step_for(last / unit, usual, {1, 2, 5});
-  return {multiples(0, last, step * unit), step * unit};
-}
-
-std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& rectangle,
-                                  const std::vector<double>& times) {
-  const State low = rectangle.low, high = rectangle.high;
-  const Directions directions(flow, rectangle);
+std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Window& window, const std::vector<double>& times,
+                                  bool logarithmic) {
+  const Directions directions(flow, window, logarithmic);
   const std::vector<double>& all = directions.all();
   std::vector<State> units;
   for (double direction : all) units.push_back(directions.unit(direction));
@@ -89,16 +89,15 @@ std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Rectangle& 
   std::vector<Isochrone> result;
   for (double tau : times) {
     const auto scaled = [tau](State unit) { return State{tau * unit.u, tau * unit.v}; };
-    const auto inside = [&](State at) { return at.u >= low.u && at.u <= high.u && at.v >= low.v && at.v <= high.v; };
     // Returns the last state inside, between a direction outside and one inside.
     const auto border = [&](double outside, double within) {
-      const auto is_inside = [&](double direction) { return inside(scaled(directions.unit(direction))); };
+      const auto is_inside = [&](double direction) { return window.contains(scaled(directions.unit(direction))); };
       return scaled(directions.unit(reduction::last_where(is_inside, within, outside)));
     };
     std::vector<State> piece;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const State here = scaled(units[i]);
-      const bool is_inside = inside(here);
+      const bool is_inside = window.contains(here);
       if (i > 0 && is_inside && piece.empty()) piece.push_back(border(all[i - 1], all[i]));
       if (is_inside) piece.push_back(here);
       if (piece.empty() || (is_inside && i + 1 < all.size())) continue;

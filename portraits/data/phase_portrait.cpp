@@ -14,11 +14,12 @@
 #include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "data/isochrones.hpp"
-#include "data/lists.hpp"
 #include "data/round_numbers.hpp"
+#include "data/tracing.hpp"
 
 namespace contensou::portraits {
 
+using Eigen::Vector2d;
 using reduction::Flow;
 using reduction::Orbit;
 using reduction::OrbitPoint;
@@ -27,8 +28,9 @@ using reduction::State;
 
 namespace {
 
+/// Returns U and V of the default window.
 /// @param shown  states that the window must contain
-Window default_window(const ReducedSystem& system, View view, const std::vector<State>& shown) {
+State default_sides(const ReducedSystem& system, View view, const std::vector<State>& shown) {
   State far{0, 0};
   for (const State& state : shown) far = {std::max(far.u, std::abs(state.u)), std::max(far.v, state.v)};
   constexpr double margin = 1.2;
@@ -55,15 +57,12 @@ std::pair<bool, bool> bends(const reduction::PhasePlane& plane) {
   return {may, may && 1 + order > comb};
 }
 
-SpeedScale scale_of(const reduction::PhasePlane& plane, Window window, bool linear) {
-  return {window.v, linear ? 1 : 1 / (1 + plane.tangents.front().contact_order)};
+SpeedScale scale_of(const reduction::PhasePlane& plane, const Window& window, bool linear) {
+  return {window.v(), linear ? 1 : 1 / (1 + plane.tangents.front().contact_order)};
 }
 
 using Instant = PortraitOrbit::Instant;
 using Track = std::vector<Instant>;  // from the first state to the stop
-
-/// The visible distance of two neighbouring states of an orbit; at most 1 is allowed.
-using Distance = std::function<double(const Instant&, const Instant&)>;
 
 /// Converts a state.
 /// @param ln_k_stop  ln k of the terminal ratio, used at rest
@@ -80,26 +79,6 @@ Instant instant(const OrbitPoint& point, double left, double mu, double ln_k_sto
 /// Returns the visible change of ln k; beyond |ln k| = 20 orbits hug an axis.
 double turn(const Instant& a, const Instant& b) {
   return std::abs(std::clamp(a.ln_k, -20.0, 20.0) - std::clamp(b.ln_k, -20.0, 20.0));
-}
-
-/// Appends the states at the given places to a track, with further states between until neighbours are near.
-template <class At>
-void refine(Track& track, double from, const std::vector<double>& places, At at, const Distance& distance) {
-  std::vector<std::pair<double, Instant>> open;  // the next state is at the back
-  for (double place : places) open.insert(open.begin(), {place, at(place)});
-  while (!open.empty()) {
-    const auto [place, state] = open.back();
-    constexpr double closest = 1e-5;
-    if (std::abs(place - from) > closest && distance(track.back(), state) > 1) {
-      const double middle = (from + place) / 2;
-      open.emplace_back(middle, at(middle));
-      continue;
-    }
-    constexpr double near = 0.3;
-    if (distance(track.back(), state) > near) track.push_back(state);
-    from = place;
-    open.pop_back();
-  }
 }
 
 /// Returns the last number from `from` on in the direction of a step before a condition fails for good.
@@ -131,8 +110,8 @@ PortraitOrbit columns(const Track& track) {
 
 class OrbitTracer {
  public:
-  OrbitTracer(const Flow& flow, Window window, const SpeedScale& scale, bool stepped)
-      : flow_(flow), window_(window), scale_(scale), is_stepped_(stepped) {}
+  OrbitTracer(const Flow& flow, const Window& window, const SpeedScale& scale, bool stepped)
+      : flow_(flow), U_(window.u()), V_(window.v()), scale_(scale), is_stepped_(stepped) {}
 
   PortraitOrbit orbit(State start) const { return columns(is_stepped_ ? stepped(start) : exact(start)); }
 
@@ -164,9 +143,7 @@ class OrbitTracer {
   };
 
   /// Returns v, exact on the upper border.
-  double speed(const Seed& at) const {
-    return at.ln_v == std::log(window_.v) ? window_.v : std::min(std::exp(at.ln_v), window_.v);
-  }
+  double speed(const Seed& at) const { return at.ln_v == std::log(V_) ? V_ : std::min(std::exp(at.ln_v), V_); }
 
   double ln_k(const Seed& at) const { return at.ln_v - std::log(system_.mu() * at.u); }
 
@@ -184,8 +161,8 @@ class OrbitTracer {
     // Places 0 to 1 are the upper border, 1 to 2 the right one, downwards. With a drive orbits also begin on the lower
     // border, 2 to 3, because it is no orbit then.
     const auto on_border = [this](double place) {
-      if (place < 1) return Seed{place * window_.u, std::log(window_.v)};
-      return place < 2 ? Seed{window_.u, scale_.ln_v(2 - place)} : Seed{(3 - place) * window_.u, -infinity};
+      if (place < 1) return Seed{place * U_, std::log(V_)};
+      return place < 2 ? Seed{U_, scale_.ln_v(2 - place)} : Seed{(3 - place) * U_, -infinity};
     };
     std::vector<Step> border{{0, 0}};
     constexpr int steps = 500;  // number of steps along a side
@@ -196,7 +173,7 @@ class OrbitTracer {
       constexpr double lowest = -20;
       const double k = std::exp(std::max(ln_k(at), lowest));
       const auto rate = system_.field({1 / system_.mu(), k});
-      const double du = rate.u * system_.mu() * at.u / window_.u;
+      const double du = rate.u * system_.mu() * at.u / U_;
       const double dv =
           rate.v / k * scale_.slope(std::isinf(at.ln_v) ? std::log(system_.mu() * at.u) + lowest : at.ln_v);
       const double across = std::abs(i < steps || i >= 2 * steps ? dv : du) / std::hypot(du, dv) / steps;
@@ -223,9 +200,9 @@ class OrbitTracer {
     const auto [low, high] = std::minmax({sector.log_terminal_ratio(), sector.log_far_ratio()});
     const double half = std::log(2);
     const double ln_k = std::isinf(high) ? low + half : std::isinf(low) ? high - half : std::midpoint(low, high);
-    const double ln_right = std::log(system_.mu() * window_.u) + ln_k, ln_top = std::log(window_.v);
-    if (ln_right < ln_top) return {window_.u, ln_right};
-    return {std::min(std::exp(ln_top - ln_k) / system_.mu(), window_.u), ln_top};
+    const double ln_right = std::log(system_.mu() * U_) + ln_k, ln_top = std::log(V_);
+    if (ln_right < ln_top) return {U_, ln_right};
+    return {std::min(std::exp(ln_top - ln_k) / system_.mu(), U_), ln_top};
   }
 
   /// Returns the orbit from a start, as scaled rows of an orbit on the same curve.
@@ -238,7 +215,7 @@ class OrbitTracer {
     for (Eigen::Index row = 0; row < curve.rows(); ++row) {
       if (!(curve.ln_k[row] < ln_k_start)) continue;
       const Instant here = curve.at(row, factor), &last = track.back();
-      const double u = std::abs(here.u - last.u) / window_.u;
+      const double u = std::abs(here.u - last.u) / U_;
       const double height = scale_.height(here.ln_v);
       constexpr double near = 0.006;
       if (std::max({u, std::abs(height - last_height), turn(here, last) / 20}) <= near) continue;
@@ -261,7 +238,7 @@ class OrbitTracer {
   /// Computes the orbit, first by xi while k visibly changes, then by equal steps of the logarithm of the time left.
   Track exact(State start) const {
     const Orbit orbit = flow_.orbit(start);
-    const Distance distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
+    const auto distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
     const double end = ln_k_stop(start);
     const auto timed = [&](const OrbitPoint& point, double left) { return instant(point, left, system_.mu(), end); };
     Track track{timed(orbit.at_time(0), orbit.stop_time())};
@@ -286,12 +263,11 @@ class OrbitTracer {
     const auto change = [](double x, double y) {
       return std::abs(std::clamp(x, -2.0, 2.0) - std::clamp(y, -2.0, 2.0));
     };
-    const double u = change(a.u / window_.u, b.u / window_.u) / 0.02;
-    const double v = change(a.v / window_.v, b.v / window_.v) / 0.02;
+    const double u = change(a.u / U_, b.u / U_) / 0.02;
+    const double v = change(a.v / V_, b.v / V_) / 0.02;
     // Next to the axes, where the curve may turn sharply, distances are ratios.
     const auto fold = [](double x, double y) { return std::abs(std::log(std::max(x, 1e-3) / std::max(y, 1e-3))); };
-    const double folds = std::max(fold(std::abs(a.u) / window_.u, std::abs(b.u) / window_.u) / 0.15,
-                                  fold(a.v / window_.v, b.v / window_.v) / 0.4);
+    const double folds = std::max(fold(std::abs(a.u) / U_, std::abs(b.u) / U_) / 0.15, fold(a.v / V_, b.v / V_) / 0.4);
     return std::max({u, v, turn(a, b) / 0.4, folds});
   }
 
@@ -306,7 +282,7 @@ class OrbitTracer {
       const double w = mu * std::abs(point.u) * std::exp(curve.ln_w(xi) - curve.ln_w(here));
       return State{std::copysign(w / mu, point.u), w * std::exp(curve.chart().log_ratio(xi))};
     };
-    const auto outside = [this](State state) { return !(std::abs(state.u) <= window_.u && state.v <= window_.v); };
+    const auto outside = [this](State state) { return !(std::abs(state.u) <= U_ && state.v <= V_); };
     return upstream(
         last_along([&](double xi) { return !begins(curve, system_, xi) && !outside(upstream(xi)); }, here, 1));
   }
@@ -324,100 +300,66 @@ class OrbitTracer {
 
   const Flow& flow_;
   const ReducedSystem& system_ = flow_.system();
-  Window window_;
+  double U_, V_;
   SpeedScale scale_;
   bool is_stepped_;
 };
 
-void require(const PortraitRequest& request) {
-  if (request.orbits_per_side.value_or(0) < 0 || request.isochrones.value_or(0) < 0) {
-    throw std::domain_error(
-        fmt::format("phase_portrait: numbers of orbits and isochrones must be "
-                    ">= 0, got {} and {}",
-                    request.orbits_per_side.value_or(0), request.isochrones.value_or(0)));
+void require(const PortraitRequest& request, const Window& window, View view) {
+  const auto& [low, high] = window;
+  if (request.window && !(low[0] < high[0] && low[1] < high[1] && low[1] >= 0)) {
+    throw std::domain_error(fmt::format("portrait: a window has ends that grow, and v >= 0; got {} to {} by {} to {}",
+                                        low[0], high[0], low[1], high[1]));
   }
-  for (double time : request.isochrone_times) {
-    if (time > 0 && std::isfinite(time)) continue;
-    throw std::domain_error(fmt::format("phase_portrait: the time of an isochrone must be > 0, got {}", time));
+  if (request.window && !shows_window(view)) {
+    throw std::domain_error(fmt::format(
+        "portrait: a window with ends of its own is of the views uv, patch and pair; {} has no such axes", name(view)));
   }
-  if (request.part) {
-    const auto& [u_low, u_high, v_low, v_high] = *request.part;
-    if (!(u_low < u_high && v_low < v_high && v_low >= 0)) {
-      throw std::domain_error(
-          fmt::format("phase_portrait: a window has ends that grow, and v >= 0; got {} to {} by {} to {}", u_low,
-                      u_high, v_low, v_high));
-    }
-    if (!shows_window(request.view.value_or(View::uv))) {
-      throw std::domain_error(fmt::format(
-          "phase_portrait: a window with ends of its own is of the views uv, patch and pair; {} has no such axes",
-          name(*request.view)));
-    }
-  }
-  if (request.highlight) reduction::require_state("phase_portrait", *request.highlight);
-  for (const State& point : request.through) {
-    reduction::require_state("phase_portrait", point);
-    if (point.u != 0 && point.v != 0) continue;
-    throw std::domain_error(
-        fmt::format("phase_portrait: the orbit through ({}, {}) is an axis, "
-                    "which is drawn anyway; u and v must not be 0",
-                    point.u, point.v));
-  }
-}
-
-void require(Window window, const PortraitRequest& request) {
   // Stop times and squares of speeds in the window must be doubles.
   constexpr double smallest = 1e-150;
   const auto reasonable = [](double side) { return side >= smallest && side <= 1 / smallest; };
-  if (!reasonable(window.u) || !reasonable(window.v)) {
-    throw std::domain_error(
-        fmt::format("phase_portrait: the sides of the window must be between "
-                    "{} and {}, got {} by {}: use another unit of speed",
-                    smallest, 1 / smallest, window.u, window.v));
+  if (!reasonable(window.u()) || !reasonable(window.v())) {
+    throw std::domain_error(fmt::format(
+        "portrait: the sides of the window must be between {} and {}, got {} by {}: use another unit of speed",
+        smallest, 1 / smallest, window.u(), window.v()));
   }
+  if (request.highlight) reduction::require_state("portrait", *request.highlight);
   for (const State& point : request.through) {
-    if (request.part ? request.part->contains(point) : std::abs(point.u) <= window.u && point.v <= window.v) continue;
-    const auto [u_low, u_high, v_low, v_high] = request.part.value_or(WindowPart{-window.u, window.u, 0, window.v});
+    reduction::require_state("portrait", point);
+    if (point.u != 0 && point.v != 0) continue;
     throw std::domain_error(
-        fmt::format("phase_portrait: the point ({}, {}) lies outside the window {} <= u <= {}, {} <= v <= {}", point.u,
-                    point.v, u_low, u_high, v_low, v_high));
+        fmt::format("portrait: the orbit through ({}, {}) is an axis, which is drawn anyway; u and v must not be 0",
+                    point.u, point.v));
   }
+  require(request, window);
 }
 
-PhasePortrait portrait_in(const Flow& flow, View view, Window window, bool linear, const PortraitRequest& request,
-                          const IsochroneTimes& times) {
+PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, bool linear,
+                          const PortraitRequest& request, const IsochroneTimes& times) {
   const reduction::PhasePlane plane = reduction::phase_plane(flow);
   const SpeedScale scale = scale_of(plane, window, linear);
   const OrbitTracer tracer(flow, window, scale, request.stepped);
-  const WindowPart part = request.part.value_or(WindowPart{-window.u, window.u, 0, window.v});
-  PhasePortrait portrait{flow, plane, view, window, part, scale, {}, {}, times.step, {}, {}, request.through, {}};
+  PhasePortrait portrait{{window, {}, {}, times.step, {}, {}, request.through}, flow, plane, view, scale, {}};
   if (!request.drawn_only || shows_window(view)) {
-    portrait.isochrones = isochrones(flow, {{part.u_low, part.v_low}, {part.u_high, part.v_high}}, times.times);
+    portrait.isochrones = isochrones(flow, window, times.times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
     constexpr double most = 4;  // at most this factor more orbits in a part of a window
-    const double denser = std::clamp(window.u / (part.u_high - part.u_low), 1.0, most);
+    const double denser = std::clamp(window.u() / window.sides()[0], 1.0, most);
     portrait.orbits =
-        tracer.orbits(request.orbits_per_side.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));
-    if (request.part) {
-      std::erase_if(portrait.orbits, [&](const PortraitOrbit& orbit) {
-        for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
-          if (part.contains({orbit.u[i], orbit.v[i]})) return false;
-        }
-        return true;
-      });
-    }
+        tracer.orbits(request.orbits.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));
+    const auto stays_outside = [&](const PortraitOrbit& orbit) {
+      for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
+        if (window.contains({orbit.u[i], orbit.v[i]})) return false;
+      }
+      return true;
+    };
+    if (request.window) std::erase_if(portrait.orbits, stays_outside);
   }
   if (request.highlight && (request.highlight->u != 0 || request.highlight->v != 0)) {
-    portrait.highlight = tracer.orbit(*request.highlight);
+    portrait.highlight = {tracer.orbit(*request.highlight)};
   }
   for (const State& point : request.through) portrait.through.push_back(tracer.orbit_through(point));
   return portrait;
-}
-
-/// Returns the stop time of the corner of the visible part, which is the last to stop.
-double last_time(const Flow& flow, Window window, const PortraitRequest& request) {
-  if (!request.part) return flow.orbit({window.u, window.v}).stop_time();
-  return flow.orbit({std::max(std::abs(request.part->u_low), std::abs(request.part->u_high)), request.part->v_high})
-      .stop_time();
 }
 
 /// Returns the stop times of the isochrones of each plane: the requested ones, else multiples of a round time up to the
@@ -426,14 +368,12 @@ double last_time(const Flow& flow, Window window, const PortraitRequest& request
 /// @param lasts  last stop times of the planes
 std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const PortraitRequest& request) {
   constexpr double near = 0.95, alike = 3, of_decade = 3;
-  constexpr int usual = 7, usual_beside_others = 4, usual_of_series = 3;
+  constexpr int usual_beside_others = 4, usual_of_series = 3;
   const double unit = request.time_unit;
-  const auto all = [&](IsochroneTimes times) { return std::vector<IsochroneTimes>(lasts.size(), std::move(times)); };
-  if (!request.isochrone_times.empty()) return all(asked_times(request.isochrone_times, unit));
-  if (request.isochrones == 0) return all({{}, 0});
   const auto [shortest, longest] = std::ranges::minmax(lasts);
-  if (longest < alike * shortest) {
-    return all(even_times(near * longest, unit, request.isochrones, lasts.size() > 1 ? usual_beside_others : usual));
+  if (longest < alike * shortest || !request.isochrone_times.empty() || request.isochrones == 0) {
+    const int usual = lasts.size() > 1 ? usual_beside_others : usual_isochrones;
+    return std::vector(lasts.size(), isochrone_times(request, near * longest, usual));
   }
   const int count = request.isochrones.value_or(usual_of_series);
   std::vector<IsochroneTimes> result;
@@ -450,28 +390,28 @@ std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const 
 
 /// Returns one window for all planes; for the view patch without a requested window, windows of equal rim speeds.
 std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const PortraitRequest& request) {
-  if (request.part) {
-    const auto& [u_low, u_high, v_low, v_high] = *request.part;
-    return {flows.size(), {std::max(std::abs(u_low), std::abs(u_high)), v_high}};
-  }
   if (request.window) return {flows.size(), *request.window};
-  std::vector<State> shown = request.through;
+  std::vector<State> shown = request.through, sides;
   if (request.highlight) shown.push_back(*request.highlight);
-  std::vector<Window> windows;
-  for (const Flow& flow : flows) windows.push_back(default_window(flow.system(), view, shown));
-  const auto largest = [&](double Window::*side) { return std::ranges::max(windows, {}, side).*side; };
+  for (const Flow& flow : flows) sides.push_back(default_sides(flow.system(), view, shown));
+  const auto largest = [&](double State::*side) { return std::ranges::max(sides, {}, side).*side; };
   // Without points to show, v is the smallest, so that no plane is filled with mere sliding.
   const bool rims = view == View::patch;
-  const double u = largest(&Window::u);
-  const double v = shown.empty() && !rims ? std::ranges::min(windows, {}, &Window::v).v : largest(&Window::v);
-  for (std::size_t i = 0; i < flows.size(); ++i) windows[i] = {rims ? v / flows[i].system().mu() : u, v};
+  const double u = largest(&State::u);
+  const double v = shown.empty() && !rims ? std::ranges::min(sides, {}, &State::v).v : largest(&State::v);
+  std::vector<Window> windows;
+  for (const Flow& flow : flows) {
+    const Vector2d of = request.sides.value_or(Vector2d(rims ? v / flow.system().mu() : u, v));
+    windows.push_back({{-of[0], 0}, of});
+  }
   return windows;
 }
 
 }  // namespace
 
 PortraitOrbit::Instant PortraitOrbit::at(Eigen::Index row, double factor) const {
-  return {factor * u[row], factor * v[row], ln_v[row] + std::log(factor), ln_k[row], factor * tau_left[row]};
+  const auto ln = [row](const Eigen::ArrayXd& column) { return column.size() > 0 ? column[row] : NAN; };
+  return {factor * u[row], factor * v[row], ln(ln_v) + std::log(factor), ln(ln_k), factor * tau_left[row]};
 }
 
 PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double upstream) {
@@ -508,14 +448,13 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
 }
 
 std::vector<PhasePortrait> phase_portraits(const std::vector<Flow>& flows, const PortraitRequest& request) {
-  require(request);
   const View view = request.view.value_or(View::uv);
   const std::vector<Window> windows = windows_of(flows, view, request);
   std::vector<double> lasts;
   bool all_may_bend = true, one_is_comb = false;
   for (std::size_t i = 0; i < flows.size(); ++i) {
-    require(windows[i], request);
-    lasts.push_back(last_time(flows[i], windows[i], request));
+    require(request, windows[i], view);
+    lasts.push_back(flows[i].orbit({windows[i].u(), windows[i].v()}).stop_time());
     const auto [may_bend, comb] = bends(reduction::phase_plane(flows[i]));
     all_may_bend = all_may_bend && may_bend;
     one_is_comb = one_is_comb || comb;
@@ -538,8 +477,7 @@ std::vector<PhasePortrait> phase_portraits(const std::vector<Flow>& flows, const
   }
   if (!request.isochrone_times.empty() && shows_window(view) && !has_isochrones) {
     throw std::domain_error(fmt::format(
-        "phase_portrait: no state in the window has a stop time that isochrones are asked of; in its corner "
-        "it is {:.3g}",
+        "portrait: no state in the window has a stop time that isochrones are asked of; in its corner it is {:.3g}",
         std::ranges::max(lasts) / request.time_unit));
   }
   return portraits;

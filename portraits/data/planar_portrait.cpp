@@ -15,8 +15,7 @@
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/planar_steps.hpp"
 #include "data/isochrones.hpp"
-#include "data/lists.hpp"
-#include "data/round_numbers.hpp"
+#include "data/tracing.hpp"
 #include "data/widest_gaps.hpp"
 #include "data/zero_lines.hpp"
 
@@ -27,6 +26,7 @@ using Eigen::Vector2d;
 using reduction::PlanarEnd;
 using reduction::PlanarReduction;
 using reduction::PlanarSector;
+using reduction::State;
 using std::numbers::pi;
 
 namespace {
@@ -47,11 +47,29 @@ Course course_of(const PlanarSector& sector) {
   return {q, -nearest(sector.from_ray), nearest(sector.to_ray)};
 }
 
+Vector2d vector_of(const State& x) { return {x.u, x.v}; }
+
+/// Returns the parts of an orbit that lie in a window.
+/// @param time_left  returns the time left at a point
+std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
+                                    const std::function<double(const Vector2d&)>& time_left) {
+  std::vector<PortraitOrbit> parts;
+  for (const Polyline& line : clipped(panel_of(window), orbit)) {
+    if (line.size() < 2) continue;
+    PortraitOrbit part = columns(line, infinity);
+    for (Eigen::Index i = 0; i < part.rows(); ++i) {
+      // A chord may break the order in the last digits.
+      part.tau_left[i] = std::min(time_left({part.u[i], part.v[i]}), i > 0 ? part.tau_left[i - 1] : infinity);
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 class PlanarTracer {
  public:
-  PlanarTracer(const PlanarReduction& plane, const PlanarWindow& window) : plane_(plane), window_(window) {
-    panel_.x = {"", window.low[0], window.high[0], false, {}};
-    panel_.y = {"", window.low[1], window.high[1], false, {}};
+  PlanarTracer(const PlanarReduction& plane, const Window& window)
+      : plane_(plane), window_(window), panel_(panel_of(window)) {
     highest_ = -infinity;
     lowest_ = infinity;
     constexpr int pieces = 100;
@@ -73,24 +91,9 @@ class PlanarTracer {
   }
 
   /// Returns the orbit through a point, or from the point on, in parts that lie in the window.
-  std::vector<PlanarPortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
-    std::vector<PlanarPortraitOrbit> pieces;
-    if (x == plane_.centre()) return pieces;
-    for (const Polyline& part : clipped(panel_, line(x, from_here))) {
-      if (part.size() < 2) continue;
-      const auto rows = static_cast<Eigen::Index>(part.size());
-      PlanarPortraitOrbit piece{Eigen::ArrayXd(rows), Eigen::ArrayXd(rows), Eigen::ArrayXd(rows)};
-      for (Eigen::Index i = 0; i < rows; ++i) {
-        const Point& point = part[static_cast<std::size_t>(i)];
-        piece.u[i] = point.x;
-        piece.v[i] = point.y;
-        piece.tau_left[i] = time_left({point.x, point.y});
-      }
-      // A chord may break the order in the last digits.
-      for (Eigen::Index i = 1; i < rows; ++i) piece.tau_left[i] = std::min(piece.tau_left[i], piece.tau_left[i - 1]);
-      pieces.push_back(std::move(piece));
-    }
-    return pieces;
+  std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
+    if (x == plane_.centre()) return {};
+    return parts_of(line(x, from_here), window_, [this](const Vector2d& at) { return time_left(at); });
   }
 
   /// Returns the number of the sector of a point; empty if the field has no value there.
@@ -110,7 +113,7 @@ class PlanarTracer {
   std::vector<Isochrone> isochrones(const std::vector<double>& times) const {
     const double c = plane_.scaling()->time;
     std::vector<Isochrone> result;
-    if (c == 0) return result;
+    if (c == 0 || times.empty()) return result;
     std::vector<Polyline> curves;  // (q, ln of the time left at p = 0)
     const auto add_curve = [&](const Course& course) {
       Polyline curve;
@@ -133,8 +136,8 @@ class PlanarTracer {
         Polyline line;
         for (const Point& at : curve) line.push_back(point(at.x, (std::log(time) - at.y) / c));
         for (const Polyline& part : clipped(panel_, line)) {
-          const Eigen::Map<const Eigen::Array2Xd> columns(&part.front().x, 2, static_cast<Eigen::Index>(part.size()));
-          result.push_back({time, columns.row(0), columns.row(1)});
+          PortraitOrbit line_of_time = columns(part, time);
+          result.push_back({time, std::move(line_of_time.u), std::move(line_of_time.v)});
         }
       }
     }
@@ -152,9 +155,7 @@ class PlanarTracer {
   }
 
  private:
-  Vector2d at(Point place) const {
-    return window_.low + Vector2d(place.x, place.y).cwiseProduct(window_.high - window_.low);
-  }
+  Vector2d at(Point place) const { return window_.low + Vector2d(place.x, place.y).cwiseProduct(window_.sides()); }
   Point point(double q, double p) const {
     const Vector2d x = plane_.point(q, p);
     return {x[0], x[1]};
@@ -207,9 +208,9 @@ class PlanarTracer {
     Polyline line;
     const auto begin = on_orbit(course.low), end = on_orbit(course.high);
     if (!from_here && sector.from_ray && seen(begin.second)) line = ray(sector.from, std::nullopt, begin.second);
-    if (!from_here) refine(line, on_orbit, course.low, here);
+    if (!from_here) follow(line, on_orbit, course.low, here);
     line.push_back({x[0], x[1]});
-    refine(line, on_orbit, here, course.high);
+    follow(line, on_orbit, here, course.high);
     if (sector.to_ray && seen(end.second)) {
       const Polyline rest = ray(sector.to, end.second, std::nullopt);
       line.insert(line.end(), rest.begin(), rest.end());
@@ -241,13 +242,13 @@ class PlanarTracer {
   }
 
   template <class OnOrbit>
-  void refine(Polyline& line, const OnOrbit& on_orbit, double from, double to) const;
+  void follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const;
 
   Polyline spiral(double q, double p, double integral, bool from_here) const;
 
   const PlanarReduction& plane_;
-  PlanarWindow window_;
-  Panel panel_;  ///< the panel that clips
+  Window window_;
+  Panel panel_;
   std::vector<Vector2d> border_;
   double highest_, lowest_;  ///< visible range of p
   std::vector<Course> courses_;
@@ -257,39 +258,26 @@ class PlanarTracer {
 
 /// Appends the orbit from one x to another, with visibly close points.
 template <class OnOrbit>
-void PlanarTracer::refine(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
-  struct Place {
-    double x;
-    Point at;
-  };
-  const auto place_at = [&](double x) {
+void PlanarTracer::follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
+  const auto at = [&](double x) {
     const auto [q, p] = on_orbit(x);
-    return Place{x, point(q, std::clamp(p, lowest_ - 1, highest_ + 1))};
+    return point(q, std::clamp(p, lowest_ - 1, highest_ + 1));
   };
-  const auto clamped = [&](Point at) {
-    const Point paper = on_paper(panel_, at);
+  const auto clamped = [this](Point place) {
+    const Point paper = on_paper(panel_, place);
     return Point{std::clamp(paper.x, -1.0, 2.0), std::clamp(paper.y, -1.0, 2.0)};
   };
+  constexpr double near = 0.008, step = 0.5;
   const auto distance = [&](Point a, Point b) {
     const Point here = clamped(a), there = clamped(b);
-    return std::hypot(here.x - there.x, here.y - there.y);
+    return std::hypot(here.x - there.x, here.y - there.y) / near;
   };
-  constexpr double near = 0.008, step = 0.5, closest = 1e-4;
-  Place last = place_at(from);
-  line.push_back(last.at);
-  std::vector<Place> open;
+  std::vector<double> places;
   const int pieces = 1 + static_cast<int>(std::abs(to - from) / step);
-  for (int i = pieces; i > 0; --i) open.push_back(place_at(from + (to - from) * i / pieces));
-  while (!open.empty()) {
-    const Place next = open.back();
-    if (std::abs(next.x - last.x) > closest && distance(last.at, next.at) > near) {
-      open.push_back(place_at((last.x + next.x) / 2));
-      continue;
-    }
-    if (open.size() == 1 || distance(line.back(), next.at) > near / 4) line.push_back(next.at);
-    last = next;
-    open.pop_back();
-  }
+  for (int i = 1; i <= pieces; ++i) places.push_back(from + (to - from) * i / pieces);
+  line.push_back(at(from));
+  refine(line, from, places, at, distance);
+  line.back() = at(to);
 }
 
 Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_here) const {
@@ -306,11 +294,11 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   };
   Polyline line;
   if (std::abs(growth_) < 1e-9) {
-    refine(line, on_orbit, q, q + sense_ * 2 * pi);
+    follow(line, on_orbit, q, q + sense_ * 2 * pi);
     return line;
   }
-  if (!from_here) refine(line, on_orbit, q - sense_ * 2 * pi * turns(shrinking < 0 ? highest_ : lowest_), q);
-  refine(line, on_orbit, q, q + sense_ * 2 * pi * turns(shrinking < 0 ? lowest_ : highest_));
+  if (!from_here) follow(line, on_orbit, q - sense_ * 2 * pi * turns(shrinking < 0 ? highest_ : lowest_), q);
+  follow(line, on_orbit, q, q + sense_ * 2 * pi * turns(shrinking < 0 ? lowest_ : highest_));
   return line;
 }
 
@@ -318,9 +306,9 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
 /// they have as much room, because most systems have such a symmetry.
 /// @param tracer  PlanarTracer or MotionTracer
 template <class Tracer>
-std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindow& window, const Vector2d& middle,
-                                         std::optional<int> count) {
-  const Vector2d sides = window.high - window.low;
+std::vector<PortraitOrbit> filling(const Tracer& tracer, const Window& window, const Vector2d& middle,
+                                   std::optional<int> count) {
+  const Vector2d sides = window.sides();
   const auto at = [&](Point there) { return Vector2d(window.low + Vector2d(there.x, there.y).cwiseProduct(sides)); };
   const auto place = [&](const Vector2d& x) {
     const Vector2d part = (x - window.low).cwiseQuotient(sides);
@@ -337,7 +325,7 @@ std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindo
     }
   }
   Gaps gaps(std::move(seeds), {1, 1});
-  std::vector<PlanarPortraitOrbit> orbits;
+  std::vector<PortraitOrbit> orbits;
   std::vector<Point> mirrored;  // places to try first
   const Point centre = place(middle);
   for (int traced = 0; traced < count.value_or(most) && !gaps.empty();) {
@@ -360,7 +348,7 @@ std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindo
     }
     ++traced;
     widest->gap = 0;
-    for (PlanarPortraitOrbit& piece : tracer.orbit(through)) {
+    for (PortraitOrbit& piece : tracer.orbit(through)) {
       for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
         gaps.pass(its_sector, place({piece.u[row], piece.v[row]}));
       }
@@ -374,18 +362,15 @@ std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindo
 /// Traces motions forwards and backwards in time, for systems without a scaling.
 class MotionTracer {
  public:
-  MotionTracer(const PlanarReduction& plane, const PlanarWindow& window)
+  MotionTracer(const PlanarReduction& plane, const Window& window)
       : forth_(plane),
         back_(plane.reversed()),
         steps_forth_(reduction::by_steps(plane.field())),
         steps_back_(steps_forth_.reversed()),
-        window_(window) {
-    panel_.x = {"", window.low[0], window.high[0], false, {}};
-    panel_.y = {"", window.low[1], window.high[1], false, {}};
-  }
+        window_(window) {}
 
   /// Returns an orbit as PlanarTracer does.
-  std::vector<PlanarPortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
+  std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
     Polyline line;
     if (!from_here) {
       line = way(back_, steps_back_, x);
@@ -394,13 +379,7 @@ class MotionTracer {
     line.push_back({x[0], x[1]});
     const Polyline later = way(forth_, steps_forth_, x);
     line.insert(line.end(), later.begin(), later.end());
-    std::vector<PlanarPortraitOrbit> pieces;
-    for (const Polyline& part : clipped(panel_, line)) {
-      if (part.size() < 2) continue;
-      const Eigen::Map<const Eigen::Array2Xd> columns(&part.front().x, 2, static_cast<Eigen::Index>(part.size()));
-      pieces.push_back({columns.row(0), columns.row(1), Eigen::ArrayXd::Constant(columns.cols(), infinity)});
-    }
-    return pieces;
+    return parts_of(line, window_, [](const Vector2d&) { return infinity; });
   }
 
   /// Returns 0 if the field has a value. Sectors are not known without a scaling.
@@ -414,8 +393,8 @@ class MotionTracer {
   }
 
   /// Returns the orbits that leave the saddles and those that enter them, from points just beside the saddles.
-  std::vector<PlanarPortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
-    std::vector<PlanarPortraitOrbit> all;
+  std::vector<PortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
+    std::vector<PortraitOrbit> all;
     for (const reduction::Equilibrium& saddle : equilibria) {
       if (saddle.kind() != "saddle") continue;
       const auto [stable, unstable] = saddle.eigenvalues();
@@ -424,7 +403,7 @@ class MotionTracer {
         Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
                                                                  : Vector2d(-rest(1, 1), rest(1, 0));
         constexpr double beside = 1e-6;
-        along *= beside / along.cwiseQuotient(window_.high - window_.low).norm();
+        along *= beside / along.cwiseQuotient(window_.sides()).norm();
         for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
           if (!sector(x)) continue;
           std::ranges::move(orbit(x), std::back_inserter(all));
@@ -438,7 +417,7 @@ class MotionTracer {
   /// Follows a motion out of the window and for some of its sides beyond, because it may return.
   Polyline way(const PlanarReduction& plane, const PlanarReduction& by_steps, const Vector2d& x) const {
     const Vector2d f = plane.field()(x);
-    const Vector2d sides = window_.high - window_.low;
+    const Vector2d sides = window_.sides();
     const double speed = f.cwiseQuotient(sides).norm();
     if (!(speed > 0)) return {};
     bool stepped = false;
@@ -501,89 +480,73 @@ class MotionTracer {
   }
 
   PlanarReduction forth_, back_, steps_forth_, steps_back_;
-  PlanarWindow window_;
-  Panel panel_;  ///< the panel that clips
+  Window window_;
 };
 
 Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
-PlanarWindow window_of(const PlanarReduction& plane, const PlanarPortraitRequest& request) {
-  if (request.window) return *request.window;
+/// Returns the window of a request, and checks both.
+Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
+  if (request.view || request.comparison || request.stepped || request.linear || request.drawn_only ||
+      request.time_unit != 1) {
+    throw std::domain_error("portrait: views, laws, routes, scales and units of time are only for (2.6)");
+  }
+  const Vector2d middle = middle_of(plane);
   double half = 0;
   const double room = plane.scaling() ? 1.2 : 2.5;
-  const auto include = [&](const Vector2d& x) {
-    half = std::max(half, room * (x - middle_of(plane)).lpNorm<Eigen::Infinity>());
+  const auto include = [&](const State& x) {
+    half = std::max(half, room * (vector_of(x) - middle).lpNorm<Eigen::Infinity>());
   };
   if (request.highlight) include(*request.highlight);
   std::ranges::for_each(request.through, include);
-  const Vector2d sides = request.sides.value_or(Vector2d::Constant(half > 0 ? half : 1));
-  return {middle_of(plane) - sides, middle_of(plane) + sides};
-}
-
-void require(const PlanarWindow& window, const PlanarPortraitRequest& request) {
-  if (request.orbits.value_or(0) < 0 || request.isochrones.value_or(0) < 0) {
-    throw std::domain_error(fmt::format("planar_portrait: numbers of orbits and isochrones must be >= 0, got {} and {}",
-                                        request.orbits.value_or(0), request.isochrones.value_or(0)));
-  }
-  const Vector2d sides = window.high - window.low;
-  if (!(sides.minCoeff() > 0) || !sides.allFinite() || !window.low.allFinite()) {
+  const Vector2d half_sides = request.sides.value_or(Vector2d::Constant(half > 0 ? half : 1));
+  const Window window = request.window.value_or(Window{middle - half_sides, middle + half_sides});
+  if (!(window.sides().minCoeff() > 0) || !window.sides().allFinite() || !window.low.allFinite()) {
     throw std::domain_error(
-        fmt::format("planar_portrait: the window must be finite and have two positive sides, got "
-                    "{} to {} by {} to {}",
+        fmt::format("portrait: the window must be finite and have two positive sides, got {} to {} by {} to {}",
                     window.low[0], window.high[0], window.low[1], window.high[1]));
   }
-  for (const Vector2d& x : request.through) {
-    if ((x - window.low).minCoeff() >= 0 && (window.high - x).minCoeff() >= 0) continue;
-    throw std::domain_error(
-        fmt::format("planar_portrait: the point ({}, {}) lies outside the window {} to {} by {} to {}", x[0], x[1],
-                    window.low[0], window.high[0], window.low[1], window.high[1]));
-  }
+  require(request, window);
+  return window;
 }
 
 }  // namespace
 
-PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PlanarPortraitRequest& request) {
-  PlanarPortrait portrait{std::move(name), plane, window_of(plane, request), {}, {}, 0, {}, {}, request.through};
-  require(portrait.window, request);
+PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
+  const Window window = window_of(plane, request);
+  PlanarPortrait portrait{{window, {}, {}, 0, {}, {}, request.through}, std::move(name), plane};
   const auto trace = [&](const auto& tracer) {
-    portrait.orbits = filling(tracer, portrait.window, middle_of(plane), request.orbits);
-    if (request.highlight) {
-      plane.end(*request.highlight);  // throws for a point without a value
-      portrait.highlight = tracer.orbit(*request.highlight, true);
-    }
-    for (const Vector2d& x : request.through) {
-      plane.end(x);
-      std::ranges::move(tracer.orbit(x), std::back_inserter(portrait.through));
-    }
+    portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits);
+    const auto asked = [&](const State& x, bool from_here) {
+      plane.end(vector_of(x));  // throws for a point without a value
+      return tracer.orbit(vector_of(x), from_here);
+    };
+    if (request.highlight) portrait.highlight = asked(*request.highlight, true);
+    for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
   };
   if (plane.scaling() == nullptr) {
-    const MotionTracer tracer(plane, portrait.window);
+    const MotionTracer tracer(plane, window);
     trace(tracer);
-    portrait.equilibria = reduction::find_equilibria({plane.field()}, portrait.window.low, portrait.window.high);
+    portrait.equilibria = reduction::find_equilibria({plane.field()}, window.low, window.high);
     prove_centers(portrait.equilibria, plane);
     portrait.separatrices = tracer.separatrices(portrait.equilibria);
-    const Vector2d& low = portrait.window.low;
-    const Vector2d sides = portrait.window.high - low;
-    for (const reduction::FactorPiece& piece : plane.factor_pieces(low, portrait.window.high)) {
-      std::ranges::move(zero_lines(piece, sides), std::back_inserter(portrait.invariant));
+    for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
+      for (const Polyline& line : zero_lines(piece, window.sides())) {
+        portrait.invariant.push_back(columns(line, infinity));
+      }
     }
     return portrait;
   }
-  const PlanarTracer tracer(portrait.plane, portrait.window);
+  const PlanarTracer tracer(portrait.plane, window);
   trace(tracer);
   const std::vector<double> times = tracer.times_at_border();
-  if (!request.isochrone_times.empty()) {
-    const auto [asked, step] = asked_times(request.isochrone_times, 1);
-    if (!times.empty()) portrait.isochrones = tracer.isochrones(asked);
-    portrait.isochrone_step = step;
-  } else if (request.isochrones != 0 && !times.empty()) {
+  if (!times.empty()) {
     // Next to a ray that leads elsewhere, times are unbounded.
     const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
-    constexpr int usual = 7;
-    const auto [even, step] = even_times(last, 1, request.isochrones, usual);
-    portrait.isochrones = tracer.isochrones(even);
+    const auto [at, step] = isochrone_times(request, last);
+    portrait.isochrones = tracer.isochrones(at);
     portrait.isochrone_step = step;
   }
   return portrait;

@@ -51,7 +51,7 @@ StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, doub
   std::vector<double> times =
       logarithmic ? round_ratios(low, high, few_decades) : multiples(low, high, round_step(high - low, pieces));
   for (double& time : times) time *= time_unit;
-  map.isochrones = isochrones(flow, {{u0[0], v0[0]}, {u0[columns - 1], v0[rows - 1]}, logarithmic}, times);
+  map.isochrones = isochrones(flow, {{u0[0], v0[0]}, {u0[columns - 1], v0[rows - 1]}}, times, logarithmic);
   return map;
 }
 

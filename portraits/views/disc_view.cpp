@@ -93,7 +93,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
 MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const PhasePortrait& portrait = drawing.portrait;
   const double mu = portrait.system().mu();
-  const PolarMap map{portrait.window.v, hole};
+  const PolarMap map{portrait.window.v(), hole};
   Panel panel;
   // Labels avoid the marks, however small the panel is.
   const double letter = drawing.letter / std::min(drawing.panel_mm.x / 2.26, drawing.panel_mm.y / 1.26);

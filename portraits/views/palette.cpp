@@ -84,7 +84,23 @@ std::size_t TimeBands::band(double tau) const {
   return static_cast<std::size_t>(std::ranges::upper_bound(edges, tau) - edges.begin());
 }
 
-TimeBands bands_of(double longest, std::vector<double> isochrones, double step, double unit, const Palette& palette) {
+TimeBands bands_of(const std::vector<const Portrait*>& portraits, double unit, const Palette& palette, double most) {
+  double longest = 0, of_highlights = 0;
+  std::vector<double> isochrones;
+  const auto take_longest = [](double& time, const std::vector<PortraitOrbit>& orbits) {
+    for (const PortraitOrbit& orbit : orbits) {
+      if (std::isfinite(orbit.tau_left[0])) time = std::max(time, orbit.tau_left[0]);
+    }
+  };
+  for (const Portrait* portrait : portraits) {
+    take_longest(longest, portrait->orbits);
+    take_longest(longest, portrait->through);
+    take_longest(of_highlights, portrait->highlight);
+    for (const Isochrone& isochrone : portrait->isochrones) isochrones.push_back(isochrone.tau_stop);
+  }
+  if (longest == 0) longest = of_highlights > 0 ? of_highlights : 1;
+  longest = std::min(longest, most);
+  const double step = portraits.front()->isochrone_step;
   if (isochrones.empty()) return linear_bands(longest, unit * round_down(longest / unit / 4), unit, palette);
   if (step > 0) return linear_bands(longest, step, unit, palette);
   std::ranges::sort(isochrones);

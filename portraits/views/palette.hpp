@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -35,12 +36,13 @@ struct TimeBands {
   double begin(std::size_t band) const { return band == 0 ? 0 : edges[band - 1]; }
 };
 
-/// Returns bands that change at isochrones. If isochrones are multiples of a step, each interval has some equal bands,
-/// in round steps of the unit if possible; else there is one band between two isochrones.
-/// @param longest     longest visible time, in tau
-/// @param isochrones  times of isochrones; if empty, about four intervals
-/// @param step        step of the isochrones; 0: none
-TimeBands bands_of(double longest, std::vector<double> isochrones, double step, double unit, const Palette& palette);
+/// Returns bands for the times left of portraits, which change at isochrones; without isochrones in about four
+/// intervals. If isochrones are multiples of a step, each interval has some equal bands, in round steps of the unit if
+/// possible; else there is one band between two isochrones.
+/// @param unit  unit of the bar's numbers, in tau
+/// @param most  limit of the times
+TimeBands bands_of(const std::vector<const Portrait*>& portraits, double unit, const Palette& palette,
+                   double most = INFINITY);
 
 /// Returns bands of equal ratio from the shortest time to the longest, in tau, with edges at multiples of the unit.
 TimeBands logarithmic_bands(double shortest, double longest, double unit, const Palette& palette);

@@ -67,37 +67,40 @@ class LabelPlace {
 }  // namespace
 
 /// Returns points on paper that labels avoid, by increasing x: orbits, also those drawn later on top, and arrows.
-std::vector<Point> PanelLayers::obstacles(const std::vector<Polyline>& crossed) const {
+std::vector<Point> PanelLayers::obstacles() const {
   std::vector<Point> points = heads_;
   const auto add = [&](const Polyline& line) {
     std::ranges::copy(on_paper_along(line, 0.01), std::back_inserter(points));
   };
   std::ranges::for_each(orbits_, add);
-  std::ranges::for_each(crossed, add);
+  for (const auto* asked : {&look_.curves.through, &look_.curves.highlight}) {
+    for (const PortraitOrbit& orbit : *asked) add(map_.line(orbit));
+  }
   std::erase_if(points, [](Point point) { return !inside(point, -1); });
   std::ranges::sort(points, {}, &Point::x);
   return points;
 }
 
-void PanelLayers::add_isochrones(const std::vector<TimedPiece>& pieces, const Text& legend, double unit,
-                                 const std::vector<Polyline>& crossed, double middle) {
-  Lines lines{{}, {look_.palette.isochrone, 1.1, true}, legend};
-  const std::vector<Point> points = obstacles(crossed);
+void PanelLayers::add_isochrones(double middle) {
+  const std::vector<Isochrone>& pieces = look_.curves.isochrones;
+  if (pieces.empty()) return;
+  Lines lines{{}, {look_.palette.isochrone, 1.1, true}, time_left(look_.caption)};
+  const std::vector<Point> points = obstacles();
   std::vector<Point> labels;
   for (auto piece = pieces.begin(); piece != pieces.end();) {
-    const double time = piece->time;
-    const Text text = number(time / unit);
+    const double time = piece->tau_stop;
+    const Text text = number(time / look_.caption.time_unit);
     // First choice: on the right, so that numbers stand above one another; then anywhere; then over a line.
     LabelPlace right(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
                      look_.letter * 0.7 / look_.panel_mm.y);
     LabelPlace anywhere = right;
-    for (; piece != pieces.end() && piece->time == time; ++piece) {
-      for (const Point& at : on_paper_along(piece->line, 0.004)) {
+    for (; piece != pieces.end() && piece->tau_stop == time; ++piece) {
+      const Polyline& line = lines.lines.emplace_back(line_of(*piece));
+      for (const Point& at : on_paper_along(line, 0.004)) {
         if (!inside(at, 0)) continue;
         if (at.x > middle) right.try_at(at, points, labels, middle);
         anywhere.try_at(at, points, labels, middle);
       }
-      lines.lines.push_back(piece->line);
     }
     const LabelPlace& place = right.has_room() ? right : anywhere;
     if (!place.found()) continue;

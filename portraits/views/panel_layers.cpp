@@ -13,6 +13,49 @@
 
 namespace contensou::portraits {
 
+LayerLook look_of(const PaperSize& size, int panels, bool screen) {
+  LayerLook look{palette(screen), {}, panel_size(size, panels), 0};
+  look.letter = letter_mm(size.width_mm) * look.palette.theme.letters;
+  return look;
+}
+
+TimedLine PanelLayers::line_of(const OrbitCopy& copy) const {
+  const auto row = [&](Eigen::Index i) {
+    PortraitOrbit::Instant at = copy.orbit.at(i, copy.factor);
+    at.u *= copy.sign;
+    return at;
+  };
+  TimedLine timed;
+  for (Eigen::Index i = 0; i < copy.orbit.rows(); ++i) {
+    timed.line.push_back(map_.place(row(i), row(0)));
+    timed.left.push_back(copy.factor * copy.orbit.tau_left[i]);
+  }
+  return timed;
+}
+
+std::vector<TimedLine> PanelLayers::lines_of(const std::vector<OrbitCopy>& copies) const {
+  std::vector<TimedLine> lines;
+  for (const OrbitCopy& copy : copies) lines.push_back(line_of(copy));
+  return lines;
+}
+
+std::vector<TimedLine> PanelLayers::lines_of(const std::vector<PortraitOrbit>& orbits) const {
+  std::vector<TimedLine> lines;
+  for (const PortraitOrbit& orbit : orbits) lines.push_back(line_of(OrbitCopy{orbit}));
+  return lines;
+}
+
+Polyline PanelLayers::line_of(const Isochrone& isochrone) const {
+  Polyline line;
+  for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) line.push_back(place(isochrone.u[i], isochrone.v[i]));
+  return line;
+}
+
+Point PanelLayers::place(double u, double v) const {
+  const PortraitOrbit::Instant at{u, v, std::log(v), std::log(v / (look_.mu * std::abs(u))), 0};
+  return map_.place(at, at);
+}
+
 std::vector<Point> PanelLayers::on_paper_along(const Polyline& line, double step) const {
   std::vector<Point> points;
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -22,6 +65,16 @@ std::vector<Point> PanelLayers::on_paper_along(const Polyline& line, double step
   }
   if (!line.empty()) points.push_back(on_paper(panel_, line.back()));
   return points;
+}
+
+bool PanelLayers::add_orbits(std::vector<TimedLine> orbits, bool coloured, const Text& legend) {
+  const auto plain = std::ranges::stable_partition(
+      orbits, [=](const TimedLine& orbit) { return coloured && std::isfinite(orbit.left.front()); });
+  const std::vector<TimedLine> others(plain.begin(), plain.end());
+  orbits.erase(plain.begin(), plain.end());
+  if (!others.empty()) add_plain(others, {look_.palette.orbit, 1.3}, orbits.empty() ? legend : "other orbits");
+  add_coloured(orbits);
+  return !orbits.empty();
 }
 
 void PanelLayers::add_coloured(const std::vector<TimedLine>& orbits) {
@@ -64,7 +117,28 @@ void PanelLayers::add_plain(const std::vector<TimedLine>& orbits, Stroke stroke,
   panel_.arrows.push_back(std::move(arrows));
 }
 
-void PanelLayers::add_points(const std::vector<Point>& points) {
+void PanelLayers::add_highlights() {
+  if (!look_.style.asked) return;
+  const Portrait& curves = look_.curves;
+  const auto add = [&](const std::vector<PortraitOrbit>& orbits, bool of_start, const Text& legend) {
+    if (asked_first_) heads_.clear();
+    if (!orbits.empty()) add_plain(lines_of(orbits), asked_stroke(look_.palette, of_start), legend);
+  };
+  if (!curves.points.empty()) {
+    add(curves.through, false, through_legend);
+    add_points();
+  }
+  if (curves.highlight.empty()) return;
+  const Text& legend = look_.caption.highlight;
+  add(curves.highlight, true, legend);
+  const Point start = map_.line(curves.highlight.front()).front();
+  if (inside(on_paper(panel_, start), 0))
+    panel_.marks.push_back({{start}, look_.palette.highlight, 0.6, Marks::Shape::dot, legend});
+}
+
+void PanelLayers::add_points() {
+  std::vector<Point> points;
+  for (const reduction::State& point : look_.curves.points) points.push_back(place(point.u, point.v));
   const bool numbered = points.size() > 1;
   constexpr double small = 0.9, around_number = 2.6;
   const Colour colour = look_.palette.highlight;
@@ -80,7 +154,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
   const std::vector<double>& times = orbit.left;
   using Style = PortraitStyle::Arrows;
   std::vector<TimedArrow> result;
-  if (arrows_ == Style::none) return result;
+  if (look_.style.arrows == Style::none) return result;
   const auto has_room = [&](const Arrow& arrow) {
     const Point at = on_paper(panel_, arrow.at);
     if (!std::isfinite(at.x) || !std::isfinite(at.y) || !inside(at, 0.03)) return false;
@@ -99,7 +173,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
         std::ranges::min_element(line, {}, [&](Point point) { return paper_distance(panel_, point, arrow.at); });
     result.push_back({arrow, times[static_cast<std::size_t>(nearest - line.begin())]});
   };
-  if (arrows_ == Style::time) {
+  if (look_.style.arrows == Style::time) {
     // The order is that of the motion, along which the time left decreases.
     for (auto time = look_.bands.arrows.rbegin(); time != look_.bands.arrows.rend(); ++time) {
       const auto place = std::ranges::lower_bound(times, *time, std::greater<>());
@@ -113,7 +187,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
   }
   const std::vector<Polyline> parts = clipped(panel_, line);
   if (parts.empty()) return result;
-  if (early_arrows_ && arrows_ == Style::time) {
+  if (early_arrows_ && look_.style.arrows == Style::time) {
     const Arrow arrow = arrow_along(panel_, parts.front(), 0.2);
     if (on_paper(panel_, arrow.at).y > 0.6) add_there(arrow);
   }
@@ -126,7 +200,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
 }
 
 void PanelLayers::add_heads(const Lines& lines) {
-  if (arrows_ == PortraitStyle::Arrows::none) return;
+  if (look_.style.arrows == PortraitStyle::Arrows::none) return;
   Arrows arrows{{}, lines.stroke.colour};
   for (const Polyline& line : lines.lines) {
     for (const Polyline& part : clipped(panel_, line)) {

@@ -20,6 +20,16 @@ struct LayerLook {
   double letter;   ///< size of letters, mm
 };
 
+LayerLook look_of(const PaperSize& size, int panels, bool screen);
+
+/// The data and options from which the plane of any system is drawn.
+struct CurveDrawing : LayerLook {
+  const Portrait& curves;
+  const PortraitCaption& caption;
+  const PortraitStyle& style;
+  double mu = 1;  ///< mu of (2.6)
+};
+
 /// Returns true if a place on paper (layout.hpp) is in its panel, at least a margin from the border.
 inline bool inside(Point place, double margin) {
   return place.x >= margin && place.x <= 1 - margin && place.y >= margin && place.y <= 1 - margin;
@@ -31,23 +41,25 @@ struct TimedLine {
   std::vector<double> left;
 };
 
-/// A part of an isochrone in the units of the axes.
-struct TimedPiece {
-  double time;
-  Polyline line;
-};
-
 /// A short step of a motion in the units of the axes, and the speed there.
 struct Drift {
   Point from, to;
   double size;
 };
 
-/// A panel to which layers of motions are added: lines in bands of time, arrows, labelled isochrones, directions.
+/// An orbit scaled by a factor; the sign -1 mirrors it.
+struct OrbitCopy {
+  const PortraitOrbit& orbit;
+  double factor = 1;
+  double sign = 1;
+};
+
+/// A panel to which layers of motions are added, placed by its map: lines in bands of time, arrows, labelled
+/// isochrones, directions.
 class PanelLayers {
  public:
-  PanelLayers(const LayerLook& look, PortraitStyle::Arrows arrows, Panel axes)
-      : look_(look), arrows_(arrows), panel_(std::move(axes)) {}
+  PanelLayers(const CurveDrawing& drawing, Panel axes, PanelMap map)
+      : look_(drawing), panel_(std::move(axes)), map_(std::move(map)) {}
 
   /// Sets the place of an orbit's only arrow, as a fraction of its length on paper, and the least distance of heads, in
   /// sizes of letters.
@@ -56,38 +68,42 @@ class PanelLayers {
     keep_off_ = keep_off;
   }
 
-  void add_coloured(const std::vector<TimedLine>& orbits);
+  /// Adds orbits in the colours of their times. Those that take for ever, and all if they are not coloured, are plain.
+  /// @param legend  legend of orbits that are all plain
+  /// @return  true if one has colours
+  bool add_orbits(std::vector<TimedLine> orbits, bool coloured, const Text& legend);
   void add_plain(const std::vector<TimedLine>& orbits, Stroke stroke, const Text& legend);
 
   /// Adds isochrones, with labels where orbits leave room.
-  /// @param pieces   by increasing time
-  /// @param unit     time unit of the labels
-  /// @param crossed  lines that labels avoid, beside the orbits
-  /// @param middle   x on paper of another line that labels avoid
-  void add_isochrones(const std::vector<TimedPiece>& pieces, const Text& legend, double unit,
-                      const std::vector<Polyline>& crossed, double middle);
+  /// @param middle   x on paper of a line that labels avoid, too
+  void add_isochrones(double middle);
+
+  /// Adds the orbits through the requested points, these points, and the orbit of the start.
+  void add_highlights();
 
   /// Adds needles on a grid, whose length grows with the logarithm of the speed.
   /// @param at  returns the motion at a point of the axes
   void add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend);
 
-  /// Adds circles at the requested points, with numbers if there are several.
-  void add_points(const std::vector<Point>& points);
-
   /// Adds two heads to each part of the lines.
   void add_heads(const Lines& lines);
 
   Panel& panel() { return panel_; }
+  std::vector<TimedLine> lines_of(const std::vector<OrbitCopy>& copies) const;
+  std::vector<TimedLine> lines_of(const std::vector<PortraitOrbit>& orbits) const;
 
  protected:
   /// Returns points on paper along a line, at distances of at most a step.
   std::vector<Point> on_paper_along(const Polyline& line, double step) const;
-  void forget_heads() { heads_.clear(); }
+  TimedLine line_of(const OrbitCopy& copy) const;
+  Polyline line_of(const Isochrone& isochrone) const;
+  Point place(double u, double v) const;
 
-  const LayerLook& look_;
-  PortraitStyle::Arrows arrows_;
+  const CurveDrawing& look_;
   Panel panel_;
+  PanelMap map_;
   bool early_arrows_ = false;  ///< true: one more arrow at the beginning of an orbit
+  bool asked_first_ = false;   ///< true: arrows of requested orbits need no distance from those of others
 
  private:
   struct TimedArrow {
@@ -95,8 +111,11 @@ class PanelLayers {
     double left;  ///< time left at the arrow
   };
 
+  void add_coloured(const std::vector<TimedLine>& orbits);
+  /// Adds circles at the requested points, with numbers if there are several.
+  void add_points();
   std::vector<TimedArrow> arrows_on(const TimedLine& orbit);
-  std::vector<Point> obstacles(const std::vector<Polyline>& crossed) const;
+  std::vector<Point> obstacles() const;
 
   double arrow_fraction_ = 0.3;
   double keep_off_ = 2;

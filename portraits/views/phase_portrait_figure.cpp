@@ -41,22 +41,6 @@ bool have_one_law(std::span<const PhasePortrait> portraits) {
       portraits, [&](const PhasePortrait& other) { return law_names(other) == law_names(portraits.front()); });
 }
 
-/// Returns the bands of time of portraits.
-/// @param unit  unit of the bar's numbers, in tau
-TimeBands bands_of(std::span<const PhasePortrait> portraits, double unit, const Palette& palette) {
-  double longest = 0, of_highlights = 0;
-  std::vector<double> times;
-  for (const PhasePortrait& portrait : portraits) {
-    for (const PortraitOrbit& orbit : portrait.orbits) longest = std::max(longest, orbit.tau_left[0]);
-    for (const PortraitOrbit& orbit : portrait.through) longest = std::max(longest, orbit.tau_left[0]);
-    if (portrait.highlight) of_highlights = std::max(of_highlights, portrait.highlight->tau_left[0]);
-    for (const Isochrone& isochrone : portrait.isochrones) times.push_back(isochrone.tau_stop);
-  }
-  if (longest == 0) longest = of_highlights > 0 ? of_highlights : 1;
-  const double step = portraits.front().isochrone_step;
-  return bands_of(longest, std::move(times), step, unit, palette);
-}
-
 /// Returns a title of the properties that all portraits share: the body, and mu or the law.
 Text common_title(std::span<const PhasePortrait> portraits) {
   const PhasePortrait& first = portraits.front();
@@ -116,10 +100,11 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   if (shows_moments(first.view) && stacked) usual.height_mm *= 0.6;
   const PaperSize size = fitted(usual, panels, style.size);
   const double time_unit = captions.front().time_unit;
-  LayerLook look{palette(style.screen), {}, panel_size(size, panels), 0};
-  look.letter = letter_mm(size.width_mm) * look.palette.theme.letters;
+  LayerLook look = look_of(size, panels, style.screen);
   if (layout.times == nullptr) {
-    look.bands = bands_of(portraits, time_unit, look.palette);
+    std::vector<const Portrait*> all;
+    for (const PhasePortrait& portrait : portraits) all.push_back(&portrait);
+    look.bands = bands_of(all, time_unit, look.palette);
   } else {
     double shortest = infinity, longest = 0;
     for (const PhasePortrait& portrait : portraits) {
@@ -145,7 +130,7 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   figure.theme = look.palette.theme;
   bool coloured = false;
   for (std::size_t i = 0; i < portraits.size(); ++i) {
-    const Drawing drawing{look, portraits[i], captions[i], style};
+    const Drawing drawing{{look, portraits[i], captions[i], style, portraits[i].system().mu()}, portraits[i]};
     for (MappedPanel& shown : layout.panels(drawing)) {
       if (const Text& own = captions[i].panel; !own.empty())
         shown.panel.title = shown.panel.title.empty() ? own : own + ",  " + shown.panel.title;
@@ -180,9 +165,9 @@ Figure draw_together(const std::vector<PhasePortrait>& portraits, std::vector<Po
     Text& panel = captions[i].panel;
     if (!have_one_mu(portraits)) panel += math("μ = ") + number(portraits[i].system().mu());
     if (!have_one_law(portraits)) panel += (panel.empty() ? "law " : ",  law ") + law_names(portraits[i]);
-    if (const auto& start = portraits[i].highlight) {
+    if (const auto& start = portraits[i].highlight; !start.empty()) {
       panel += ",  " + captions[i].time_symbol + math(" = ") +
-               fmt::format("{:.4g}", start->tau_left[0] / captions[i].time_unit) +
+               fmt::format("{:.4g}", start[0].tau_left[0] / captions[i].time_unit) +
                (captions[i].time_unit_name.empty() ? "" : " " + captions[i].time_unit_name);
     }
   }

@@ -16,35 +16,8 @@
 namespace contensou::portraits {
 
 using Eigen::Vector2d;
-using Orbits = std::vector<PlanarPortraitOrbit>;
 
 namespace {
-
-TimedLine line_of(const PlanarPortraitOrbit& orbit) {
-  TimedLine timed;
-  for (Eigen::Index i = 0; i < orbit.u.size(); ++i) timed.line.push_back({orbit.u[i], orbit.v[i]});
-  timed.left.assign(orbit.tau_left.begin(), orbit.tau_left.end());
-  return timed;
-}
-
-std::vector<TimedLine> lines_of(const Orbits& orbits) {
-  std::vector<TimedLine> lines;
-  for (const PlanarPortraitOrbit& orbit : orbits) lines.push_back(line_of(orbit));
-  return lines;
-}
-
-TimeBands bands_of(const PlanarPortrait& portrait, const Palette& palette) {
-  double longest = 0;
-  for (const PlanarPortraitOrbit& orbit : portrait.orbits) {
-    if (std::isfinite(orbit.tau_left[0])) longest = std::max(longest, orbit.tau_left[0]);
-  }
-  if (longest == 0) longest = 1;
-  std::vector<double> times;
-  for (const Isochrone& isochrone : portrait.isochrones) times.push_back(isochrone.tau_stop);
-  const double step = portrait.isochrone_step;
-  if (!times.empty() && step > 0) longest = std::min(longest, times.back() + step);
-  return bands_of(longest, std::move(times), step, 1, palette);
-}
 
 /// Adds rays in the direction of the motion, between the border of the panel and the centre.
 void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
@@ -84,38 +57,24 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   constexpr double longest = 3, width = 150;
   const bool to_scale = shape < longest && shape > 1 / longest;
   const PaperSize size = fitted({width, std::clamp(width * (to_scale ? shape : 0.66), 90.0, 200.0)}, 1, style.size);
-  LayerLook look{palette(style.screen), {}, panel_size(size, 1), 0};
-  look.letter = letter_mm(size.width_mm) * look.palette.theme.letters;
-  look.bands = bands_of(portrait, look.palette);
+  const reduction::Generator* scaling = portrait.plane.scaling();
+  PortraitCaption caption;
+  caption.highlight = "the orbit of the start";
+  caption.time_symbol = scaling && scaling->time < 0 ? Text("to infinity") : math("t*");
+  CurveDrawing look{look_of(size, 1, style.screen), portrait, caption, style};
+  const auto& isochrones = portrait.isochrones;
+  const bool even = !isochrones.empty() && portrait.isochrone_step > 0;
+  const double most = even ? isochrones.back().tau_stop + portrait.isochrone_step : infinity;
+  look.bands = bands_of({&portrait}, 1, look.palette, most);
   Panel axes;
   axes.x = {math("u"), low[0], high[0], false, {}};
   axes.y = {math("v"), low[1], high[1], false, {}};
   axes.to_scale = to_scale;
-  PanelLayers layers(look, style.arrows, std::move(axes));
+  const auto place = [](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) { return Point{at.u, at.v}; };
+  PanelLayers layers(look, std::move(axes), {place});
 
-  Orbits timed, untimed;
-  for (const PlanarPortraitOrbit& orbit : portrait.orbits) {
-    (style.colour_by_time && std::isfinite(orbit.tau_left[0]) ? timed : untimed).push_back(orbit);
-  }
-  PortraitCaption caption;
-  const reduction::Generator* scaling = portrait.plane.scaling();
-  caption.time_symbol = scaling && scaling->time < 0 ? Text("to infinity") : math("t*");
-  if (!untimed.empty()) {
-    layers.add_plain(lines_of(untimed), {look.palette.orbit, 1.3}, timed.empty() ? "orbits" : "other orbits");
-  }
-  layers.add_coloured(lines_of(timed));
-  std::vector<Polyline> crossed;
-  for (const Orbits* orbits : {&portrait.through, &portrait.highlight}) {
-    for (TimedLine& timed_line : lines_of(*orbits)) crossed.push_back(std::move(timed_line.line));
-  }
-  if (!portrait.isochrones.empty()) {
-    std::vector<TimedPiece> pieces;
-    for (const auto& [time, u, v] : portrait.isochrones) {
-      pieces.push_back({time, {}});
-      for (Eigen::Index i = 0; i < u.size(); ++i) pieces.back().line.push_back({u[i], v[i]});
-    }
-    layers.add_isochrones(pieces, time_left(caption), 1, crossed, -1);
-  }
+  const bool coloured = layers.add_orbits(layers.lines_of(portrait.orbits), style.colour_by_time, "orbits");
+  layers.add_isochrones(-1);
   if (style.field != PortraitStyle::Field::none) {
     const auto drift = [&](Point at) -> std::optional<Drift> {
       Vector2d rate;
@@ -133,27 +92,14 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   }
   if (style.invariant && scaling) add_rays(layers, portrait, look.palette);
   if (style.invariant && !portrait.invariant.empty()) {
-    layers.panel().lines.push_back({portrait.invariant, {look.palette.comparison, 3}, "invariant curves: V = 0"});
+    Lines lines{{}, {look.palette.comparison, 3}, "invariant curves: V = 0"};
+    for (TimedLine& curve : layers.lines_of(portrait.invariant)) lines.lines.push_back(std::move(curve.line));
+    layers.panel().lines.push_back(std::move(lines));
   }
   if (style.invariant && !portrait.separatrices.empty()) {
-    layers.add_plain(lines_of(portrait.separatrices), {look.palette.comparison, 2}, "separatrices of saddles");
+    layers.add_plain(layers.lines_of(portrait.separatrices), {look.palette.comparison, 2}, "separatrices of saddles");
   }
-  const auto add_asked = [&](const Orbits& orbits, bool of_start, const Text& legend) {
-    if (!orbits.empty()) layers.add_plain(lines_of(orbits), asked_stroke(look.palette, of_start), legend);
-  };
-  add_asked(portrait.through, false, through_legend);
-  if (!portrait.points.empty()) {
-    std::vector<Point> points;
-    for (const Vector2d& x : portrait.points) points.push_back({x[0], x[1]});
-    layers.add_points(points);
-  }
-  constexpr const char* start_legend = "the orbit of the start";
-  add_asked(portrait.highlight, true, start_legend);
-  if (!portrait.highlight.empty()) {
-    const PlanarPortraitOrbit& first = portrait.highlight.front();
-    layers.panel().marks.push_back(
-        {{{first.u[0], first.v[0]}}, look.palette.highlight, 0.6, Marks::Shape::dot, start_legend});
-  }
+  layers.add_highlights();
   if (scaling) {
     const Vector2d& centre = portrait.plane.centre();
     layers.panel().marks.push_back(
@@ -185,7 +131,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   figure.size = size;
   figure.theme = look.palette.theme;
   figure.panels = {std::move(layers.panel())};
-  if (!timed.empty()) figure.colour_bar = colour_bar(look.bands, caption);
+  if (coloured) figure.colour_bar = colour_bar(look.bands, caption);
   return figure;
 }
 

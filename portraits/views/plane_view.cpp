@@ -38,12 +38,12 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
 /// Returns a half-plane panel with the window's sides in units of u and v.
 MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
-  const auto [U, V] = drawing.portrait.window;
-  const auto [u_low, u_high, v_low, v_high] = drawing.portrait.part;
+  const Window& window = drawing.portrait.window;
+  const auto& [low, high] = window;
   const SpeedScale scale = drawing.portrait.scale;
-  const double x = unit * U, top = scale.linear() ? V : 1;
-  const double bottom = scale.linear() ? v_low : scale.height(std::log(v_low));
-  panel.x = {drawing.speed(name), unit * u_low, unit * u_high, false, {}};
+  const double x = unit * window.u(), top = scale.linear() ? high[1] : 1;
+  const double bottom = scale.linear() ? low[1] : scale.height(std::log(low[1]));
+  panel.x = {drawing.speed(name), unit * low[0], unit * high[0], false, {}};
   panel.y = {drawing.speed(math("v")), bottom, top, false, {}};
   if (!scale.linear()) {
     const Text exponent = math("s = ") + number(scale.exponent, 3), power = math("v") + sup(math("s"));
@@ -76,7 +76,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
   });
   layers.add_highlights();
-  if (u_low <= 0 && u_high >= 0 && v_low == 0)
+  if (window.contains({0, 0}))
     layers.panel().marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.2, Marks::Shape::dot, "the stop"});
   return std::move(layers).finished();
 }
@@ -94,7 +94,7 @@ void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double 
 MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
-  const double U = portrait.window.u;
+  const double U = portrait.window.u();
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
   const std::vector<double> rays = ray_log_ratios(portrait);
   constexpr double shrinks = 20;  // u falls to this fraction
@@ -105,7 +105,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   panel.y = {"ln " + math("k") + ",   " + math("k = v/(μ|u|)"), 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
   // Orbits start at the top or around the middle.
-  const double top = std::log(portrait.window.v / (portrait.system().mu() * U));
+  const double top = std::log(portrait.window.v() / (portrait.system().mu() * U));
   const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
@@ -174,7 +174,7 @@ std::vector<MappedPanel> pair_view(const Drawing& drawing) {
 std::vector<MappedPanel> log_view(const Drawing& drawing) {
   using reduction::InvariantDirection;
   const PhasePortrait& portrait = drawing.portrait;
-  const double mu = portrait.system().mu(), V = portrait.window.v;
+  const double mu = portrait.system().mu(), V = portrait.window.v();
   const auto log_u = [=](double u) { return std::log(mu * std::abs(u) / V); };
   const bool spins_last = portrait.plane.tangents.front().direction != InvariantDirection::sliding;
   const std::vector<double> rays = ray_log_ratios(portrait);
@@ -193,8 +193,7 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
     add(curve.at(0));
     if (rays.empty() && (curve.ln_k[0] > 0) == spins_last) add(at_log_ratio(curve, 0));
   };
-  if (portrait.highlight) add_orbit(*portrait.highlight);
-  std::ranges::for_each(portrait.through, add_orbit);
+  for (const auto* orbits : {&portrait.highlight, &portrait.through}) std::ranges::for_each(*orbits, add_orbit);
   if (xs.empty()) add(instant_at_logarithms(mu, 0, std::log(V)));
   const auto [left, right] = std::ranges::minmax(xs);
   const auto [bottom, top] = std::ranges::minmax(ys);

@@ -13,21 +13,17 @@
 namespace contensou::portraits {
 
 void PortraitPanel::add_orbits() {
-  add_layers([](const PhasePortrait& of) {
-    std::vector<Copy> copies;
-    for (const PortraitOrbit& orbit : of.orbits) copies.push_back({orbit});
-    return copies;
-  });
+  add_layers([this](const PhasePortrait& of) { return lines_of(of.orbits); });
 }
 
 void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies,
                                bool mirrored) {
   const bool has_rays = !drawing_.portrait.plane.terminal.rays.empty();
   add_layers([&](const PhasePortrait& of) {
-    if (has_rays || !of.plane.terminal.rays.empty()) return filling(of.flow, mirrored);
+    if (has_rays || !of.plane.terminal.rays.empty()) return lines_of(filling(of.flow, mirrored));
     // The curve begins so steep that it passes the whole window.
-    const double steepest = std::log(of.window.v / (of.system().mu() * of.window.u)) + 7;
-    return copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(upstream_of_copies, steepest))));
+    const double steepest = std::log(of.window.v() / (of.system().mu() * of.window.u())) + 7;
+    return lines_of(copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(upstream_of_copies, steepest)))));
   });
 }
 
@@ -61,16 +57,12 @@ std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& f
   return copies;
 }
 
-void PortraitPanel::add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies) {
+void PortraitPanel::add_layers(const std::function<std::vector<TimedLine>(const PhasePortrait&)>& lines) {
   const PhasePortrait& portrait = drawing_.portrait;
-  if (drawing_.coloured()) {
-    add_coloured(lines_of(copies(portrait)));
-  } else {
-    add_plain(lines_of(copies(portrait)), {drawing_.palette.orbit, 1.3, false},
-              portrait.comparisons.empty() ? "orbits" : law_legend(portrait));
-  }
+  const Text legend = portrait.comparisons.empty() ? "orbits" : law_legend(portrait);
+  PanelLayers::add_orbits(lines(portrait), drawing_.coloured(), legend);
   for (const PhasePortrait& other : portrait.comparisons) {
-    add_plain(lines_of(copies(other)), {drawing_.palette.comparison, 1.3, true}, law_legend(other));
+    add_plain(lines(other), {drawing_.palette.comparison, 1.3, true}, law_legend(other));
   }
 }
 

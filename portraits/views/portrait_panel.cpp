@@ -52,61 +52,6 @@ Polyline PanelMap::line(const PortraitOrbit& orbit) const {
   return line;
 }
 
-TimedLine PortraitPanel::line_of(const Copy& copy) const {
-  const auto row = [&](Eigen::Index i) {
-    Instant at = copy.orbit.at(i, copy.factor);
-    at.u *= copy.sign;
-    return at;
-  };
-  TimedLine timed;
-  for (Eigen::Index i = 0; i < copy.orbit.rows(); ++i) {
-    timed.line.push_back(map_.place(row(i), row(0)));
-    timed.left.push_back(copy.factor * copy.orbit.tau_left[i]);
-  }
-  return timed;
-}
-
-std::vector<TimedLine> PortraitPanel::lines_of(const std::vector<Copy>& copies) const {
-  std::vector<TimedLine> lines;
-  for (const Copy& copy : copies) lines.push_back(line_of(copy));
-  return lines;
-}
-
-Polyline PortraitPanel::line_of(const Isochrone& isochrone) const {
-  Polyline line;
-  for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) line.push_back(place(isochrone.u[i], isochrone.v[i]));
-  return line;
-}
-
-Point PortraitPanel::place(double u, double v) const {
-  const Instant at{u, v, std::log(v), std::log(v / (drawing_.portrait.system().mu() * std::abs(u))), 0};
-  return map_.place(at, at);
-}
-
-void PortraitPanel::add_highlights() {
-  if (!drawing_.style.asked) return;
-  const PhasePortrait& portrait = drawing_.portrait;
-  if (!portrait.through.empty()) {
-    const Stroke stroke = asked_stroke(drawing_.palette, false);
-    std::vector<Copy> copies;
-    for (const PortraitOrbit& orbit : portrait.through) copies.push_back({orbit});
-    std::vector<Point> points;
-    for (const reduction::State& point : portrait.points) points.push_back(place(point.u, point.v));
-    forget_heads();
-    add_plain(lines_of(copies), stroke, through_legend);
-    add_points(points);
-  }
-  if (portrait.highlight) {
-    forget_heads();
-    const Stroke stroke = asked_stroke(drawing_.palette, true);
-    const Text& legend = drawing_.caption.highlight;
-    add_plain(lines_of({{*portrait.highlight}}), stroke, legend);
-    const Point start = map_.line(*portrait.highlight).front();
-    if (inside(on_paper(panel_, start), 0))
-      panel_.marks.push_back({{start}, stroke.colour, 0.6, Marks::Shape::dot, legend});
-  }
-}
-
 void PortraitPanel::add_invariant(std::vector<Polyline> axes, const std::vector<Polyline>& pivoting,
                                   const std::function<std::vector<Polyline>(double ln_k)>& ray) {
   if (!drawing_.style.invariant) return;
@@ -143,28 +88,18 @@ void PortraitPanel::add_field() {
     // The step is small compared with both speeds.
     const double h = 1e-4 / std::max(std::abs(rate.u / here.u), std::abs(rate.v / here.v));
     return Drift{place(here.u, here.v), place(here.u + h * rate.u, here.v + h * rate.v),
-                 std::hypot(rate.u / drawing_.portrait.window.u, rate.v / drawing_.portrait.window.v)};
+                 std::hypot(rate.u / drawing_.portrait.window.u(), rate.v / drawing_.portrait.window.v())};
   };
   add_directions(drift, regularised ? "direction of the regularised motion (2.7)" : "direction of the motion (2.6)");
 }
 
 void PortraitPanel::add_isochrones() {
-  const PhasePortrait& portrait = drawing_.portrait;
-  if (portrait.isochrones.empty()) return;
-  const auto pieces = [this](const PhasePortrait& of) {
-    std::vector<TimedPiece> result;
-    for (const Isochrone& isochrone : of.isochrones) result.push_back({isochrone.tau_stop, line_of(isochrone)});
-    return result;
-  };
-  std::vector<Polyline> crossed;
-  for (const PortraitOrbit& orbit : portrait.through) crossed.push_back(line_of(Copy{orbit}).line);
-  if (portrait.highlight) crossed.push_back(line_of(Copy{*portrait.highlight}).line);
-  const double middle = panel_.x.low < 0 ? on_paper(panel_, {0, 0}).x : -1;
-  const Text legend = time_left(drawing_.caption);
-  PanelLayers::add_isochrones(pieces(portrait), legend, drawing_.caption.time_unit, crossed, middle);
-  for (const PhasePortrait& other : portrait.comparisons) {
-    Lines its_lines{{}, {drawing_.palette.comparison, 1.3, false, true}, legend + ", " + law_legend(other)};
-    for (const TimedPiece& piece : pieces(other)) its_lines.lines.push_back(piece.line);
+  if (drawing_.portrait.isochrones.empty()) return;
+  PanelLayers::add_isochrones(panel_.x.low < 0 ? on_paper(panel_, {0, 0}).x : -1);
+  for (const PhasePortrait& other : drawing_.portrait.comparisons) {
+    const Text legend = time_left(drawing_.caption) + ", " + law_legend(other);
+    Lines its_lines{{}, {drawing_.palette.comparison, 1.3, false, true}, legend};
+    for (const Isochrone& isochrone : other.isochrones) its_lines.lines.push_back(line_of(isochrone));
     panel_.lines.insert(panel_.lines.begin(), std::move(its_lines));
   }
 }

@@ -14,10 +14,8 @@
 namespace contensou::portraits {
 
 /// The data and options from which a view is drawn.
-struct Drawing : LayerLook {
+struct Drawing : CurveDrawing {
   const PhasePortrait& portrait;
-  const PortraitCaption& caption;
-  const PortraitStyle& style;
 
   /// Scales a number of lines meant for a panel 100 mm wide to this panel.
   int crowd(int count) const {
@@ -55,17 +53,13 @@ struct MappedPanel {
 class PortraitPanel : public PanelLayers {
  public:
   PortraitPanel(const Drawing& drawing, Panel axes, PanelMap map)
-      : PanelLayers(drawing, drawing.style.arrows, std::move(axes)), drawing_(drawing), map_(std::move(map)) {
+      : PanelLayers(drawing, std::move(axes), std::move(map)), drawing_(drawing) {
     // On a bent axis of v, sliding takes place above the bend, in hardly any time.
     early_arrows_ = !drawing.portrait.scale.linear();
+    asked_first_ = true;
   }
 
-  /// An orbit scaled by a factor; the sign -1 mirrors it.
-  struct Copy {
-    const PortraitOrbit& orbit;
-    double factor = 1;
-    double sign = 1;
-  };
+  using Copy = OrbitCopy;
 
   /// Adds the orbits of the portrait, and those of the law that it is compared with.
   void add_orbits();
@@ -76,7 +70,6 @@ class PortraitPanel : public PanelLayers {
   /// @param copies    returns copies of a curve that passes k = 1 at v = 1
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half
   void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies, bool mirrored);
-  void add_highlights();
   /// Adds isochrones, with labels where orbits leave room; those of the other law without labels.
   void add_isochrones();
   /// Adds the axes and the invariant rays.
@@ -89,15 +82,10 @@ class PortraitPanel : public PanelLayers {
   MappedPanel finished() && { return {std::move(panel_), std::move(map_)}; }
 
  private:
-  void add_layers(const std::function<std::vector<Copy>(const PhasePortrait&)>& copies);
+  void add_layers(const std::function<std::vector<TimedLine>(const PhasePortrait&)>& lines);
   std::vector<Copy> filling(const reduction::Flow& flow, bool mirrored);
-  TimedLine line_of(const Copy& copy) const;
-  std::vector<TimedLine> lines_of(const std::vector<Copy>& copies) const;
-  Polyline line_of(const Isochrone& isochrone) const;
-  Point place(double u, double v) const;
 
   const Drawing& drawing_;
-  PanelMap map_;
   std::deque<PortraitOrbit> traced_;  ///< orbits to which copies refer
 };
 

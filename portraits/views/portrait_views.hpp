@@ -52,7 +52,7 @@ struct ViewLayout {
 
 /// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V.
 inline double scaled_stop_time(const PhasePortrait& portrait, double x, double y) {
-  const double V = portrait.window.v;
+  const double V = portrait.window.v();
   return portrait.flow.orbit({std::exp(x) * V / portrait.system().mu(), std::exp(y) * V}).stop_time();
 }
 
@@ -75,8 +75,7 @@ inline const std::array view_layouts{
                125, nullptr, "the two speeds at the rim of the patch: sliding and pivoting compare", true},
     ViewLayout{View::log, "log", "plane (mu u, v) with logarithmic axes", log_view, 1, 175, 130,
                [](const PhasePortrait& portrait) {
-                 const auto [u, v] = portrait.window;
-                 const double tau = portrait.flow.orbit({u, v}).stop_time();
+                 const double tau = portrait.flow.orbit({portrait.window.u(), portrait.window.v()}).stop_time();
                  return std::pair{1e-4 * tau, tau};
                },
                "by scaling orbits are translates of one curve along the diagonal"},

@@ -16,7 +16,7 @@ constexpr int max_count = 24;      // most translates of a curve
 /// Draws one panel: translates of each curve, with the arrow of the symmetry.
 MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
                        const std::function<double(double x)>& ln_k_at) {
-  const double middle = std::log(drawing.portrait.window.v);
+  const double middle = std::log(drawing.portrait.window.v());
   axes.y = {math("p") + " = ln " + math("v"), middle - half_height, middle + half_height, false, {}};
   const double below = middle - 100 * half_height;
   const PanelMap map{.place =
@@ -75,7 +75,8 @@ std::vector<MappedPanel> similarity_view(const Drawing& drawing) {
   const std::vector<double> rays = ray_log_ratios(portrait);
   const auto [low, high] = rays.empty() ? std::pair{0.0, 0.0} : std::pair{rays.front(), rays.back()};
   // A requested motion begins inside.
-  const double start = portrait.highlight && portrait.highlight->u[0] != 0 ? portrait.highlight->ln_k[0] : 0;
+  const double start =
+      !portrait.highlight.empty() && portrait.highlight[0].u[0] != 0 ? portrait.highlight[0].ln_k[0] : 0;
   Panel by_q, by_ratio;
   by_q.title = math("q = v/u") + ": the symmetry moves " + math("p") + " alone";
   by_q.x = {math("q = μk"), 0, mu * std::max(rays.empty() ? 4 : 3 * std::exp(high), 1.2 * std::exp(start)), false, {}};

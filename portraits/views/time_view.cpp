@@ -72,12 +72,14 @@ void add_courses(const Drawing& drawing, const std::function<void(const PhasePor
   add_all(portrait, false);
   for (const PhasePortrait& other : portrait.comparisons) add_all(other, true);
   if (!drawing.style.asked) return;
-  const auto add_asked = [&](const PortraitOrbit& orbit, bool of_start, const Text& legend) {
-    if (orbit.u[0] == 0 || orbit.v[0] == 0) return;
-    add(portrait, orbit, asked_stroke(drawing.palette, of_start), legend);
-  };
-  for (const PortraitOrbit& orbit : portrait.through) add_asked(orbit, false, through_legend);
-  if (portrait.highlight) add_asked(*portrait.highlight, true, drawing.caption.highlight);
+  for (const auto* orbits : {&portrait.through, &portrait.highlight}) {
+    const bool of_start = orbits == &portrait.highlight;
+    for (const PortraitOrbit& orbit : *orbits) {
+      if (orbit.u[0] == 0 || orbit.v[0] == 0) continue;
+      add(portrait, orbit, asked_stroke(drawing.palette, of_start),
+          of_start ? drawing.caption.highlight : through_legend);
+    }
+  }
 }
 
 std::vector<MappedPanel> time_view(const Drawing& drawing) {

@@ -87,8 +87,8 @@ std::vector<State> states_of(const val& points) {
 }
 
 /// Returns a state in the window on the motion from one start: the start, or the entry into the window.
-State inside(const Flow& flow, State start, const portraits::Window& window) {
-  const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= window.u && state.v <= window.v; };
+State inside(const Flow& flow, State start, const Eigen::Vector2d& sides) {
+  const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= sides[0] && state.v <= sides[1]; };
   if (is_inside(start)) return start;
   const Orbit orbit = flow.orbit(start);
   const auto comes_in = [&](double time) { return is_inside(orbit.at_time(time)); };
@@ -111,7 +111,7 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   request.view = portraits::find_view(asked["view"].as<std::string>());
   request.linear = asked["linear"].as<bool>();
   if (has("window")) {
-    request.window = portraits::Window{asked["window"][0].as<double>(), asked["window"][1].as<double>()};
+    request.sides = Eigen::Vector2d(asked["window"][0].as<double>(), asked["window"][1].as<double>());
   }
   const std::vector<State> orbits = states_of(asked["orbits"]);
   const auto chosen = static_cast<std::size_t>(asked["chosen"].as<int>());
@@ -119,7 +119,7 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   for (std::size_t i = 0; i < orbits.size(); ++i) {
     // Axes are always drawn.
     if (i == chosen || orbits[i].u == 0 || orbits[i].v == 0) continue;
-    request.through.push_back(request.window ? inside(question.flow, orbits[i], *request.window) : orbits[i]);
+    request.through.push_back(request.sides ? inside(question.flow, orbits[i], *request.sides) : orbits[i]);
   }
   if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // else the program's default number
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
@@ -150,7 +150,7 @@ class Plane {
     question.request.drawn_only = true;
     question.style.asked = false;
     if (!behind) {
-      question.request.orbits_per_side = question.request.isochrones = 0;
+      question.request.orbits = question.request.isochrones = 0;
       question.request.comparison.reset();
     }
     const portraits::PhasePortrait portrait = question.portrait();
@@ -160,14 +160,15 @@ class Plane {
     for (const State& start : states_of(asked["orbits"])) {
       const int index = own["length"].as<int>();
       const bool chosen = index == asked["chosen"].as<int>(), on_axis = start.u == 0 || start.v == 0;
-      const portraits::PortraitOrbit* orbit = chosen && portrait.highlight ? &*portrait.highlight
-                                              : chosen || on_axis          ? nullptr
-                                                                           : &*through++;
+      const portraits::PortraitOrbit* orbit = chosen && !portrait.highlight.empty() ? &portrait.highlight[0]
+                                              : chosen || on_axis                   ? nullptr
+                                                                                    : &*through++;
       own.set(index, own_orbit(start, orbit, portrait.window));
     }
     const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
-    val result = object("own", own, "through", list(question.request.through, point), "window",
-                        list(std::array{portrait.window.u, portrait.window.v}, [](double side) { return val(side); }));
+    val result =
+        object("own", own, "through", list(question.request.through, point), "window",
+               list(std::array{portrait.window.u(), portrait.window.v()}, [](double side) { return val(side); }));
     if (behind) result.set("figure", figure_value(drawn_.figure));
     return result;
   }
@@ -348,7 +349,7 @@ class Plane {
       rows = {from_start(first.u, drawn->u), from_start(first.v, drawn->v), from_start(first.ln_v, drawn->ln_v),
               from_start(first.ln_k, drawn->ln_k), from_start(stop, drawn->tau_left)};
     }
-    const bool is_seen = drawn && std::abs(start.u) <= window.u && start.v <= window.v;
+    const bool is_seen = drawn && window.contains(start);
     val own = is_seen ? object("tau", Eigen::ArrayXd(stop - rows.tau_left), "u", rows.u, "v", rows.v, "k",
                                Eigen::ArrayXd(rows.ln_k.exp()))
                       : motion(start.u, start.v);

@@ -122,15 +122,27 @@ using AskedWindow = std::variant<Sides, std::pair<Sides, Sides>>;
 /// A number of isochrones, or their times.
 using AskedIsochrones = std::variant<int, std::vector<double>>;
 
-template <class Request>
-void ask_isochrones(Request& request, const std::optional<AskedIsochrones>& asked) {
-  if (!asked) return;
-  if (const int* count = std::get_if<int>(&*asked)) {
-    request.isochrones = *count;
-    return;
+/// Returns the request that portraits of all systems share.
+portraits::PortraitRequest request_of(const std::optional<AskedWindow>& window, std::optional<int> orbits,
+                                      const std::vector<Sides>& through,
+                                      const std::optional<AskedIsochrones>& isochrones) {
+  portraits::PortraitRequest request{.orbits = orbits};
+  if (window && std::holds_alternative<Sides>(*window)) {
+    const auto& [u, v] = std::get<Sides>(*window);
+    request.sides = Eigen::Vector2d(u, v);
+  } else if (window) {
+    const auto& [u, v] = std::get<1>(*window);
+    request.window = {{u.first, v.first}, {u.second, v.second}};
   }
-  request.isochrone_times = std::get<1>(*asked);
+  for (const auto& [u, v] : through) request.through.push_back({u, v});
+  if (!isochrones) return request;
+  if (const int* count = std::get_if<int>(&*isochrones)) {
+    request.isochrones = *count;
+    return request;
+  }
+  request.isochrone_times = std::get<1>(*isochrones);
   if (request.isochrone_times.empty()) request.isochrones = 0;
+  return request;
 }
 
 using Size = std::pair<std::optional<double>, std::optional<double>>;
@@ -165,24 +177,15 @@ Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optio
                      bool axes, const std::string& colour, const std::string& style, const std::string& scale,
                      bool estimate, const Size& size, const std::optional<std::string>& title) {
   using Field = PortraitStyle::Field;
-  answers::PortraitSpec asked{
-      .flow = flows.at(0), .experiment = experiment, .style = style_of(arrows, axes, colour, style, size)};
+  answers::PortraitSpec asked{.flow = flows.at(0),
+                              .experiment = experiment,
+                              .request = request_of(window, orbits, through, isochrones),
+                              .style = style_of(arrows, axes, colour, style, size)};
   if (start) asked.start = reduction::State{start->first, start->second};
   if (experiment) asked.start = si::reduced_start(*experiment);
   std::vector<std::pair<std::string, portraits::View>> views;
   for (portraits::View choice : portraits::views()) views.emplace_back(name(choice), choice);
   if (view) asked.request.view = one_of("view", "views", views, *view);
-  if (window) {
-    if (const Sides* sides = std::get_if<Sides>(&*window)) {
-      asked.request.window = {sides->first, sides->second};
-    } else {
-      const auto& [u, v] = std::get<1>(*window);
-      asked.request.part = {u.first, u.second, v.first, v.second};
-    }
-  }
-  for (const auto& [u, v] : through) asked.request.through.push_back({u, v});
-  asked.request.orbits_per_side = orbits;
-  ask_isochrones(asked.request, isochrones);
   asked.request.comparison = against;
   asked.request.linear = one_of<bool>("scale", "scales", {{"bent", false}, {"linear", true}}, scale);
   asked.style.field =
@@ -210,18 +213,8 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
                            const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
                            const std::string& style, const Size& size, const std::optional<std::string>& title) {
   using Field = PortraitStyle::Field;
-  portraits::PlanarPortraitRequest asked{.orbits = orbits};
-  ask_isochrones(asked, isochrones);
-  if (window) {
-    if (const Sides* sides = std::get_if<Sides>(&*window)) {
-      asked.sides = {sides->first, sides->second};
-    } else {
-      const auto& [u, v] = std::get<1>(*window);
-      asked.window = {{u.first, v.first}, {u.second, v.second}};
-    }
-  }
+  portraits::PortraitRequest asked = request_of(window, orbits, through, isochrones);
   if (start) asked.highlight = {start->first, start->second};
-  for (const auto& [u, v] : through) asked.through.emplace_back(u, v);
   PortraitStyle looks = style_of(arrows, axes, colour, style, size);
   looks.field = one_of<Field>("field", "fields", {{"none", Field::none}, {"motion", Field::motion}}, field);
   return interruptible([&]() -> Portrait {

@@ -34,7 +34,7 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
   CHECK(json["law"] == "pade");
   CHECK(json["mu"] == 0.3);
   CHECK(json["view"] == "uv");
-  CHECK(json["window"] == std::vector<double>{portrait.window.u, portrait.window.v});
+  CHECK(json["window"] == std::vector<double>{portrait.window.u(), portrait.window.v()});
   REQUIRE(json["orbits"].size() == portrait.orbits.size());
   CHECK(json["orbits"][3]["u"].get<std::vector<double>>() == list(portrait.orbits[3].u));
   CHECK(json["orbits"][3]["v"].get<std::vector<double>>() == list(portrait.orbits[3].v));
@@ -42,7 +42,7 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
   REQUIRE(json["isochrones"].size() == portrait.isochrones.size());
   CHECK(json["isochrones"][1]["tau_stop"] == portrait.isochrones[1].tau_stop);
   CHECK(json["isochrones"][1]["u"].get<std::vector<double>>() == list(portrait.isochrones[1].u));
-  CHECK(json["highlight"]["v"].get<std::vector<double>>() == list(portrait.highlight->v));
+  CHECK(json["highlight"]["v"].get<std::vector<double>>() == list(portrait.highlight[0].v));
   CHECK(json["body"]["chi"] == 3.5);
   CHECK(json["through"].size() == 2);
   CHECK(json["through"][1]["u"].get<std::vector<double>>() == list(portrait.through[1].u));
@@ -83,7 +83,7 @@ TEST_CASE("In the view of beta each state of an orbit has its beta, as its axis 
   for (std::size_t i = 0; i < portrait.orbits.size(); ++i) {
     check(portrait.orbits[i], json["orbits"][i], fmt::format("orbit,{},", i));
   }
-  check(*portrait.highlight, json["highlight"], "highlight,0,");
+  check(portrait.highlight[0], json["highlight"], "highlight,0,");
   for (const char* view : {"uv", "time"}) {
     const auto other = portraits::phase_portrait(flow, {.view = portraits::find_view(view)});
     CHECK(portraits::to_json(other).find("beta") == std::string::npos);
@@ -111,6 +111,6 @@ TEST_CASE("CSV says where it comes from, and has one row for each point", "[tabl
   for (const auto& orbit : portrait.through) wanted["through"] += orbit.u.size();
   for (const auto& orbit : portrait.comparisons[0].orbits) wanted["against_orbit"] += orbit.u.size();
   for (const auto& isochrone : portrait.comparisons[0].isochrones) wanted["against_isochrone"] += isochrone.u.size();
-  wanted["highlight"] = portrait.highlight->u.size();
+  wanted["highlight"] = portrait.highlight[0].u.size();
   CHECK(rows == wanted);
 }

@@ -142,8 +142,8 @@ TEST_CASE("Every body is drawn in windows from 1:1e-6 to 1:1e6 in every view, wi
     for (double v : {1e-6, 3e-5, 6e-4, 0.01, 0.7, 30.0, 1.8e3, 1e6}) {
       for (View view : portraits::views()) {
         CAPTURE(law, inertia.gamma, mu, v, portraits::name(view));
-        const auto portrait = portraits::phase_portrait(
-            flow, {.view = view, .window = portraits::Window{1, v}, .highlight = State{1, v}});
+        const auto portrait =
+            portraits::phase_portrait(flow, {.view = view, .sides = {{1, v}}, .highlight = State{1, v}});
         const Figure figure = draw(portrait);
         for (const Panel& panel : figure.panels) {
           std::size_t points = 0;
@@ -377,7 +377,7 @@ TEST_CASE("At small mu every orbit runs straight into the stop, whatever mu is, 
     CAPTURE(mu);
     const auto portrait = portrait_of(mu);
     CHECK(portrait.scale.exponent == Approx(5 * mu * mu / 14).epsilon(1e-12));
-    CHECK(portrait.window.v <= 20 * mu);
+    CHECK(portrait.window.v() <= 20 * mu);
     const Panel panel = draw(portrait, {}, plain).panels.front();
     double lowest = 1;
     for (const auto& line : layer(panel, "orbits").lines) {
@@ -504,7 +504,7 @@ TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
     for (std::size_t i = 0; i < maps.size(); ++i) {
       INFO(portraits::name(view) << ", panel " << i);
       const auto drawn = layer(figure.panels[i], "this one").lines.front();
-      const auto line = maps[i].line(*portrait.highlight);
+      const auto line = maps[i].line(portrait.highlight[0]);
       if (view == View::regularised) {
         // At its own places: each row of the orbit lies on the line between two of them.
         const auto on = [&](Point at) { return portraits::on_paper(figure.panels[i], at); };
@@ -889,7 +889,7 @@ TEST_CASE("An orbit stays on its side of the blown-up origin to the end", "[inva
 
 TEST_CASE("Times keep off the orbits that were asked for", "[invariant]") {
   for (double u : {0.2, 0.4, 0.6, 0.7, 0.8, 0.9}) {
-    const Panel panel = figure_of(0.3, {.window = portraits::Window{1, 4}, .through = {{u, 3.5}}}).panels[0];
+    const Panel panel = figure_of(0.3, {.sides = {{1, 4}}, .through = {{u, 3.5}}}).panels[0];
     REQUIRE(panel.labels.size() >= 4);
     for (const auto& label : panel.labels) {
       for (const auto& point : layer(panel, "through").lines.front()) {

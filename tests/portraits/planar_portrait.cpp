@@ -20,7 +20,7 @@ namespace {
 
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-PlanarPortrait portrait_of(const PlanarField& field, const PlanarPortraitRequest& request = {}) {
+PlanarPortrait portrait_of(const PlanarField& field, const PortraitRequest& request = {}) {
   const Vector2d around(1, 1);
   const reduction::PlanarSymmetries found = reduction::find_symmetries(field, around);
   REQUIRE(found.scaling);
@@ -30,7 +30,7 @@ PlanarPortrait portrait_of(const PlanarField& field, const PlanarPortraitRequest
 /// That every step of the orbits goes along the field, in the window and in the time that it says.
 void check_motions(const PlanarField& field, const PlanarPortrait& portrait) {
   REQUIRE(portrait.orbits.size() >= 8);
-  for (const PlanarPortraitOrbit& orbit : portrait.orbits) {
+  for (const PortraitOrbit& orbit : portrait.orbits) {
     REQUIRE(orbit.u.size() >= 2);
     for (Eigen::Index i = 0; i < orbit.u.size(); ++i) {
       const Vector2d here(orbit.u[i], orbit.v[i]);
@@ -65,7 +65,7 @@ TEST_CASE("orbits of any planar system go along its field, in its time", "[physi
   for (const PlanarField& field : fields) {
     INFO("field " << &field - fields);
     check_motions(field, portrait_of(field));
-    check_motions(field, portrait_of(field, {.window = PlanarWindow{{-2, -0.5}, {1, 1}}}));
+    check_motions(field, portrait_of(field, {.window = Window{{-2, -0.5}, {1, 1}}}));
   }
 }
 
@@ -91,17 +91,17 @@ TEST_CASE("isochrones of dry friction of degree -1/2 are circles", "[physics]") 
 TEST_CASE("the orbit of a start begins there, one through a point at the border", "[route]") {
   const PlanarField twisting = [](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.5 * sign(x[1])); };
   const PlanarPortrait portrait =
-      portrait_of(twisting, {.highlight = Vector2d(0.5, 1), .through = {Vector2d(-0.2, 0.3)}, .orbits = 5});
+      portrait_of(twisting, {.highlight = {{0.5, 1}}, .through = {{-0.2, 0.3}}, .orbits = 5});
   CHECK(portrait.window.low == Vector2d(-1.2, -1.2));
   REQUIRE(portrait.highlight.size() == 1);
   CHECK(portrait.highlight[0].u[0] == Approx(0.5));
   CHECK(portrait.highlight[0].v[0] == Approx(1.0));
   CHECK(portrait.highlight[0].tau_left[0] == portrait.plane.end_time({0.5, 1}));
   REQUIRE(!portrait.through.empty());
-  const PlanarPortraitOrbit& first = portrait.through.front();
+  const PortraitOrbit& first = portrait.through.front();
   CHECK(std::max(std::abs(first.u[0]), std::abs(first.v[0])) == Approx(1.2));
   double nearest = 1;
-  for (const PlanarPortraitOrbit& piece : portrait.through) {
+  for (const PortraitOrbit& piece : portrait.through) {
     nearest = std::min(nearest, ((piece.u + 0.2).square() + (piece.v - 0.3).square()).minCoeff());
   }
   CHECK(nearest < 1e-12);
@@ -110,12 +110,16 @@ TEST_CASE("the orbit of a start begins there, one through a point at the border"
 
 TEST_CASE("a planar portrait is refused where there is nothing to show", "[input]") {
   const PlanarField field = [](const Vector2d& x) { return Vector2d(std::sqrt(x[0]), -std::sqrt(x[0])); };
-  CHECK_THROWS_WITH(portrait_of(field, {.window = PlanarWindow{{0, 0}, {0, 1}}}), Contains("two positive sides"));
-  CHECK_THROWS_WITH(portrait_of(field, {.window = PlanarWindow{{0, 0}, {1, INFINITY}}}), Contains("finite"));
-  CHECK_THROWS_WITH(portrait_of(field, {.window = PlanarWindow{{0, 0}, {1, 1}}, .through = {{2, 0}}}),
+  CHECK_THROWS_WITH(portrait_of(field, {.window = Window{{0, 0}, {0, 1}}}), Contains("two positive sides"));
+  CHECK_THROWS_WITH(portrait_of(field, {.window = Window{{0, 0}, {1, INFINITY}}}), Contains("finite"));
+  CHECK_THROWS_WITH(portrait_of(field, {.window = Window{{0, 0}, {1, 1}}, .through = {{2, 0}}}),
                     Contains("(2, 0) lies outside the window 0 to 1 by 0 to 1"));
   CHECK_THROWS_WITH(portrait_of(field, {.orbits = -1}), Contains(">= 0, got -1 and 0"));
-  CHECK_THROWS_WITH(portrait_of(field, {.highlight = Vector2d(-1, 1)}), Contains("no value"));
+  CHECK_THROWS_WITH(portrait_of(field, {.isochrone_times = {0}}), Contains("must be > 0, got 0"));
+  for (const auto& request : std::vector<PortraitRequest>{{.view = View::uv}, {.linear = true}, {.time_unit = 2}}) {
+    CHECK_THROWS_WITH(portrait_of(field, request), Contains("only for (2.6)"));
+  }
+  CHECK_THROWS_WITH(portrait_of(field, {.highlight = {{-1, 1}}}), Contains("no value"));
 }
 
 TEST_CASE("the data of a planar portrait say what it is", "[output]") {

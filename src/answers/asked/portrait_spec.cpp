@@ -53,7 +53,7 @@ portraits::PortraitRequest PortraitSpec::whole_request() const {
   asked.highlight = start;
   constexpr double narrow_mm = 120;
   if (style.size.width_mm.value_or(narrow_mm) < narrow_mm) {
-    asked.orbits_per_side = asked.orbits_per_side.value_or(of_narrow);
+    asked.orbits = asked.orbits.value_or(of_narrow);
     asked.isochrones = asked.isochrones.value_or(4);
   }
   if (experiment) asked.time_unit = 1 / si::seconds(*experiment, 1);
@@ -67,12 +67,12 @@ std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpe
   for (const PortraitSpec& spec : specs) flows.push_back(spec.flow);
   portraits::PortraitRequest asked = specs.front().whole_request();
   if (specs.size() > 1) {
-    asked.orbits_per_side = asked.orbits_per_side.value_or(of_narrow);
+    asked.orbits = asked.orbits.value_or(of_narrow);
     asked.isochrones = specs.front().request.isochrones;  // the usual number is of several planes
   }
   std::vector<portraits::PhasePortrait> all = portraits::phase_portraits(flows, asked);
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (const auto orbits = specs[i].pieces(); orbits.size() > 1) all[i].highlight = one_line(orbits);
+    if (const auto orbits = specs[i].pieces(); orbits.size() > 1) all[i].highlight = {one_line(orbits)};
   }
   return all;
 }
@@ -120,7 +120,7 @@ portraits::PortraitCaption PortraitSpec::caption(const portraits::PhasePortrait&
   using portraits::math, portraits::sub;
   portraits::PortraitCaption caption;
   if (!start) return caption;
-  const double stop = portrait.highlight ? portrait.highlight->tau_left[0] : 0;
+  const double stop = portrait.highlight.empty() ? 0 : portrait.highlight[0].tau_left[0];
   caption.highlight = "this motion";
   if (!experiment) {
     caption.subtitle = math("u") + sub("0") + math(" = ") + fmt::format("{:g}, ", start->u) + math("v") + sub("0") +

@@ -30,19 +30,15 @@ using Eigen::Vector2d;
 using portraits::View;
 using reduction::State;
 
-/// U,V, or U1:U2,V1:V2.
-struct AskedWindow {
-  Vector2d low, high;
-  bool symmetric;
-};
-
-AskedWindow parse_window(const std::string& typed) {
+/// Reads U,V, or U1:U2,V1:V2.
+void read_window(const std::string& typed, portraits::PortraitRequest& request) {
   if (typed.find(':') == std::string::npos) {
     const std::vector<double> sides = numbers(typed, 2, "U,V");
     if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
-    return {{-sides[0], -sides[1]}, {sides[0], sides[1]}, true};
+    request.sides = Vector2d(sides[0], sides[1]);
+    return;
   }
-  AskedWindow window{{}, {}, false};
+  portraits::Window& window = request.window.emplace();
   const std::vector<std::string> ranges = split(typed, ',');
   if (ranges.size() != 2) throw NotAllowed("a window is U,V or U1:U2,V1:V2");
   for (int i : {0, 1}) {
@@ -52,7 +48,6 @@ AskedWindow parse_window(const std::string& typed) {
     window.high[i] = parse_number(ends[1]);
     if (!(window.low[i] < window.high[i])) throw NotAllowed("a side of the window begins below its end");
   }
-  return window;
 }
 
 /// T1,T2,... or T,
@@ -69,7 +64,7 @@ std::vector<double> parse_times(const std::string& typed) {
   return times;
 }
 
-Vector2d parse_point(const std::string& typed) {
+State parse_point(const std::string& typed) {
   const std::vector<double> pair = numbers(typed, 2, "U,V");
   return {pair[0], pair[1]};
 }
@@ -149,8 +144,13 @@ class PortraitCommand final : public Verb {
     if (style_.estimate && request_.view != View::time) {
       throw BadInput("--estimate is drawn against time: add --view time, or leave it out");
     }
-    if (system_.given()) return run_system();
-    const bool has_start = !start_.without_motion();
+    return system_.given() ? run_system() : run_starts();
+  }
+
+ private:
+  using Style = portraits::PortraitStyle;
+
+  ExitStatus run_starts() {
     std::vector<GivenStart> starts;
     for (const reduction::Law& law : law_.read_several(start_.standard_law())) {
       std::ranges::move(start_.read_several(law), std::back_inserter(starts));
@@ -159,68 +159,28 @@ class PortraitCommand final : public Verb {
       if (starts.size() > 1) throw BadInput("--facts describe one plane: give one --mu and one --law");
       return print_facts(starts.front().system);
     }
-    const Output output = output_.read();
-    figure_.require_picture(output);
-    std::string drawing = names_of_looks(first_of_drawing_);
-    if (style_.estimate) drawing = with_name(drawing, "--estimate");
-    require_picture(drawing, output);
+    const Output output = read_output();
     if (style_.estimate && against_.given()) {
       throw BadInput("--estimate and --against exclude each other: both would be dashed");
     }
-    read_places();
-    style_.size = figure_.size();
+    require_half_plane();
     std::vector<PortraitSpec> questions;
     for (const GivenStart& start : starts) {
       const reduction::Route route = route_.read(start.system);
       if (route == reduction::Route::direct) {
         throw BadInput("--route direct: a portrait is drawn by closed, quadrature or regularised");
       }
-      PortraitSpec& question =
-          questions.emplace_back(PortraitSpec{.flow = start.flow(route == reduction::Route::quadrature),
-                                              .start = has_start ? std::optional(start.state) : std::nullopt,
-                                              .experiment = start.experiment,
-                                              .request = request_,
-                                              .style = style_});
+      PortraitSpec& question = questions.emplace_back(
+          PortraitSpec{.flow = start.flow(route == reduction::Route::quadrature),
+                       .start = start_.without_motion() ? std::nullopt : std::optional(start.state),
+                       .experiment = start.experiment,
+                       .request = request_,
+                       .style = style_});
       question.request.stepped = route == reduction::Route::regularised;
       if (against_.given()) question.request.comparison = against_.read(std::string(si::Body{}.law));
     }
     const std::vector<portraits::PhasePortrait> portraits = portraits_of(questions);
-    if (output.picture()) {
-      output.write({figure_.apply(figure_of(questions, portraits), output.format)});
-    } else {
-      const portraits::PortraitSource source = questions.front().source();
-      output.write(output.format == "csv" ? to_csv(portraits, source) : to_json(portraits, source));
-    }
-    return ExitStatus::done;
-  }
-
- private:
-  using Style = portraits::PortraitStyle;
-
-  /// --window and --through, as the half-plane has them.
-  void read_places() {
-    if (window_) {
-      if (window_->symmetric) {
-        request_.window = portraits::Window{window_->high[0], window_->high[1]};
-      } else {
-        if (window_->low[1] < 0) window_argument_->reject("here v is 0 or more: the plane is a half-plane");
-        if (!shows_window(request_.view.value_or(View::uv)))
-          window_argument_->reject("this view takes U,V; only uv, patch and pair take U1:U2,V1:V2");
-        request_.part = {window_->low[0], window_->high[0], window_->low[1], window_->high[1]};
-      }
-    }
-    for (const Vector2d& point : through_) {
-      const std::string typed = fmt::format("--through {},{}", point[0], point[1]);
-      if (point[0] == 0 || !(point[1] > 0)) {
-        throw BadInput(typed + ": U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
-      }
-      if ((request_.window && !(std::abs(point[0]) <= request_.window->u && point[1] <= request_.window->v)) ||
-          (request_.part && !request_.part->contains({point[0], point[1]}))) {
-        throw BadInput(fmt::format("{}: outside the window {}; leave it out, or make it larger", typed,
-                                   window_argument_->typed()));
-      }
-      request_.through.push_back({point[0], point[1]});
-    }
+    return write(output, portraits, questions.front().source(), [&] { return figure_of(questions, portraits); });
   }
 
   ExitStatus run_system() {
@@ -233,34 +193,65 @@ class PortraitCommand final : public Verb {
           others));
     }
     const reduction::SmoothField field = system_.read(law_.parameters());
-    portraits::PlanarPortraitRequest request{.through = through_,
-                                             .orbits = request_.orbits_per_side,
-                                             .isochrones = request_.isochrones,
-                                             .isochrone_times = request_.isochrone_times};
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
     start_.require_point_or_none();
-    if (!start_.without_motion()) request.highlight = start_.read_point();
-    const Output output = output_.read();
-    figure_.require_picture(output);
-    require_picture(names_of_looks(first_of_drawing_), output);
-    if (window_ && window_->symmetric) request.sides = window_->high;
-    if (window_ && !window_->symmetric) request.window = {window_->low, window_->high};
     // Sample the field in the window, or as far from 0 as the start.
-    Vector2d around(1, 1);
-    if (window_) around = window_->low.cwiseAbs().cwiseMax(window_->high.cwiseAbs());
-    if (request.highlight && !request.highlight->isZero(0)) around = *request.highlight;
+    Vector2d around = request_.window
+                          ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
+                          : request_.sides.value_or(Vector2d(1, 1));
+    if (!start_.without_motion()) {
+      const Vector2d point = start_.read_point();
+      request_.highlight = {point[0], point[1]};
+      if (!point.isZero(0)) around = point;
+    }
+    const Output output = read_output();
     const portraits::PlanarPortrait portrait =
-        portraits::planar_portrait(system_.solve(field, around), system_.text(), request);
+        portraits::planar_portrait(system_.solve(field, around), system_.text(), request_);
+    return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
+  }
+
+  /// Reads where and how the result is written, and rejects options that have no effect there.
+  Output read_output() {
+    Output output = output_.read();
+    figure_.require_picture(output);
+    std::string drawing = names_of_looks(first_of_drawing_);
+    if (style_.estimate) drawing = with_name(drawing, "--estimate");
+    require_picture(drawing, output);
+    style_.size = figure_.size();
+    return output;
+  }
+
+  /// @param draw  returns the figure of the portraits
+  template <class Portraits, class Draw>
+  ExitStatus write(const Output& output, const Portraits& all, const portraits::PortraitSource& source, Draw draw) {
     if (output.picture()) {
-      style_.size = figure_.size();
-      output.write({figure_.apply(portraits::draw(portrait, style_), output.format)});
+      output.write({figure_.apply(draw(), output.format)});
     } else {
-      const portraits::PortraitSource source{.version = CONTENSOU_VERSION};
-      output.write(output.format == "csv" ? to_csv(portrait, source) : to_json(portrait, source));
+      output.write(output.format == "csv" ? to_csv(all, source) : to_json(all, source));
     }
     return ExitStatus::done;
+  }
+
+  /// Rejects windows and points that the half-plane does not contain.
+  void require_half_plane() const {
+    const auto& window = request_.window;
+    if (window && window->low[1] < 0) window_->reject("here v is 0 or more: the plane is a half-plane");
+    if (window && !shows_window(request_.view.value_or(View::uv)))
+      window_->reject("this view takes U,V; only uv, patch and pair take U1:U2,V1:V2");
+    for (const State& point : request_.through) {
+      const std::string typed = fmt::format("--through {},{}", point.u, point.v);
+      if (point.u == 0 || !(point.v > 0)) {
+        throw BadInput(typed + ": U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
+      }
+      const auto& sides = request_.sides;
+      if ((sides && !(std::abs(point.u) <= (*sides)[0] && point.v <= (*sides)[1])) ||
+          (window && !window->contains(point))) {
+        throw BadInput(
+            fmt::format("{}: outside the window {}; leave it out, or make it larger", typed, window_->typed()));
+      }
+    }
   }
 
   /// Adds the options for content and look of the portrait.
@@ -289,15 +280,15 @@ class PortraitCommand final : public Verb {
     add("--window", "U,V",
         "part of the plane: |u| <= U and 0 <= v <= V (--system: "
         "|v| <= V), or U1:U2,V1:V2 in uv, patch, pair and with --system",
-        into(window_, parse_window));
-    window_argument_ = &looks_.back();
+        [this](const std::string& typed) { read_window(typed, request_); });
+    window_ = &looks_.back();
     add("--orbits", "N",
         fmt::format("number of orbits on each side of u = 0, or of all with --system, 0 to {} (default 12)",
                     max_orbits),
-        into(request_.orbits_per_side, at_most(max_orbits)));
+        into(request_.orbits, at_most(max_orbits)));
     add(
         "--through", "U,V", "point of one more orbit; may be repeated",
-        [this](const std::string& typed) { through_.push_back(parse_point(typed)); }, true);
+        [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N|T1,T2,...",
         fmt::format("number of isochrones of the stop time, 0 to {} (about; default 7), or their times, with --ball in "
                     "s; 'T,' is one time",
@@ -357,10 +348,8 @@ class PortraitCommand final : public Verb {
   std::deque<Argument> looks_;
   std::size_t first_of_drawing_ = 0;  ///< place in looks_ from which options change only the drawing, not the data
   /// Single options in looks_.
-  const Argument *window_argument_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
-  std::optional<AskedWindow> window_;
-  std::vector<Vector2d> through_;
-  portraits::PortraitRequest request_;  ///< without window_ and through_, which are added later
+  const Argument *window_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
+  portraits::PortraitRequest request_;
   Style style_;
   FigureOptions figure_;
   bool facts_ = false;

@@ -8,7 +8,7 @@
 int main() {
   using namespace contensou;
   const reduction::Flow flow({reduction::HertzLaw{}, 0.8});
-  const portraits::PhasePortrait portrait = portraits::phase_portrait(flow, {.window = {{1, 1}}});
+  const portraits::PhasePortrait portrait = portraits::phase_portrait(flow, {.sides = {{1, 1}}});
   Gnuplot gp;
   gp << "set terminal pngcairo size 720,450\nset output 'own.png'\nset xlabel 'u'\nset ylabel 'v'\n"
      << "set key outside top\nset samples 501\nplot [-1:1] [0:1] 0.8*abs(x) linecolor 'red' title 'k = 1'";

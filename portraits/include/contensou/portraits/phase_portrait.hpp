@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,19 +15,18 @@
 
 namespace contensou::portraits {
 
-/// The visible part of the half-plane v >= 0: |u| <= u, 0 <= v <= v.
+/// A rectangle of the plane, by two corners.
 struct Window {
-  double u;
-  double v;
-};
-
-/// A rectangle of the half-plane, if only a part of a window is visible.
-struct WindowPart {
-  double u_low, u_high, v_low, v_high;
+  Eigen::Vector2d low, high;
 
   bool contains(reduction::State at) const {
-    return at.u >= u_low && at.u <= u_high && at.v >= v_low && at.v <= v_high;
+    return at.u >= low[0] && at.u <= high[0] && at.v >= low[1] && at.v <= high[1];
   }
+  Eigen::Vector2d sides() const { return high - low; }
+
+  /// Return U and V of the smallest window |u| <= U, 0 <= v <= V of the half-plane that contains this one.
+  double u() const { return std::max(std::abs(low[0]), std::abs(high[0])); }
+  double v() const { return high[1]; }
 };
 
 /// The choice of axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
@@ -46,33 +47,45 @@ constexpr bool shows_moments(View view) { return view == View::time || view == V
 /// Returns all views in the order of lists.
 const std::vector<View>& views();
 
-/// An orbit as columns of equal length. The last row is the stop: 0, 0, -infinity, ln k of the terminal ratio, 0.
+/// An orbit, or its part in the window, as columns of equal length in the direction of the motion. An orbit of (2.6)
+/// ends at the stop: 0, 0, -infinity, ln k of the terminal ratio, 0.
 struct PortraitOrbit {
-  Eigen::ArrayXd u;
-  Eigen::ArrayXd v;
-  Eigen::ArrayXd ln_v;
-  Eigen::ArrayXd ln_k;
-  Eigen::ArrayXd tau_left;
+  Eigen::ArrayXd u = {};
+  Eigen::ArrayXd v = {};
+  Eigen::ArrayXd ln_v = {};      ///< only of (2.6)
+  Eigen::ArrayXd ln_k = {};      ///< only of (2.6)
+  Eigen::ArrayXd tau_left = {};  ///< time until the stop; of another system until the centre or infinity, or infinite
 
   /// One state of the orbit or of a scaled copy.
   struct Instant {
     double u, v, ln_v, ln_k, tau_left;
   };
 
-  /// Returns a row, scaled.
-  /// @param factor  > 0; the scaled orbit is an orbit, by the scaling symmetry
+  /// Returns a row, scaled; without columns of logarithms they are NaN.
+  /// @param factor  > 0; the scaled orbit of (2.6) is an orbit, by the scaling symmetry
   Instant at(Eigen::Index row, double factor = 1) const;
   Eigen::Index rows() const { return u.size(); }
 };
 
-/// A connected part of the line of all states with one stop time.
+/// A connected part of the line of all states with one stop time, or one time left.
 struct Isochrone {
   double tau_stop;
   Eigen::ArrayXd u;
   Eigen::ArrayXd v;
 };
 
-/// The phase plane of one system as data, without a drawing.
+/// The curves that the portraits of all systems have.
+struct Portrait {
+  Window window;                      ///< visible part of the plane
+  std::vector<PortraitOrbit> orbits;  ///< orbits of (2.6) run from the border of its half-plane's window to the origin
+  std::vector<Isochrone> isochrones;  ///< isochrones in the window
+  double isochrone_step;              ///< step of which the isochrones are all multiples; 0 if their times are others
+  std::vector<PortraitOrbit> highlight;  ///< orbit of one start, in its visible parts; of (2.6) one; empty if not asked
+  std::vector<PortraitOrbit> through;    ///< orbits through the requested points, from the border
+  std::vector<reduction::State> points;  ///< the requested points
+};
+
+/// The phase plane of one system (2.6) as data, without a drawing.
 ///
 /// The phase plane shows every motion of a body that slides at the speed v and pivots at the speed u (reduction::Flow)
 /// as an orbit in the half-plane v >= 0. All orbits end at the origin, the stop. The data are the orbits, the
@@ -81,19 +94,11 @@ struct Isochrone {
 ///     const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
 ///     const PhasePortrait portrait = phase_portrait(flow, {});  // the default view and window
 ///     render(draw(portrait), PictureFormat::svg);              // the bytes of a picture
-struct PhasePortrait {
+struct PhasePortrait : Portrait {
   reduction::Flow flow;
   reduction::PhasePlane plane;
   View view;
-  Window window;
-  WindowPart part;                    ///< visible part of the window; all of it unless requested otherwise
-  SpeedScale scale;                   ///< scale of v, in views that show the window
-  std::vector<PortraitOrbit> orbits;  ///< orbits from the border of the window to the origin
-  std::vector<Isochrone> isochrones;  ///< isochrones in the part
-  double isochrone_step;              ///< step of which the isochrones are all multiples; 0 if their times are others
-  std::optional<PortraitOrbit> highlight;  ///< orbit of one start, if requested
-  std::vector<PortraitOrbit> through;      ///< orbits through the requested points, from the border
-  std::vector<reduction::State> points;    ///< the requested points
+  SpeedScale scale;  ///< scale of v, in views that show the window
   /// The portrait of another law in the same window, with isochrones of the same times; at most one.
   std::vector<PhasePortrait> comparisons;
 
@@ -102,18 +107,22 @@ struct PhasePortrait {
 
 /// The contents of a portrait. By default the window follows from mu, and the view is uv.
 struct PortraitRequest {
-  std::optional<View> view = {};
+  std::optional<View> view = {};  ///< only for (2.6)
+  /// A rectangle. For (2.6) it has v >= 0, in views that show it. Its orbits are those of the smallest half-plane
+  /// window around it that enter it.
   std::optional<Window> window = {};
-  /// A rectangle instead of a window, in views that show it. Its orbits are those of the smallest window around it that
-  /// enter it.
-  std::optional<WindowPart> part = {};
-  std::optional<reduction::State> highlight = {};  ///< a start; the window then contains it
-  std::vector<reduction::State> through = {};      ///< points in the window with neither u nor v 0
-  std::optional<int> orbits_per_side = {};         ///< number of orbits on each side of u = 0, >= 0
+  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V; for another system |u| <= U and |v| <= V about its
+  /// centre.
+  std::optional<Eigen::Vector2d> sides = {};
+  std::optional<reduction::State> highlight = {};  ///< a start; a window that is not requested then contains it
+  std::vector<reduction::State> through = {};      ///< points in the window; for (2.6) with neither u nor v 0
+  /// Number of orbits, >= 0; for (2.6) on each side of u = 0. By default orbits fill the window.
+  std::optional<int> orbits = {};
   /// Number of isochrones, >= 0, approximate because times are round; about 7 by default.
   std::optional<int> isochrones = {};
-  /// Stop times of isochrones, in time units, each > 0; they replace the number.
+  /// Times of isochrones, in time units, each > 0; they replace the number.
   std::vector<double> isochrone_times = {};
+  // Only for (2.6):
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< true: orbits come from steps of (2.7) in beta instead of the flow
   /// True: the axis of v is always linear. By default it is a SpeedScale if a linear axis would show a comb of

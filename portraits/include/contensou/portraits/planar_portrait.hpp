@@ -14,50 +14,19 @@
 
 namespace contensou::portraits {
 
-/// A rectangle of the plane, by two corners.
-struct PlanarWindow {
-  Eigen::Vector2d low, high;
-};
-
-/// A part of an orbit within the window, as columns of equal length in the direction of the motion.
-struct PlanarPortraitOrbit {
-  Eigen::ArrayXd u, v;
-  Eigen::ArrayXd tau_left;  ///< time until the centre or infinity; infinite if it takes for ever
-};
-
-/// The plane of any planar system as data, without a drawing.
-struct PlanarPortrait {
+/// The plane of any planar system as data, without a drawing. Its isochrones have one time to the centre or to
+/// infinity.
+struct PlanarPortrait : Portrait {
   std::string name;  ///< name of the system
   reduction::PlanarReduction plane;
-  PlanarWindow window;
-  std::vector<PlanarPortraitOrbit> orbits;
-  std::vector<Isochrone> isochrones;  ///< isochrones of the time to the centre, or to infinity, in the window
-  double isochrone_step;              ///< as in PhasePortrait
-  /// Parts of the orbit of one start, from the start on; empty if not requested.
-  std::vector<PlanarPortraitOrbit> highlight;
-  std::vector<PlanarPortraitOrbit> through;  ///< orbits through the requested points
-  std::vector<Eigen::Vector2d> points;       ///< the requested points
   // Only without a scaling:
   std::vector<reduction::Equilibrium> equilibria = {};  ///< equilibria in the window
-  std::vector<PlanarPortraitOrbit> separatrices = {};   ///< separatrices of the saddles
-  std::vector<Polyline> invariant = {};                 ///< curves on which the inverse integrating factor V is 0
+  std::vector<PortraitOrbit> separatrices = {};         ///< separatrices of the saddles
+  std::vector<PortraitOrbit> invariant = {};            ///< curves on which the inverse integrating factor V is 0
 };
 
-/// The contents of a portrait.
-struct PlanarPortraitRequest {
-  std::optional<PlanarWindow> window = {};  ///< window; the default is a rectangle about the centre
-  /// Half the sides of that rectangle. By default it is a square that contains the points below; without points 1.
-  std::optional<Eigen::Vector2d> sides = {};
-  std::optional<Eigen::Vector2d> highlight = {};
-  std::vector<Eigen::Vector2d> through = {};
-  /// Number of orbits, >= 0; by default enough to fill the window, and one in each sector.
-  std::optional<int> orbits = {};
-  /// Number of isochrones, >= 0, approximate because times are round; about 7 by default.
-  std::optional<int> isochrones = {};
-  std::vector<double> isochrone_times = {};  ///< times of isochrones, each > 0; they replace the number
-};
-
-/// Computes the portrait. Each orbit goes through the middle of the widest gap that is left.
+/// Computes the portrait. Each orbit goes through the middle of the widest gap that is left. The default window is a
+/// square about the centre, or about the origin, that contains the requested points; without points |u|, |v| <= 1.
 ///
 /// A scaling makes every orbit, and every isochrone, the scaled curve of its sector. An inverse integrating factor
 /// alone gives every orbit by a quadrature, without isochrones. A plane without a reduction (reduction::by_steps) has
@@ -65,9 +34,9 @@ struct PlanarPortraitRequest {
 ///
 /// @param name  name of the system, for titles
 /// @throws std::domain_error  if the window is empty or not finite, if a point lies outside it or the field has no
-///                            value there, or if a number is negative
+///                            value there, if a number is negative, or if the request has a part that is only for (2.6)
 PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::string name,
-                               const PlanarPortraitRequest& request = {});
+                               const PortraitRequest& request = {});
 
 /// Returns the portrait as JSON.
 ///
@@ -96,7 +65,7 @@ Json equilibria_json(const std::vector<reduction::Equilibrium>& equilibria) {
 /// isochrone; tau is the time left.
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
-/// Draws the portrait. The style's `asked` is ignored; both kinds of directions are those of the field.
+/// Draws the portrait. Both kinds of directions are those of the field.
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style = {});
 
 }  // namespace contensou::portraits

@@ -1,0 +1,224 @@
+// The data of portraits as JSON and as CSV.
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "contensou/portraits/json.hpp"
+#include "contensou/portraits/planar_portrait.hpp"
+#include "data/regularised_time.hpp"
+
+namespace contensou::portraits {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
+
+// A portrait `of` (2.6) has curves with ln_v and k; it is null for another system.
+
+/// Returns true if beta is an axis of the view. The data then contain it for each state of an orbit.
+bool has_beta(const PhasePortrait* of) { return of != nullptr && of->view == View::regularised; }
+
+Eigen::ArrayXd betas_of(const PortraitOrbit& orbit, const PhasePortrait* of) {
+  return has_beta(of) ? regularised_times(of->flow, orbit) : Eigen::ArrayXd();
+}
+
+Json json_of(const PortraitOrbit& orbit, const PhasePortrait* of) {
+  Json json{{"u", list(orbit.u)}, {"v", list(orbit.v)}};
+  if (of) {
+    json["ln_v"] = list(orbit.ln_v);
+    // The logarithm does not underflow. Eigen's exp never gives less than 5.6e-309.
+    json["k"] = list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
+  }
+  if (const Eigen::ArrayXd betas = betas_of(orbit, of); betas.size() > 0) json["beta"] = list(betas);
+  json["tau_left"] = list(orbit.tau_left);
+  return json;
+}
+
+Json json_of(const Isochrone& isochrone, const PhasePortrait* /*of*/) {
+  return {{"tau_stop", isochrone.tau_stop}, {"u", list(isochrone.u)}, {"v", list(isochrone.v)}};
+}
+
+template <class Curve>
+Json json_of(const std::vector<Curve>& curves, const PhasePortrait* of) {
+  Json json = Json::array();
+  for (const Curve& curve : curves) json.push_back(json_of(curve, of));
+  return json;
+}
+
+/// Adds the curves that the portraits of all systems have.
+void add_curves(Json& json, const Portrait& portrait, const PhasePortrait* of) {
+  json["orbits"] = json_of(portrait.orbits, of);
+  json["isochrones"] = json_of(portrait.isochrones, of);
+  const auto& highlight = portrait.highlight;
+  if (!highlight.empty()) json["highlight"] = of ? json_of(highlight[0], of) : json_of(highlight, of);
+  if (!portrait.through.empty()) json["through"] = json_of(portrait.through, of);
+}
+
+/// The curves of a portrait as rows of CSV.
+struct Table {
+  const PhasePortrait* of = nullptr;
+  double seconds_per_tau = 0;  ///< > 0: with a column t
+  std::string lead = {};       ///< first cells of each row
+  std::string rows = {};
+
+  std::string heading() const {
+    return fmt::format("kind,index,u,v,tau{}{}{}\n", of ? ",ln_v,k" : "", has_beta(of) ? ",beta" : "",
+                       seconds_per_tau > 0 ? ",t" : "");
+  }
+  void add(std::string_view kind, const std::vector<PortraitOrbit>& orbits) {
+    for (std::size_t i = 0; i < orbits.size(); ++i) {
+      const Eigen::ArrayXd betas = betas_of(orbits[i], of);
+      for (Eigen::Index j = 0; j < orbits[i].rows(); ++j) {
+        add(kind, i, orbits[i].at(j), betas.size() > 0 ? std::optional(betas[j]) : std::nullopt);
+      }
+    }
+  }
+  void add(std::string_view kind, const std::vector<Isochrone>& isochrones) {
+    for (std::size_t i = 0; i < isochrones.size(); ++i) {
+      const auto& [tau, u, v] = isochrones[i];
+      for (Eigen::Index j = 0; j < u.size(); ++j) {
+        const double ln_k = of ? std::log(v[j] / (of->system().mu() * std::abs(u[j]))) : 0;
+        add(kind, i, {u[j], v[j], std::log(v[j]), ln_k, tau}, {});
+      }
+    }
+  }
+  void add(std::string_view kind, std::size_t index, const PortraitOrbit::Instant& at, std::optional<double> beta) {
+    fmt::format_to(std::back_inserter(rows), "{}{},{},{},{},{}", lead, kind, index, at.u, at.v, at.tau_left);
+    if (of) fmt::format_to(std::back_inserter(rows), ",{},{}", at.ln_v, std::exp(at.ln_k));
+    if (has_beta(of)) rows += beta ? fmt::format(",{}", *beta) : ",";
+    rows += seconds_per_tau > 0 ? fmt::format(",{}\n", seconds_per_tau * at.tau_left) : "\n";
+  }
+};
+
+/// Adds the source to the members that say which plane it is.
+Json origin_of(Json json, const PortraitSource& source) {
+  if (!source.version.empty()) json["version"] = source.version;
+  if (!source.ball.empty()) json.update({{"ball", source.ball}, {"seconds_per_tau", source.seconds_per_tau}});
+  return json;
+}
+
+Json ends_of(const Window& window) {
+  const auto& [low, high] = window;
+  return {{low[0], high[0]}, {low[1], high[1]}};
+}
+
+Json origin_of(const PhasePortrait& portrait, const PortraitSource& source) {
+  const reduction::ReducedSystem& system = portrait.system();
+  const auto& [low, high] = portrait.window;
+  Json json{{"law", system.law().name()},
+            {"mu", system.mu()},
+            {"body", {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}}},
+            {"view", name(portrait.view)},
+            {"window", low[0] == -high[0] && low[1] == 0 ? Json{high[0], high[1]} : ends_of(portrait.window)}};
+  if (system.drive() > 0) json["drive"] = system.drive();
+  return origin_of(std::move(json), source);
+}
+
+Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
+  const reduction::PlanarReduction& plane = portrait.plane;
+  Json rays = Json::array();
+  for (const auto& ray : plane.rays()) {
+    rays.push_back({{"angle", ray.q}, {"attracts", ray.attracts}, {"to_centre", ray.to_centre}});
+  }
+  Json json{{"system", portrait.name},
+            {"kind", plane.kind().empty() ? Json() : Json(plane.kind())},
+            {"centre", plane.scaling() ? Json{plane.centre()[0], plane.centre()[1]} : Json()},
+            {"window", ends_of(portrait.window)},
+            {"rays", rays}};
+  if (!plane.scaling()) {
+    json["form"] = plane.form().empty() ? Json() : Json(plane.form());
+    json["equilibria"] = equilibria_json<Json>(portrait.equilibria);
+  }
+  return origin_of(std::move(json), source);
+}
+
+/// Returns all members except the schema.
+Json members_of(const PhasePortrait& portrait, const PortraitSource& source) {
+  Json json = origin_of(portrait, source);
+  add_curves(json, portrait, &portrait);
+  for (const PhasePortrait& other : portrait.comparisons) {
+    json["against"] = {{"law", other.system().law().name()},
+                       {"orbits", json_of(other.orbits, &other)},
+                       {"isochrones", json_of(other.isochrones, &other)}};
+  }
+  return json;
+}
+
+/// Returns a name as a CSV cell, quoted if necessary.
+std::string cell(const std::string& name) {
+  if (name.find_first_of(",\"\n") == name.npos) return name;
+  std::string quoted;
+  for (char each : name) quoted += each == '"' ? "\"\"" : std::string(1, each);
+  return '"' + quoted + '"';
+}
+
+}  // namespace
+
+std::string to_json(const PhasePortrait& portrait, const PortraitSource& source) {
+  return to_json(std::vector{portrait}, source);
+}
+
+std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source) {
+  Json json{{"schema", 1}};
+  for (const PhasePortrait& portrait : portraits) {
+    if (portraits.size() == 1) json.update(members_of(portrait, source));
+    if (portraits.size() > 1) json["portraits"].push_back(members_of(portrait, source));
+  }
+  return json_document(json);
+}
+
+std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source) {
+  Json json{{"schema", 1}};
+  json.update(origin_of(portrait, source));
+  add_curves(json, portrait, nullptr);
+  if (!portrait.separatrices.empty()) json["separatrices"] = json_of(portrait.separatrices, nullptr);
+  for (const auto& line : portrait.invariant) json["invariant"].push_back({{"u", list(line.u)}, {"v", list(line.v)}});
+  return json_document(json);
+}
+
+std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) {
+  return to_csv(std::vector{portrait}, source);
+}
+
+std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source) {
+  const bool several = portraits.size() > 1;
+  std::string remarks, heading, rows;
+  for (const PhasePortrait& portrait : portraits) {
+    const reduction::ReducedSystem& system = portrait.system();
+    Table table{&portrait, source.seconds_per_tau};
+    if (several) table.lead = fmt::format("{},{},", system.mu(), cell(system.law().name()));
+    heading = table.heading();
+    table.add("orbit", portrait.orbits);
+    table.add("highlight", portrait.highlight);
+    table.add("through", portrait.through);
+    table.add("isochrone", portrait.isochrones);
+    for (const PhasePortrait& other : portrait.comparisons) {
+      table.of = &other;
+      table.add("against_orbit", other.orbits);
+      table.add("against_isochrone", other.isochrones);
+    }
+    remarks += csv_remarks(origin_of(portrait, source));
+    rows += table.rows;
+  }
+  return remarks + (several ? "mu,law," : "") + heading + rows;
+}
+
+std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source) {
+  Table table;
+  table.add("orbit", portrait.orbits);
+  table.add("highlight", portrait.highlight);
+  table.add("through", portrait.through);
+  table.add("separatrix", portrait.separatrices);
+  table.add("invariant", portrait.invariant);
+  table.add("isochrone", portrait.isochrones);
+  return csv_remarks(origin_of(portrait, source)) + table.heading() + table.rows;
+}
+
+}  // namespace contensou::portraits
