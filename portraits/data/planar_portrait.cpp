@@ -48,6 +48,7 @@ Course course_of(const PlanarSector& sector) {
 }
 
 Vector2d vector_of(const State& x) { return {x.u, x.v}; }
+Vector2d vector_of(Point x) { return {x.x, x.y}; }
 
 /// Returns the parts of an orbit that lie in a window.
 /// @param time_left  returns the time left at a point
@@ -76,7 +77,7 @@ class PlanarTracer {
     for (int i = 0; i < 4 * pieces; ++i) {
       const double s = static_cast<double>(i % pieces) / pieces;
       const Point places[] = {{s, 0}, {1, s}, {1 - s, 1}, {0, 1 - s}};
-      border_.push_back(at(places[i / pieces]));
+      border_.push_back(vector_of(from_paper(panel_, places[i / pieces])));
       const double p = plane.canonical(border_.back()).p;
       if (!std::isfinite(p)) continue;  // the centre
       highest_ = std::max(highest_, p);
@@ -155,7 +156,6 @@ class PlanarTracer {
   }
 
  private:
-  Vector2d at(Point place) const { return window_.low + Vector2d(place.x, place.y).cwiseProduct(window_.sides()); }
   Point point(double q, double p) const {
     const Vector2d x = plane_.point(q, p);
     return {x[0], x[1]};
@@ -308,26 +308,19 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
 template <class Tracer>
 std::vector<PortraitOrbit> filling(const Tracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
-  const Vector2d sides = window.sides();
-  const auto at = [&](Point there) { return Vector2d(window.low + Vector2d(there.x, there.y).cwiseProduct(sides)); };
-  const auto place = [&](const Vector2d& x) {
-    const Vector2d part = (x - window.low).cwiseQuotient(sides);
-    return Point{part[0], part[1]};
-  };
+  const Panel panel = panel_of(window);
   constexpr double gap = 0.055;  // in sides of the window
   constexpr int most = 80, across = 41;
   using Gaps = WidestGaps<std::size_t, Vector2d>;
-  std::vector<Gaps::Seed> seeds;
-  for (int i = 0; i < across; ++i) {
-    for (int j = 0; j < across; ++j) {
-      const Point there{(i + 0.5) / across, (j + 0.5) / across};
-      if (const auto its = tracer.sector(at(there))) seeds.push_back({there, at(there), *its});
-    }
-  }
-  Gaps gaps(std::move(seeds), {1, 1});
+  const auto seed_at = [&](Point place) -> std::optional<Gaps::Seed> {
+    const Vector2d x = vector_of(from_paper(panel, place));
+    const auto its = tracer.sector(x);
+    return its ? std::optional(Gaps::Seed{place, x, *its}) : std::nullopt;
+  };
+  Gaps gaps(across, across, seed_at, {1, 1});
   std::vector<PortraitOrbit> orbits;
   std::vector<Point> mirrored;  // places to try first
-  const Point centre = place(middle);
+  const Point centre = on_paper(panel, {middle[0], middle[1]});
   for (int traced = 0; traced < count.value_or(most) && !gaps.empty();) {
     auto widest = &gaps.widest();
     bool from_mirror = false;
@@ -350,7 +343,7 @@ std::vector<PortraitOrbit> filling(const Tracer& tracer, const Window& window, c
     widest->gap = 0;
     for (PortraitOrbit& piece : tracer.orbit(through)) {
       for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
-        gaps.pass(its_sector, place({piece.u[row], piece.v[row]}));
+        gaps.pass(its_sector, on_paper(panel, {piece.u[row], piece.v[row]}));
       }
       orbits.push_back(std::move(piece));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,9 +23,16 @@ class WidestGaps {
     double gap = first;     ///< distance to the nearest orbit of its sector, or to the border
   };
 
-  /// @param seeds  one for each place
-  /// @param unit   lengths of (1, 0) and (0, 1)
-  WidestGaps(std::vector<Seed> seeds, Point unit) : seeds_(std::move(seeds)), unit_(unit) {
+  /// @param columns, rows  numbers of places on paper
+  /// @param seed_at        returns the seed at a place, if an orbit may go through it
+  /// @param unit           lengths of (1, 0) and (0, 1)
+  template <class SeedAt>
+  WidestGaps(int columns, int rows, SeedAt seed_at, Point unit) : unit_(unit) {
+    for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j < rows; ++j) {
+        if (std::optional<Seed> seed = seed_at(Point{(i + 0.5) / columns, (j + 0.5) / rows})) seeds_.push_back(*seed);
+      }
+    }
     for (Seed& seed : seeds_) {
       for (const Seed& other : seeds_) {
         if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.place, other.place));

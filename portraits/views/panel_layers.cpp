@@ -33,18 +33,6 @@ TimedLine PanelLayers::line_of(const OrbitCopy& copy) const {
   return timed;
 }
 
-std::vector<TimedLine> PanelLayers::lines_of(const std::vector<OrbitCopy>& copies) const {
-  std::vector<TimedLine> lines;
-  for (const OrbitCopy& copy : copies) lines.push_back(line_of(copy));
-  return lines;
-}
-
-std::vector<TimedLine> PanelLayers::lines_of(const std::vector<PortraitOrbit>& orbits) const {
-  std::vector<TimedLine> lines;
-  for (const PortraitOrbit& orbit : orbits) lines.push_back(line_of(OrbitCopy{orbit}));
-  return lines;
-}
-
 Polyline PanelLayers::line_of(const Isochrone& isochrone) const {
   Polyline line;
   for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) line.push_back(place(isochrone.u[i], isochrone.v[i]));
@@ -199,15 +187,16 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
   return result;
 }
 
-void PanelLayers::add_heads(const Lines& lines) {
-  if (look_.style.arrows == PortraitStyle::Arrows::none) return;
+void PanelLayers::add_invariant(Lines lines) {
+  if (lines.lines.empty()) return;
   Arrows arrows{{}, lines.stroke.colour};
   for (const Polyline& line : lines.lines) {
     for (const Polyline& part : clipped(panel_, line)) {
       for (double fraction : {0.3, 0.7}) arrows.arrows.push_back(arrow_along(panel_, part, fraction));
     }
   }
-  panel_.arrows.push_back(std::move(arrows));
+  if (look_.style.arrows != PortraitStyle::Arrows::none) panel_.arrows.push_back(std::move(arrows));
+  panel_.lines.push_back(std::move(lines));
 }
 
 void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend) {

@@ -85,12 +85,17 @@ class PanelLayers {
   /// @param at  returns the motion at a point of the axes
   void add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend);
 
-  /// Adds two heads to each part of the lines.
-  void add_heads(const Lines& lines);
+  /// Adds lines, with two heads on each part.
+  void add_invariant(Lines lines);
 
   Panel& panel() { return panel_; }
-  std::vector<TimedLine> lines_of(const std::vector<OrbitCopy>& copies) const;
-  std::vector<TimedLine> lines_of(const std::vector<PortraitOrbit>& orbits) const;
+  /// @param orbits  PortraitOrbits or copies of some
+  template <class Orbits>
+  std::vector<TimedLine> lines_of(const Orbits& orbits) const {
+    std::vector<TimedLine> lines;
+    for (const auto& orbit : orbits) lines.push_back(line_of({orbit}));
+    return lines;
+  }
 
  protected:
   /// Returns points on paper along a line, at distances of at most a step.

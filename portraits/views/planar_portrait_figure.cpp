@@ -10,7 +10,7 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/reduction/infinity.hpp"
-#include "data/round_numbers.hpp"
+#include "data/tracing.hpp"
 #include "views/panel_layers.hpp"
 
 namespace contensou::portraits {
@@ -41,18 +41,14 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
     if (ray.to_centre) std::ranges::reverse(line);
     (ray.attracts ? attracting : others).lines.push_back(std::move(line));
   }
-  for (Lines* lines : {&others, &attracting}) {
-    if (lines->lines.empty()) continue;
-    layers.panel().lines.push_back(*lines);
-    layers.add_heads(*lines);
-  }
+  layers.add_invariant(std::move(others));
+  layers.add_invariant(std::move(attracting));
 }
 
 }  // namespace
 
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
-  const auto& [low, high] = portrait.window;
-  const Vector2d sides = high - low;
+  const Vector2d sides = portrait.window.sides();
   const double shape = sides[1] / sides[0];
   constexpr double longest = 3, width = 150;
   const bool to_scale = shape < longest && shape > 1 / longest;
@@ -66,9 +62,9 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   const bool even = !isochrones.empty() && portrait.isochrone_step > 0;
   const double most = even ? isochrones.back().tau_stop + portrait.isochrone_step : infinity;
   look.bands = bands_of({&portrait}, 1, look.palette, most);
-  Panel axes;
-  axes.x = {math("u"), low[0], high[0], false, {}};
-  axes.y = {math("v"), low[1], high[1], false, {}};
+  Panel axes = panel_of(portrait.window);
+  axes.x.name = math("u");
+  axes.y.name = math("v");
   axes.to_scale = to_scale;
   const auto place = [](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) { return Point{at.u, at.v}; };
   PanelLayers layers(look, std::move(axes), {place});

@@ -31,17 +31,12 @@ std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& f
   constexpr double gap_mm = 4;
   constexpr std::size_t max_count = 60;
   using Gaps = WidestGaps<const reduction::SimilarityCurve*, Instant>;
-  std::vector<Gaps::Seed> seeds;
-  constexpr int columns = 48, rows = 32;
-  for (int i = mirrored ? columns / 2 : 0; i < columns; ++i) {
-    for (int j = 0; j < rows; ++j) {
-      const Point at{(i + 0.5) / columns, (j + 0.5) / rows};
-      if (const auto there = map_.state(from_paper(panel_, at))) {
-        seeds.push_back({at, *there, flow.solution().through(there->ln_k).get()});
-      }
-    }
-  }
-  Gaps gaps(std::move(seeds), {drawing_.panel_mm.x, drawing_.panel_mm.y});
+  const auto seed_at = [&](Point at) -> std::optional<Gaps::Seed> {
+    const auto there = mirrored && at.x < 0.5 ? std::nullopt : map_.state(from_paper(panel_, at));
+    if (!there) return std::nullopt;
+    return Gaps::Seed{at, *there, flow.solution().through(there->ln_k).get()};
+  };
+  Gaps gaps(48, 32, seed_at, {drawing_.panel_mm.x, drawing_.panel_mm.y});
   std::vector<Copy> copies;
   while (!gaps.empty() && copies.size() < max_count) {
     const Gaps::Seed widest = gaps.widest();

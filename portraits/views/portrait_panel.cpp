@@ -57,22 +57,16 @@ void PortraitPanel::add_invariant(std::vector<Polyline> axes, const std::vector<
   if (!drawing_.style.invariant) return;
   const bool driven = drawing_.portrait.system().drive() > 0;
   if (!driven) axes.insert(axes.begin(), pivoting.begin(), pivoting.end());
-  if (!axes.empty()) {
-    const Text legend = driven ? "invariant axis " + math("u = 0") : Text("invariant axes");
-    panel_.lines.push_back({std::move(axes), {drawing_.palette.invariant, 1.8, false}, legend});
-    add_heads(panel_.lines.back());
-  }
+  const Text legend = driven ? "invariant axis " + math("u = 0") : Text("invariant axes");
+  PanelLayers::add_invariant({std::move(axes), {drawing_.palette.invariant, 1.8, false}, legend});
   Lines attracting{{}, {drawing_.palette.comparison, 3, false}, "invariant ray " + math("k = k*")};
   Lines repelling{{}, {drawing_.palette.comparison, 2.2, true}, "invariant ray that orbits leave"};
   for (const reduction::InvariantRay& of : drawing_.portrait.plane.terminal.rays) {
     Lines& lines = of.attracts_above || of.attracts_below ? attracting : repelling;
     std::ranges::move(ray(std::log(of.k)), std::back_inserter(lines.lines));
   }
-  for (Lines& lines : {std::ref(attracting), std::ref(repelling)}) {
-    if (lines.lines.empty()) continue;
-    add_heads(lines);
-    panel_.lines.push_back(std::move(lines));
-  }
+  PanelLayers::add_invariant(std::move(attracting));
+  PanelLayers::add_invariant(std::move(repelling));
 }
 
 void PortraitPanel::add_field() {
