@@ -56,10 +56,11 @@ std::vector<Point> PanelLayers::on_paper_along(const Polyline& line, double step
 }
 
 bool PanelLayers::add_orbits(std::vector<TimedLine> orbits, bool coloured, const Text& legend) {
-  const auto plain = std::ranges::stable_partition(
-      orbits, [=](const TimedLine& orbit) { return coloured && std::isfinite(orbit.left.front()); });
-  const std::vector<TimedLine> others(plain.begin(), plain.end());
-  orbits.erase(plain.begin(), plain.end());
+  const auto plain = std::stable_partition(orbits.begin(), orbits.end(), [=](const TimedLine& orbit) {
+    return coloured && std::isfinite(orbit.left.front());
+  });
+  const std::vector<TimedLine> others(plain, orbits.end());
+  orbits.erase(plain, orbits.end());
   if (!others.empty()) add_plain(others, {look_.palette.orbit, 1.3}, orbits.empty() ? legend : "other orbits");
   add_coloured(orbits);
   return !orbits.empty();
