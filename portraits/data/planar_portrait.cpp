@@ -67,10 +67,16 @@ std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
   return parts;
 }
 
+/// Traces orbits: by a scaling along the directions q, else forwards and backwards in time.
 class PlanarTracer {
  public:
   PlanarTracer(const PlanarReduction& plane, const Window& window)
       : plane_(plane), window_(window), panel_(panel_of(window)) {
+    if (plane.scaling() == nullptr) {
+      const PlanarReduction forth = reduction::by_steps(plane.field());
+      ways_ = {{plane, forth}, {plane.reversed(), forth.reversed()}};
+      return;
+    }
     highest_ = -infinity;
     lowest_ = infinity;
     constexpr int pieces = 100;
@@ -93,13 +99,16 @@ class PlanarTracer {
 
   /// Returns the orbit through a point, or from the point on, in parts that lie in the window.
   std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
-    if (x == plane_.centre()) return {};
-    return parts_of(line(x, from_here), window_, [this](const Vector2d& at) { return time_left(at); });
+    if (plane_.scaling() && x == plane_.centre()) return {};
+    return parts_of(plane_.scaling() ? line(x, from_here) : motion(x, from_here), window_,
+                    [this](const Vector2d& at) { return time_left(at); });
   }
 
-  /// Returns the number of the sector of a point; empty if the field has no value there.
+  /// Returns the number of the sector of a point, 0 without sectors; empty if the field has no value there.
   std::optional<std::size_t> sector(const Vector2d& x) const {
-    if (x == plane_.centre() || !has_value(x)) return std::nullopt;
+    if (!has_value(x)) return std::nullopt;
+    if (!plane_.scaling()) return 0;
+    if (x == plane_.centre()) return std::nullopt;
     const double q = plane_.canonical(x).q;
     const std::vector<PlanarSector>& sectors = plane_.sectors();
     for (std::size_t i = 0; i < sectors.size(); ++i) {
@@ -145,6 +154,27 @@ class PlanarTracer {
     return result;
   }
 
+  /// Returns the orbits that leave the saddles and those that enter them, from points just beside the saddles.
+  std::vector<PortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
+    std::vector<PortraitOrbit> all;
+    for (const reduction::Equilibrium& saddle : equilibria) {
+      if (saddle.kind() != "saddle") continue;
+      const auto [stable, unstable] = saddle.eigenvalues();
+      for (const double value : {stable.real(), unstable.real()}) {
+        const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
+        Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
+                                                                 : Vector2d(-rest(1, 1), rest(1, 0));
+        constexpr double beside = 1e-6;
+        along *= beside / along.cwiseQuotient(window_.sides()).norm();
+        for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
+          if (!sector(x)) continue;
+          std::ranges::move(orbit(x), std::back_inserter(all));
+        }
+      }
+    }
+    return all;
+  }
+
   /// Returns the finite times left on the border of the window, increasing.
   std::vector<double> times_at_border() const {
     std::vector<double> times;
@@ -162,13 +192,15 @@ class PlanarTracer {
   }
   bool has_value(const Vector2d& x) const {
     try {
+      if (!plane_.scaling()) return plane_.field()(x).allFinite();
       plane_.end_time(x);
       return true;
-    } catch (const std::domain_error&) {
+    } catch (const std::exception&) {
       return false;
     }
   }
   double time_left(const Vector2d& x) const {
+    if (!plane_.scaling()) return infinity;
     try {
       // A picture has one kind of times: to the centre, or to infinity if motions become slower with distance.
       const reduction::PlanarOrbit orbit = plane_.orbit(x);
@@ -241,6 +273,22 @@ class PlanarTracer {
     return line;
   }
 
+  /// A system, and its steps in time.
+  struct Way {
+    PlanarReduction plane, by_steps;
+  };
+
+  /// Returns the orbit through a point, or from the point on, in time.
+  Polyline motion(const Vector2d& x, bool from_here) const {
+    Polyline line;
+    if (!from_here) line = follow(ways_[1], x);
+    std::ranges::reverse(line);
+    line.push_back({x[0], x[1]});
+    std::ranges::copy(follow(ways_[0], x), std::back_inserter(line));
+    return line;
+  }
+  Polyline follow(const Way& way, const Vector2d& x) const;
+
   template <class OnOrbit>
   void follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const;
 
@@ -252,8 +300,9 @@ class PlanarTracer {
   std::vector<Vector2d> border_;
   double highest_, lowest_;  ///< visible range of p
   std::vector<Course> courses_;
-  double growth_ = 0;  ///< change of p in a counter-clockwise turn
-  double sense_ = 1;   ///< direction of the motion
+  double growth_ = 0;      ///< change of p in a counter-clockwise turn
+  double sense_ = 1;       ///< direction of the motion
+  std::vector<Way> ways_;  ///< forwards and backwards, without a scaling
 };
 
 /// Appends the orbit from one x to another, with visibly close points.
@@ -302,11 +351,75 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
+/// Follows a motion out of the window and for some of its sides beyond, because it may return.
+Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
+  const auto& [plane, by_steps] = way;
+  const Vector2d f = plane.field()(x);
+  const Vector2d sides = window_.sides();
+  const double speed = f.cwiseQuotient(sides).norm();
+  if (!(speed > 0)) return {};
+  bool stepped = false;
+  reduction::PlanarOrbit motion = [&] {
+    try {
+      return plane.part_of_orbit(x);
+    } catch (const std::domain_error&) {
+      stepped = true;
+      return by_steps.orbit(x);
+    }
+  }();
+  constexpr double near = 0.008, far = 6, rest = 1e-5;
+  constexpr int most = 4000;
+  Polyline line;
+  Vector2d here = x;
+  double time = 0, step = near / speed;
+  const double last = motion.period().value_or(infinity);
+  // An orbit that tends to a closed one visits the same cells of the picture again and again.
+  constexpr int cells = 300, turns = 3;
+  std::map<std::pair<int, int>, std::pair<int, int>> visits;  // last point in a cell, and number of visits
+  for (int i = 0; i < most && time < last; ++i) {
+    const double next = std::min(time + step, last);
+    Vector2d there;
+    try {
+      there = motion.at(next);
+    } catch (const std::domain_error&) {
+      step /= 2;
+      if (step > 1e-6 * near / speed) continue;
+      // The reduction ends here, but steps in time may go on.
+      if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
+      motion = by_steps.orbit(here);
+      time = 0;
+      step = 1e-3 * near / speed;
+      continue;
+    }
+    const Vector2d outside = (there - window_.low).cwiseMin(0) + (there - window_.high).cwiseMax(0);
+    const double beyond = outside.cwiseQuotient(sides).norm();
+    const double moved = (there - here).cwiseQuotient(sides).norm(), allowed = near * (1 + 10 * beyond);
+    if (!(moved <= allowed)) {
+      step /= 2;
+      if (!(time + step > time)) break;
+      continue;
+    }
+    const Vector2d part = (there - window_.low).cwiseQuotient(sides) * cells;
+    if (beyond == 0) {
+      auto& [when, count] = visits[{static_cast<int>(part[0]), static_cast<int>(part[1])}];
+      const bool again = count > 0 && static_cast<int>(line.size()) - when > cells / 10;
+      when = static_cast<int>(line.size());
+      count += count == 0 || again ? 1 : 0;
+      if (count > turns) break;
+    }
+    line.push_back({there[0], there[1]});
+    here = there;
+    time = next;
+    if (beyond > far) break;
+    if (moved < allowed / 2) step *= 1.5;
+    if (moved < rest && step * speed > 1e3) break;  // the motion tends to an equilibrium
+  }
+  return line;
+}
+
 /// Returns orbits that fill the window. Each goes through the middle of the widest gap. Its mirror images follow if
 /// they have as much room, because most systems have such a symmetry.
-/// @param tracer  PlanarTracer or MotionTracer
-template <class Tracer>
-std::vector<PortraitOrbit> filling(const Tracer& tracer, const Window& window, const Vector2d& middle,
+std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
   const Panel panel = panel_of(window);
   constexpr double gap = 0.055;  // in sides of the window
@@ -352,130 +465,6 @@ std::vector<PortraitOrbit> filling(const Tracer& tracer, const Window& window, c
   return orbits;
 }
 
-/// Traces motions forwards and backwards in time, for systems without a scaling.
-class MotionTracer {
- public:
-  MotionTracer(const PlanarReduction& plane, const Window& window)
-      : forth_(plane),
-        back_(plane.reversed()),
-        steps_forth_(reduction::by_steps(plane.field())),
-        steps_back_(steps_forth_.reversed()),
-        window_(window) {}
-
-  /// Returns an orbit as PlanarTracer does.
-  std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
-    Polyline line;
-    if (!from_here) {
-      line = way(back_, steps_back_, x);
-      std::ranges::reverse(line);
-    }
-    line.push_back({x[0], x[1]});
-    const Polyline later = way(forth_, steps_forth_, x);
-    line.insert(line.end(), later.begin(), later.end());
-    return parts_of(line, window_, [](const Vector2d&) { return infinity; });
-  }
-
-  /// Returns 0 if the field has a value. Sectors are not known without a scaling.
-  std::optional<std::size_t> sector(const Vector2d& x) const {
-    try {
-      if (forth_.field()(x).allFinite()) return 0;
-    } catch (const std::exception&) {
-      // no value
-    }
-    return std::nullopt;
-  }
-
-  /// Returns the orbits that leave the saddles and those that enter them, from points just beside the saddles.
-  std::vector<PortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
-    std::vector<PortraitOrbit> all;
-    for (const reduction::Equilibrium& saddle : equilibria) {
-      if (saddle.kind() != "saddle") continue;
-      const auto [stable, unstable] = saddle.eigenvalues();
-      for (const double value : {stable.real(), unstable.real()}) {
-        const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
-        Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
-                                                                 : Vector2d(-rest(1, 1), rest(1, 0));
-        constexpr double beside = 1e-6;
-        along *= beside / along.cwiseQuotient(window_.sides()).norm();
-        for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
-          if (!sector(x)) continue;
-          std::ranges::move(orbit(x), std::back_inserter(all));
-        }
-      }
-    }
-    return all;
-  }
-
- private:
-  /// Follows a motion out of the window and for some of its sides beyond, because it may return.
-  Polyline way(const PlanarReduction& plane, const PlanarReduction& by_steps, const Vector2d& x) const {
-    const Vector2d f = plane.field()(x);
-    const Vector2d sides = window_.sides();
-    const double speed = f.cwiseQuotient(sides).norm();
-    if (!(speed > 0)) return {};
-    bool stepped = false;
-    reduction::PlanarOrbit motion = [&] {
-      try {
-        return plane.part_of_orbit(x);
-      } catch (const std::domain_error&) {
-        stepped = true;
-        return by_steps.orbit(x);
-      }
-    }();
-    constexpr double near = 0.008, far = 6, rest = 1e-5;
-    constexpr int most = 4000;
-    Polyline line;
-    Vector2d here = x;
-    double time = 0, step = near / speed;
-    const double last = motion.period().value_or(infinity);
-    // An orbit that tends to a closed one visits the same cells of the picture again and again.
-    constexpr int cells = 300, turns = 3;
-    std::map<std::pair<int, int>, std::pair<int, int>> visits;  // last point in a cell, and number of visits
-    for (int i = 0; i < most && time < last; ++i) {
-      const double next = std::min(time + step, last);
-      Vector2d there;
-      try {
-        there = motion.at(next);
-      } catch (const std::domain_error&) {
-        step /= 2;
-        if (step > 1e-6 * near / speed) continue;
-        // The reduction ends here, but steps in time may go on.
-        if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
-        motion = by_steps.orbit(here);
-        time = 0;
-        step = 1e-3 * near / speed;
-        continue;
-      }
-      const Vector2d outside = (there - window_.low).cwiseMin(0) + (there - window_.high).cwiseMax(0);
-      const double beyond = outside.cwiseQuotient(sides).norm();
-      const double moved = (there - here).cwiseQuotient(sides).norm(), allowed = near * (1 + 10 * beyond);
-      if (!(moved <= allowed)) {
-        step /= 2;
-        if (!(time + step > time)) break;
-        continue;
-      }
-      const Vector2d part = (there - window_.low).cwiseQuotient(sides) * cells;
-      if (beyond == 0) {
-        auto& [when, count] = visits[{static_cast<int>(part[0]), static_cast<int>(part[1])}];
-        const bool again = count > 0 && static_cast<int>(line.size()) - when > cells / 10;
-        when = static_cast<int>(line.size());
-        count += count == 0 || again ? 1 : 0;
-        if (count > turns) break;
-      }
-      line.push_back({there[0], there[1]});
-      here = there;
-      time = next;
-      if (beyond > far) break;
-      if (moved < allowed / 2) step *= 1.5;
-      if (moved < rest && step * speed > 1e3) break;  // the motion tends to an equilibrium
-    }
-    return line;
-  }
-
-  PlanarReduction forth_, back_, steps_forth_, steps_back_;
-  Window window_;
-};
-
 Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
@@ -510,18 +499,15 @@ Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
 PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
   const Window window = window_of(plane, request);
   PlanarPortrait portrait{{window, {}, {}, 0, {}, {}, request.through}, std::move(name), plane};
-  const auto trace = [&](const auto& tracer) {
-    portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits);
-    const auto asked = [&](const State& x, bool from_here) {
-      plane.end(vector_of(x));  // throws for a point without a value
-      return tracer.orbit(vector_of(x), from_here);
-    };
-    if (request.highlight) portrait.highlight = asked(*request.highlight, true);
-    for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
+  const PlanarTracer tracer(portrait.plane, window);
+  portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits);
+  const auto asked = [&](const State& x, bool from_here) {
+    plane.end(vector_of(x));  // throws for a point without a value
+    return tracer.orbit(vector_of(x), from_here);
   };
+  if (request.highlight) portrait.highlight = asked(*request.highlight, true);
+  for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
   if (plane.scaling() == nullptr) {
-    const MotionTracer tracer(plane, window);
-    trace(tracer);
     portrait.equilibria = reduction::find_equilibria({plane.field()}, window.low, window.high);
     prove_centers(portrait.equilibria, plane);
     portrait.separatrices = tracer.separatrices(portrait.equilibria);
@@ -532,8 +518,6 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
     }
     return portrait;
   }
-  const PlanarTracer tracer(portrait.plane, window);
-  trace(tracer);
   const std::vector<double> times = tracer.times_at_border();
   if (!times.empty()) {
     // Next to a ray that leads elsewhere, times are unbounded.

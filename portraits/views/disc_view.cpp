@@ -125,7 +125,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
     const int count = drawing.crowd(10);
     const Instant at = at_log_ratio(curve, 0);
     const double rho = std::hypot(mu * at.u, at.v);
-    std::vector<PortraitPanel::Copy> result;
+    std::vector<OrbitCopy> result;
     for (int i = 0; i < count; ++i) {
       const double radius = hole + (1 - hole) * (i + 0.5) / count;
       for (double sign : {1.0, -1.0}) result.push_back({curve, map.rho(radius) / rho, sign});

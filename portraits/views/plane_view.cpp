@@ -13,7 +13,7 @@ namespace contensou::portraits {
 
 namespace {
 
-using Copies = std::vector<PortraitPanel::Copy>;
+using Copies = std::vector<OrbitCopy>;
 
 /// Returns ticks of v: round speeds in the linear part, powers of ten below.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {

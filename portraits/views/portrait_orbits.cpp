@@ -16,7 +16,7 @@ void PortraitPanel::add_orbits() {
   add_layers([this](const PhasePortrait& of) { return lines_of(of.orbits); });
 }
 
-void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies,
+void PortraitPanel::add_copies(const std::function<std::vector<OrbitCopy>(const PortraitOrbit& curve)>& copies,
                                bool mirrored) {
   const bool has_rays = !drawing_.portrait.plane.terminal.rays.empty();
   add_layers([&](const PhasePortrait& of) {
@@ -27,7 +27,7 @@ void PortraitPanel::add_copies(const std::function<std::vector<Copy>(const Portr
   });
 }
 
-std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& flow, bool mirrored) {
+std::vector<OrbitCopy> PortraitPanel::filling(const reduction::Flow& flow, bool mirrored) {
   constexpr double gap_mm = 4;
   constexpr std::size_t max_count = 60;
   using Gaps = WidestGaps<const reduction::SimilarityCurve*, Instant>;
@@ -37,7 +37,7 @@ std::vector<PortraitPanel::Copy> PortraitPanel::filling(const reduction::Flow& f
     return Gaps::Seed{at, *there, flow.solution().through(there->ln_k).get()};
   };
   Gaps gaps(48, 32, seed_at, {drawing_.panel_mm.x, drawing_.panel_mm.y});
-  std::vector<Copy> copies;
+  std::vector<OrbitCopy> copies;
   while (!gaps.empty() && copies.size() < max_count) {
     const Gaps::Seed widest = gaps.widest();
     if (widest.gap < gap_mm) break;

@@ -59,8 +59,6 @@ class PortraitPanel : public PanelLayers {
     asked_first_ = true;
   }
 
-  using Copy = OrbitCopy;
-
   /// Adds the orbits of the portrait, and those of the law that it is compared with.
   void add_orbits();
 
@@ -69,7 +67,7 @@ class PortraitPanel : public PanelLayers {
   ///
   /// @param copies    returns copies of a curve that passes k = 1 at v = 1
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half
-  void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies, bool mirrored);
+  void add_copies(const std::function<std::vector<OrbitCopy>(const PortraitOrbit& curve)>& copies, bool mirrored);
   /// Adds isochrones, with labels where orbits leave room; those of the other law without labels.
   void add_isochrones();
   /// Adds the axes and the invariant rays.
@@ -83,7 +81,7 @@ class PortraitPanel : public PanelLayers {
 
  private:
   void add_layers(const std::function<std::vector<TimedLine>(const PhasePortrait&)>& lines);
-  std::vector<Copy> filling(const reduction::Flow& flow, bool mirrored);
+  std::vector<OrbitCopy> filling(const reduction::Flow& flow, bool mirrored);
 
   const Drawing& drawing_;
   std::deque<PortraitOrbit> traced_;  ///< orbits to which copies refer

@@ -44,7 +44,7 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
     const double apart = std::max(step, (2 * half_height + rise + fall) / drawing.crowd(max_count));
     const int first = -static_cast<int>(std::ceil((half_height + rise) / apart));
     const int last = static_cast<int>(std::ceil((half_height + fall) / apart));
-    std::vector<PortraitPanel::Copy> result;
+    std::vector<OrbitCopy> result;
     for (int i = first; i <= last; ++i) result.push_back({curve, std::exp(middle + i * apart - at.ln_v)});
     return result;
   };
