@@ -120,7 +120,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 # The rooms of answers and of si, in the same way.
-set(answers_floors "input" "asked table" "verbs")
+set(answers_floors "input" "asked table" "verbs" "figures")
 set(si_floors "experiment" "motion" "engines")
 foreach(part IN ITEMS answers si)
   set(below "")

@@ -5,10 +5,10 @@
 
 #include <emscripten/bind.h>
 
+#include "answers/figures/fit_figure.hpp"
 #include "answers/input/csv.hpp"
 #include "answers/input/track_file.hpp"
 #include "answers/verbs/fit_answer.hpp"
-#include "answers/verbs/fit_figure.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/experiment.hpp"
 #include "javascript.hpp"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "answers/figures/aim_figure.hpp"
 #include "answers/verbs/aim_answer.hpp"
-#include "answers/verbs/aim_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "answers/figures/check_figure.hpp"
 #include "answers/verbs/check_answer.hpp"
-#include "answers/verbs/check_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "options/figure_options.hpp"

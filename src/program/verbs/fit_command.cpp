@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "answers/asked/formula_law.hpp"
+#include "answers/figures/fit_figure.hpp"
 #include "answers/input/track_file.hpp"
 #include "answers/verbs/fit_answer.hpp"
-#include "answers/verbs/fit_figure.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/run_file.hpp"

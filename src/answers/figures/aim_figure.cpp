@@ -1,4 +1,4 @@
-#include "answers/verbs/aim_figure.hpp"
+#include "answers/figures/aim_figure.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "answers/verbs/check_figure.hpp"
+#include "answers/figures/check_figure.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "answers/verbs/fit_figure.hpp"
+#include "answers/figures/fit_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
