@@ -161,10 +161,6 @@ std::string cell(const std::string& name) {
 
 }  // namespace
 
-std::string to_json(const PhasePortrait& portrait, const PortraitSource& source) {
-  return to_json(std::vector{portrait}, source);
-}
-
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source) {
   Json json{{"schema", 1}};
   for (const PhasePortrait& portrait : portraits) {
@@ -181,10 +177,6 @@ std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source
   if (!portrait.separatrices.empty()) json["separatrices"] = json_of(portrait.separatrices, nullptr);
   for (const auto& line : portrait.invariant) json["invariant"].push_back({{"u", list(line.u)}, {"v", list(line.v)}});
   return json_document(json);
-}
-
-std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source) {
-  return to_csv(std::vector{portrait}, source);
 }
 
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source) {

@@ -178,7 +178,7 @@ class Plane {
     const answers::PortraitSpec question = question_of(asked, flow());
     const portraits::PhasePortrait portrait = question.portrait();
     return ending == "tex" ? portraits::pgfplots(question.figure(portrait))
-                           : portraits::to_json(portrait, question.source());
+                           : portraits::to_json({portrait}, question.source());
   }
 
   /// Returns the stop time of one start.

@@ -29,7 +29,7 @@ std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(),
 
 TEST_CASE("JSON has the documented fields, and its numbers read back to the same doubles", "[table]") {
   const auto portrait = saved_portrait();
-  const auto json = nlohmann::json::parse(portraits::to_json(portrait));
+  const auto json = nlohmann::json::parse(portraits::to_json({portrait}));
   CHECK(json["schema"] == 1);
   CHECK(json["law"] == "pade");
   CHECK(json["mu"] == 0.3);
@@ -48,10 +48,10 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
   CHECK(json["through"][1]["u"].get<std::vector<double>>() == list(portrait.through[1].u));
   CHECK(json["against"]["law"] == "exact");
   CHECK(json["against"]["orbits"][3]["v"].get<std::vector<double>>() == list(portrait.comparisons[0].orbits[3].v));
-  CHECK(portraits::to_json(portrait).find("null") == std::string::npos);
+  CHECK(portraits::to_json({portrait}).find("null") == std::string::npos);
   CHECK(json["orbits"][3]["k"][0].get<double>() ==
         Approx(portrait.orbits[3].v[0] / (0.3 * std::abs(portrait.orbits[3].u[0]))));
-  const auto of_ball = nlohmann::json::parse(portraits::to_json(portrait, {"1.2", "red ball", 0.5}));
+  const auto of_ball = nlohmann::json::parse(portraits::to_json({portrait}, {"1.2", "red ball", 0.5}));
   CHECK((of_ball["version"] == "1.2" && of_ball["ball"] == "red ball" && of_ball["seconds_per_tau"] == 0.5));
 }
 
@@ -60,8 +60,8 @@ TEST_CASE("In the view of beta each state of an orbit has its beta, as its axis 
   const auto portrait =
       portraits::phase_portrait(flow, {.view = portraits::View::regularised, .highlight = reduction::State{-1, 2}});
   const portraits::PanelMap map = portraits::draw_mapped(portrait).maps.front();
-  const auto json = nlohmann::json::parse(portraits::to_json(portrait));
-  std::istringstream csv(portraits::to_csv(portrait));
+  const auto json = nlohmann::json::parse(portraits::to_json({portrait}));
+  std::istringstream csv(portraits::to_csv({portrait}));
   std::string line;
   while (std::getline(csv, line) && line.starts_with('#')) continue;
   CHECK(line == "kind,index,u,v,tau,ln_v,k,beta");
@@ -86,13 +86,13 @@ TEST_CASE("In the view of beta each state of an orbit has its beta, as its axis 
   check(portrait.highlight[0], json["highlight"], "highlight,0,");
   for (const char* view : {"uv", "time"}) {
     const auto other = portraits::phase_portrait(flow, {.view = portraits::find_view(view)});
-    CHECK(portraits::to_json(other).find("beta") == std::string::npos);
+    CHECK(portraits::to_json({other}).find("beta") == std::string::npos);
   }
 }
 
 TEST_CASE("CSV says where it comes from, and has one row for each point", "[table]") {
   const auto portrait = saved_portrait();
-  std::istringstream csv(portraits::to_csv(portrait, {"1.2", "red ball", 0.5}));
+  std::istringstream csv(portraits::to_csv({portrait}, {"1.2", "red ball", 0.5}));
   std::string line, remarks;
   while (std::getline(csv, line) && line.starts_with('#')) remarks += line + '\n';
   CHECK_THAT(remarks, Catch::StartsWith("# law: \"pade\"\n# mu: 0.3\n# body: {\"chi\": 3.5, \"gamma\": 2.5}\n"));
@@ -102,7 +102,7 @@ TEST_CASE("CSV says where it comes from, and has one row for each point", "[tabl
   const double tau = first.tau_left[0];
   const auto row = fmt::format("orbit,0,{},{},{},{},{},{}", first.u[0], first.v[0], tau, first.ln_v[0],
                                std::exp(first.ln_k[0]), 0.5 * tau);
-  CHECK(portraits::to_csv(portrait, {"", "b", 0.5}).find("k,t\n" + row + "\n") != std::string::npos);
+  CHECK(portraits::to_csv({portrait}, {"", "b", 0.5}).find("k,t\n" + row + "\n") != std::string::npos);
   std::map<std::string, Eigen::Index> rows;
   while (std::getline(csv, line)) ++rows[line.substr(0, line.find(','))];
   std::map<std::string, Eigen::Index> wanted;

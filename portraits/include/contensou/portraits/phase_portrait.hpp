@@ -167,22 +167,18 @@ struct PortraitSource {
   double seconds_per_tau = 0;  ///< seconds of that ball per unit of tau
 };
 
-/// Returns the portrait as JSON. Numbers read back to the same doubles.
+/// Returns one or more portraits as JSON. Numbers read back to the same doubles.
 ///
 /// Members: schema, law, mu, body {chi, gamma}, view, window [U, V] or [[U1, U2], [V1, V2]], version, ball,
 /// seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; if requested also highlight (an
-/// orbit), through (orbits), against {law, orbits, isochrones}.
-std::string to_json(const PhasePortrait& portrait, const PortraitSource& source = {});
-
-/// Returns portraits as JSON: schema and portraits, each as above without schema. For one portrait it is as above.
+/// orbit), through (orbits), against {law, orbits, isochrones}. Several portraits: schema and portraits, each as above
+/// without schema.
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
-/// Returns the portrait as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. kind is orbit, highlight,
-/// through or isochrone; another law has against_orbit or against_isochrone. tau and t (s) are the time left. Comment
-/// lines (#) above contain the members that precede the orbits in JSON.
-std::string to_csv(const PhasePortrait& portrait, const PortraitSource& source = {});
-
-/// Returns portraits as CSV with two more columns mu,law at the left. For one portrait it is as above.
+/// Returns one or more portraits as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. Several have
+/// mu,law at the left. kind is orbit, highlight, through or isochrone; another law has against_orbit or
+/// against_isochrone. tau and t (s) are the time left. Comment lines (#) above contain the members that precede the
+/// orbits in JSON.
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits
