@@ -20,7 +20,7 @@ struct SingularValues {
 /// Returns the solution of matrix x = right, by LU with partial pivots.
 Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
-/// Returns the least-squares solution of matrix x = right, by QR with pivots.
+/// Returns the least-squares solution of matrix x = right, of least norm if there are several.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);
