@@ -15,8 +15,7 @@
 
 #include "reference_table.hpp"
 
-using namespace contensou;
-using kernel::Elliptic, kernel::Exact, kernel::Pade, kernel::Uniform;
+namespace contensou::kernel {
 
 namespace {
 
@@ -97,7 +96,7 @@ double worst_error(int count) {
   for (const auto& [vx, vy, w, limit, radius] : contacts<T>(count)) {
     const Wide v = std::hypot(Wide(vx), Wide(vy));
     const auto [force, moment] = parts(Law{}, v / (Wide(radius) * std::abs(w)));
-    const auto found = kernel::wrench<Law>(vx, vy, w, limit, radius);
+    const auto found = wrench<Law>(vx, vy, w, limit, radius);
     const Wide law[]{-limit * force * (vx / v), -limit * force * (vy / v),
                      (w < 0 ? 1 : -1) * Wide(limit) * radius * moment};
     const Wide is[]{found.fx, found.fy, found.m};
@@ -118,10 +117,10 @@ double worst_slope(int count) {
     const Wide rim = std::abs(Wide(at.radius) * at.w), v = std::hypot(Wide(at.vx), Wide(at.vy));
     const Wide size = std::max(v, rim);
     if (std::abs(v - rim) < 0.05L * size || std::min(v, rim) < 1e-3L * size) continue;
-    const auto found = kernel::wrench_slopes<Law>(at.vx, at.vy, at.w, at.limit, at.radius);
+    const auto found = wrench_slopes<Law>(at.vx, at.vy, at.w, at.limit, at.radius);
     const auto along = [&](int j, Wide h) {
       const Wide x = at.vx + (j == 0 ? h : 0), y = at.vy + (j == 1 ? h : 0), w = at.w + (j == 2 ? h / at.radius : 0);
-      return kernel::wrench<Law, Wide>(x, y, w, at.limit, at.radius);
+      return wrench<Law, Wide>(x, y, w, at.limit, at.radius);
     };
     for (int j = 0; j < 3; ++j) {
       const auto slope = [&](auto part) {
@@ -159,8 +158,8 @@ void check_bounds(int count) {
     const T vx = any_size<T>(generator, false), vy = any_size<T>(generator, false), w = any_size<T>(generator, false);
     const T limit = any_size<T>(generator, true), creep = i % 3 == 0 ? any_size<T>(generator, true) : T(0);
     const T radius = any_size<T>(generator, true);
-    const auto found = kernel::wrench<Law>(vx, vy, w, limit, radius, creep);
-    const auto [fx, fy, m, slopes] = kernel::wrench_slopes<Law>(vx, vy, w, limit, radius, creep);
+    const auto found = wrench<Law>(vx, vy, w, limit, radius, creep);
+    const auto [fx, fy, m, slopes] = wrench_slopes<Law>(vx, vy, w, limit, radius, creep);
     const T slack = 1 + 5 * std::numeric_limits<T>::epsilon();
     const bool bounded = std::abs(fx) <= limit * slack && std::abs(fy) <= limit * slack;
     const bool finite = std::isfinite(fx) && std::isfinite(fy) && (std::isfinite(m) || !std::isfinite(limit * radius));
@@ -187,7 +186,7 @@ TEMPLATE_TEST_CASE("the kernel is within 4 eps of the law, in float within 1e-6"
 TEST_CASE("the kernel has the 40 digits of the laws", "[table]") {
   const auto check = [](auto law, const tests::ReferenceRow& row, const char* phi, const char* psi) {
     const double k = row.input("k");
-    const auto found = kernel::wrench<decltype(law)>(k, 0.0, 1.0, 1.0, 1.0);
+    const auto found = wrench<decltype(law)>(k, 0.0, 1.0, 1.0, 1.0);
     CAPTURE(phi, row.where());
     CHECK(double(std::abs(-found.fx / row.result(phi) - 1)) <= 4 * std::numeric_limits<double>::epsilon());
     CHECK(double(std::abs(-found.m / row.result(psi) - 1)) <= 4 * std::numeric_limits<double>::epsilon());
@@ -215,20 +214,22 @@ TEMPLATE_TEST_CASE("the kernel has a value on both axes and at rest", "[limit]",
   const auto [force, moment] = parts(TestType{}, 0);
   for (const double speed : {5e-324, 1e-300, 1e-15, 1.0, 1e15, 1e300}) {
     CAPTURE(speed);
-    const auto slides = kernel::wrench<TestType>(0.0, -speed, 0.0, 3.0, 0.5);
+    const auto slides = wrench<TestType>(0.0, -speed, 0.0, 3.0, 0.5);
     CHECK(slides.fy == Approx(3).epsilon(1e-15));
     CHECK((slides.fx == 0 && slides.m == 0));
-    const auto spins = kernel::wrench<TestType>(0.0, 0.0, -speed, 3.0, 0.5);
+    const auto spins = wrench<TestType>(0.0, 0.0, -speed, 3.0, 0.5);
     CHECK(spins.m == Approx(1.5 * double(moment)).epsilon(1e-15));
     CHECK((spins.fx == 0 && spins.fy == 0));
   }
-  const auto rest = kernel::wrench_slopes<TestType>(0.0, 0.0, 0.0, 3.0, 0.5);
+  const auto rest = wrench_slopes<TestType>(0.0, 0.0, 0.0, 3.0, 0.5);
   CHECK((rest.fx == 0 && rest.fy == 0 && rest.m == 0 && rest.slopes[0][0] == 0 && rest.slopes[2][2] == 0));
-  const auto creeps = kernel::wrench_slopes<TestType>(0.0, 0.0, 0.0, 3.0, 0.5, 0.25);
+  const auto creeps = wrench_slopes<TestType>(0.0, 0.0, 0.0, 3.0, 0.5, 0.25);
   CHECK(creeps.slopes[0][0] == Approx(-12).epsilon(1e-15));
   CHECK(creeps.slopes[0][1] == 0);
-  const auto lifted = kernel::wrench<TestType>(1.0, 1.0, 1.0, -3.0, 0.5);
+  const auto lifted = wrench<TestType>(1.0, 1.0, 1.0, -3.0, 0.5);
   CHECK((lifted.fx == 0 && lifted.fy == 0 && lifted.m == 0));
-  const auto point = kernel::wrench_slopes<TestType>(1.0, 0.0, 7.0, 3.0, 0.0);
+  const auto point = wrench_slopes<TestType>(1.0, 0.0, 7.0, 3.0, 0.0);
   CHECK((point.fx == Approx(-3).epsilon(1e-15) && point.m == 0 && point.slopes[2][2] == 0));
 }
+
+}  // namespace contensou::kernel
