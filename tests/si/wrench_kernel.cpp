@@ -101,8 +101,8 @@ double worst_error(int count) {
                      (w < 0 ? 1 : -1) * Wide(limit) * radius * moment};
     const Wide is[]{found.fx, found.fy, found.m};
     for (int i = 0; i < 3; ++i) {
-      if (law[i] == 0 ? is[i] != 0 : true)
-        worst = std::max(worst, law[i] == 0 ? 1 : double(std::abs(is[i] / law[i] - 1)));
+      const Wide error = law[i] == 0 ? std::abs(is[i]) : std::abs(is[i] / law[i] - 1);
+      worst = std::max(worst, static_cast<double>(error));
     }
   }
   return worst;
