@@ -164,7 +164,8 @@ void check_bounds(int count) {
     const bool bounded = std::abs(fx) <= limit * slack && std::abs(fy) <= limit * slack;
     const bool finite = std::isfinite(fx) && std::isfinite(fy) && (std::isfinite(m) || !std::isfinite(limit * radius));
     const bool passive = fx * vx + fy * vy + m * w <= 0;
-    const bool same = fx == found.fx && fy == found.fy && m == found.m;
+    const auto near = [&](T x, T other) { return x == other || std::abs(x - other) <= (slack - 1) * std::abs(x); };
+    const bool same = near(fx, found.fx) && near(fy, found.fy) && near(m, found.m);  // equal without fused products
     bool numbers = true;
     for (const auto& row : slopes)
       numbers = numbers && std::none_of(row, row + 3, [](T slope) { return std::isnan(slope); });
