@@ -9,7 +9,7 @@ const texts = {
   blowup: ["blow-up", "The origin is drawn as the inner half-circle, so that the direction of each orbit at its end is seen. In the chart (u, ln k) the line u = 0 is the origin."],
   disc: ["disc", "The whole half-plane in a half-disc (Poincaré): the circle is infinity."],
   time: ["time", "Both speeds divided by their first values, and k, against time τ divided by the stop time τ*. Only k at the start matters. Click to go to a moment."],
-  pair: ["pair", "The plane, and beside it ln k against u, which shows how orbits enter the origin."],
+  pair: ["pair", "The plane, and ln k against u, which shows how orbits enter the origin."],
 };
 
 /** A view of the library with its title and a hint to the reader. */
