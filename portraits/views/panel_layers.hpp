@@ -60,7 +60,7 @@ class PanelLayers {
   void add_plain(const std::vector<TimedLine>& orbits, Stroke stroke, const Text& legend);
 
   /// Adds isochrones, with labels where orbits leave room.
-  /// @param pieces   by increasing time
+  /// @param pieces   pieces by increasing time
   /// @param unit     time unit of the labels
   /// @param crossed  lines that labels avoid, beside the orbits
   /// @param middle   x on paper of another line that labels avoid

@@ -55,7 +55,7 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
     const double p = plane.canonical(corner).p;
     if (std::isfinite(p)) highest = std::max(highest, p);
   }
-  Lines attracting{{}, {palette.comparison, 2.6}, "ray that orbits come to"};
+  Lines attracting{{}, {palette.comparison, 2.6}, "ray that orbits approach"};
   Lines others{{}, {palette.comparison, 2, true}, "ray that orbits leave"};
   for (const auto& ray : plane.rays()) {
     Polyline line{{plane.centre()[0], plane.centre()[1]}};
@@ -147,7 +147,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     for (const Vector2d& x : portrait.points) points.push_back({x[0], x[1]});
     layers.add_points(points);
   }
-  constexpr const char* start_legend = "the orbit of the start";
+  constexpr const char* start_legend = "orbit of the start";
   add_asked(portrait.highlight, true, start_legend);
   if (!portrait.highlight.empty()) {
     const PlanarPortraitOrbit& first = portrait.highlight.front();
@@ -157,7 +157,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   if (scaling) {
     const Vector2d& centre = portrait.plane.centre();
     layers.panel().marks.push_back(
-        {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "the centre of the symmetry"});
+        {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "centre of the symmetry"});
   }
   std::map<std::string_view, Marks> of_kind;
   for (const reduction::Equilibrium& each : portrait.equilibria) {
@@ -174,14 +174,14 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   Figure figure;
   figure.title = shortened(portrait.name);
   const std::string kind(portrait.plane.kind().empty() ? "kind not decided" : portrait.plane.kind());
-  figure.subtitle =
-      !scaling ? (portrait.plane.form().empty()
-                      ? std::string("no reduction found: orbits by steps")
-                      : fmt::format("orbits by quadrature; inverse integrating factor: {}", portrait.plane.form()))
-      : portrait.plane.star()
-          ? kind
-          : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
-                        portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
+  const std::string_view form = portrait.plane.form();
+  const char* of_form = form == "affine" ? "generator of the orbits" : "inverse integrating factor";
+  figure.subtitle = !scaling ? (form.empty() ? std::string("no exact solution found: orbits by time steps")
+                                             : fmt::format("orbits by quadrature; {}: {}", of_form, form))
+                    : portrait.plane.star()
+                        ? kind
+                        : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
+                                      portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
   figure.size = size;
   figure.theme = look.palette.theme;
   figure.panels = {std::move(layers.panel())};

@@ -77,7 +77,7 @@ class PortraitPanel : public PanelLayers {
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half
   void add_copies(const std::function<std::vector<Copy>(const PortraitOrbit& curve)>& copies, bool mirrored);
   void add_highlights();
-  /// Adds isochrones, with labels where orbits leave room; those of the other law without labels.
+  /// Adds isochrones, with labels where orbits leave room. Isochrones of the other law have no labels.
   void add_isochrones();
   /// Adds the axes and the invariant rays.
   /// @param axes, pivoting  lines of the axes; orbits in the direction of the motion
