@@ -326,7 +326,7 @@ std::vector<PlanarPortraitOrbit> filling(const Tracer& tracer, const PlanarWindo
     const Vector2d part = (x - window.low).cwiseQuotient(sides);
     return Point{part[0], part[1]};
   };
-  constexpr double gap = 0.055;  // in sides of the window
+  constexpr double gap = 0.055;  // fraction of the window's side
   constexpr int most = 80, across = 41;
   using Gaps = WidestGaps<std::size_t, Vector2d>;
   std::vector<Gaps::Seed> seeds;

@@ -10,7 +10,7 @@ struct SingularValues {
   explicit SingularValues(const Eigen::MatrixXd& matrix);
 
   /// Returns the least-squares solution of least norm, from the largest singular values.
-  /// @param rank  how many of them
+  /// @param rank  number of them
   Eigen::VectorXd solution(const Eigen::VectorXd& right, Eigen::Index rank) const;
 
   Eigen::VectorXd values;  ///< decreasing

@@ -27,7 +27,7 @@ Vector2d spread(int i) {
 
 /// True if other zeros lie arbitrarily near to this one, at which the Jacobian has the null vector `along`.
 bool on_curve_of_zeros(const SmoothField& field, const Vector2d& zero, const Vector2d& along) {
-  // Newton's method comes to another zero at once; to a multiple one it takes many steps.
+  // Newton's method reaches a simple zero in a few steps, a multiple one in many.
   constexpr int steps = 3;
   constexpr double left = 1e-12, apart = 0.5;
   Vector2d x = zero + along;

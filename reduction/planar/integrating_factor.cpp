@@ -35,7 +35,7 @@ bool holds_widely(const SmoothField& field, const FactorFit& fit) {
 
 struct FactorReduction::Solved {
   SmoothField field;
-  SmoothField fitted;  ///< for which the factor has its form: the same, or with its denominator cleared
+  SmoothField fitted;  ///< field for which the factor has its form: the field, or the field times its denominator
   Vector2d start;
   bool cleared = false;
   std::vector<TriedForm> tried = {};

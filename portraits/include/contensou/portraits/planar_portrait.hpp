@@ -32,7 +32,7 @@ struct PlanarPortrait {
   PlanarWindow window;
   std::vector<PlanarPortraitOrbit> orbits;
   std::vector<Isochrone> isochrones;  ///< isochrones of the time to the centre, or to infinity, in the window
-  double isochrone_step;              ///< as in PhasePortrait
+  double isochrone_step;              ///< step between isochrones, see PhasePortrait
   /// Parts of the orbit of one start, from the start on; empty if not requested.
   std::vector<PlanarPortraitOrbit> highlight;
   std::vector<PlanarPortraitOrbit> through;  ///< orbits through the requested points

@@ -25,7 +25,7 @@ struct Basis {
 /// A field with its Jacobian. Where it has no value it throws or returns what is not finite.
 struct SmoothField {
   PlanarField value;
-  /// The derivatives, exact except for rounding; row 0 holds those of u'. If it is empty, differences take their place.
+  /// The derivatives, exact except for rounding; row 0 belongs to u'. If it is empty, differences take their place.
   std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
   /// D with its derivatives by u and v, if the field is a quotient N/D: V D may have a form where V has none.
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
@@ -39,7 +39,7 @@ struct TriedForm {
   double singular_value;  ///< the least: mean square of (R66) over the points of the fit
   double gap;             ///< ratio of the least singular value that counts as large to the largest that counts as 0
   double residual;        ///< largest (R66) at other points
-  bool cleared = false;   ///< the form is that of V times the denominator of the field
+  bool cleared = false;   ///< true if V times the denominator of the field has the form
 };
 
 /// V and H as formulas in u and v, as people write them; empty where the numbers are not recognised.
@@ -93,7 +93,7 @@ class FactorReduction {
   /// Returns the system whose motions go the other way, with the same V.
   FactorReduction reversed() const;
 
-  /// Returns the system as one that is solved.
+  /// Returns the solved system.
   /// @throws std::domain_error  if no factor was found
   PlanarReduction reduction() const;
 

@@ -19,8 +19,8 @@ enum class InvariantDirection {
 
 /// The end of the half-line at which a singular point lies.
 enum class SingularPlace {
-  origin,    ///< at u = v = 0: the origin has no linear part and is blown up to a line
-  infinity,  ///< on the circle at infinity of the Poincare disc
+  origin,    ///< u = v = 0: the origin has no linear part and is blown up to a line
+  infinity,  ///< circle at infinity of the Poincare disc
 };
 
 enum class SingularKind {
@@ -47,7 +47,7 @@ struct SingularPoint {
   Eigen::Matrix2d linear_part;  ///< d(radial', angular')/d(radial, angular), dimensionless
   double radial;                ///< eigenvalue along the half-line
   double angular;  ///< eigenvalue across the half-line; -infinity if the law has an infinite slope (the ring at k = 1)
-  SingularKind kind;  ///< for a saddle, the half-line is a separatrix
+  SingularKind kind;  ///< kind; the half-line of a saddle is a separatrix
 };
 
 /// The half-line along which orbits enter the origin.
