@@ -422,7 +422,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
 std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
   const Panel panel = panel_of(window);
-  constexpr double gap = 0.055;  // in sides of the window
+  constexpr double gap = 0.055;  // fraction of the window's side
   constexpr int most = 80, across = 41;
   using Gaps = WidestGaps<std::size_t, Vector2d>;
   const auto seed_at = [&](Point place) -> std::optional<Gaps::Seed> {

@@ -250,7 +250,7 @@ class Script {
   }
 
   void axis(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
-    // Reset the range first: that of the panel before may be impossible on this scale.
+    // Reset the range first: the range of the last panel may be impossible on this scale.
     put("set {0}range [*:*]\n{3} logscale {0}\nset {0}range [{1:.8g}:{2:.8g}]\n", which, axis.low, axis.high,
         axis.logarithmic ? "set" : "unset");
     std::vector<std::string> places;

@@ -146,7 +146,7 @@ class Writer {
   /// The data of an axis, or on a logarithmic axis their powers of ten, in a unit that TeX's fixed point can represent.
   struct Coordinates {
     Axis axis;
-    double origin = 0, unit = 1;  ///< in data
+    double origin = 0, unit = 1;  ///< origin and unit of the axis, in data
     double mm, start;             ///< mm of a unit; place of 0 on the page
     int digits;                   ///< digits behind the point, for hundredths of mm
 
@@ -164,7 +164,7 @@ class Writer {
     double data(double value) const { return axis.logarithmic ? std::log10(value) : value; }
     std::string operator()(double value) const { return fmt::format("{:.{}f}", (data(value) - origin) / unit, digits); }
 
-    /// Returns a comment about the unit, if it is not that of the data.
+    /// Returns a comment about the unit, if it is not the unit of the data.
     std::string remark(char name) const {
       std::string words;
       if (axis.logarithmic) words += fmt::format(", log10 {}", name);

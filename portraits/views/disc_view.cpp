@@ -44,7 +44,7 @@ Polyline half_circle(double radius) {
   return line;
 }
 
-/// Adds singular points by kind, on the circle at infinity and on that of the origin.
+/// Adds singular points by kind, on the circle at infinity and on the circle of the origin.
 void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   using reduction::SingularPlace;
   const auto kind = [&](std::string_view which, Marks::Shape shape) {

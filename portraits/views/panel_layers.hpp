@@ -75,7 +75,7 @@ class PanelLayers {
   void add_plain(const std::vector<TimedLine>& orbits, Stroke stroke, const Text& legend);
 
   /// Adds isochrones, with labels where orbits leave room.
-  /// @param middle   x on paper of a line that labels avoid, too
+  /// @param middle   x on paper of a line that labels avoid
   void add_isochrones(double middle);
 
   /// Adds the orbits through the requested points, these points, and the orbit of the start.

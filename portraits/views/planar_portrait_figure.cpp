@@ -28,7 +28,7 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
     const double p = plane.canonical(corner).p;
     if (std::isfinite(p)) highest = std::max(highest, p);
   }
-  Lines attracting{{}, {palette.comparison, 2.6}, "ray that orbits come to"};
+  Lines attracting{{}, {palette.comparison, 2.6}, "ray that orbits approach"};
   Lines others{{}, {palette.comparison, 2, true}, "ray that orbits leave"};
   for (const auto& ray : plane.rays()) {
     Polyline line{{plane.centre()[0], plane.centre()[1]}};
@@ -55,7 +55,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   const PaperSize size = fitted({width, std::clamp(width * (to_scale ? shape : 0.66), 90.0, 200.0)}, 1, style.size);
   const reduction::Generator* scaling = portrait.plane.scaling();
   PortraitCaption caption;
-  caption.highlight = "the orbit of the start";
+  caption.highlight = "orbit of the start";
   caption.time_symbol = scaling && scaling->time < 0 ? Text("to infinity") : math("t*");
   CurveDrawing look{look_of(size, 1, style.screen), portrait, caption, style};
   const auto& isochrones = portrait.isochrones;
@@ -99,7 +99,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   if (scaling) {
     const Vector2d& centre = portrait.plane.centre();
     layers.panel().marks.push_back(
-        {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "the centre of the symmetry"});
+        {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "centre of the symmetry"});
   }
   std::map<std::string_view, Marks> of_kind;
   for (const reduction::Equilibrium& each : portrait.equilibria) {
@@ -116,14 +116,14 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   Figure figure;
   figure.title = shortened(portrait.name);
   const std::string kind(portrait.plane.kind().empty() ? "kind not decided" : portrait.plane.kind());
-  figure.subtitle =
-      !scaling ? (portrait.plane.form().empty()
-                      ? std::string("no reduction found: orbits by steps")
-                      : fmt::format("orbits by quadrature; inverse integrating factor: {}", portrait.plane.form()))
-      : portrait.plane.star()
-          ? kind
-          : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
-                        portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
+  const std::string_view form = portrait.plane.form();
+  const char* of_form = form == "affine" ? "generator of the orbits" : "inverse integrating factor";
+  figure.subtitle = !scaling ? (form.empty() ? std::string("no exact solution found: orbits by time steps")
+                                             : fmt::format("orbits by quadrature; {}: {}", of_form, form))
+                    : portrait.plane.star()
+                        ? kind
+                        : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
+                                      portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
   figure.size = size;
   figure.theme = look.palette.theme;
   figure.panels = {std::move(layers.panel())};

@@ -49,8 +49,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     const Text exponent = math("s = ") + number(scale.exponent, 3), power = math("v") + sup(math("s"));
     // A panel beside others is small, and has a title.
     const bool beside_others = !drawing.caption.panel.empty();
-    panel.y.name +=
-        beside_others ? "  (shaded: " + power + ")" : "  (shaded: height as " + power + ", " + exponent + ")";
+    panel.y.name += beside_others ? "  (shaded: " + power + ")" : "  (shaded part: " + power + ", " + exponent + ")";
     if (beside_others) panel.title = exponent;
     panel.y.ticks = speed_ticks(scale);
     std::erase_if(panel.y.ticks, [&](const Axis::Tick& tick) { return tick.at < bottom; });
@@ -165,7 +164,7 @@ std::vector<MappedPanel> patch_view(const Drawing& drawing) {
 std::vector<MappedPanel> pair_view(const Drawing& drawing) {
   std::vector<MappedPanel> panels{half_plane(drawing, 1, math("u = R ω") + sub(math("z"))),
                                   contact_panel(drawing, false)};
-  panels.front().panel.title = !drawing.portrait.scale.linear()        ? "the plane, " + math("v") + " bent"
+  panels.front().panel.title = !drawing.portrait.scale.linear()        ? "the plane, " + math("v") + " on a bent scale"
                                : drawing.portrait.system().drive() > 0 ? "the plane"
                                                                        : "the plane of Zh98, Fig. 4";
   return panels;

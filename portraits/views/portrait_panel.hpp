@@ -68,7 +68,7 @@ class PortraitPanel : public PanelLayers {
   /// @param copies    returns copies of a curve that passes k = 1 at v = 1
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half
   void add_copies(const std::function<std::vector<OrbitCopy>(const PortraitOrbit& curve)>& copies, bool mirrored);
-  /// Adds isochrones, with labels where orbits leave room; those of the other law without labels.
+  /// Adds isochrones, with labels where orbits leave room. Isochrones of the other law have no labels.
   void add_isochrones();
   /// Adds the axes and the invariant rays.
   /// @param axes, pivoting  lines of the axes; orbits in the direction of the motion

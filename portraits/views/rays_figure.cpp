@@ -168,8 +168,8 @@ Figure rays_figure(const reduction::Law& law, std::optional<double> r, const Ask
   Figure figure;
   figure.title = "Where motions end,  law: " + shortened(law.name());
   if (drive > 0) figure.title += fmt::format(",  drive {:.3g}", drive);
-  figure.subtitle = "a ray is where " + math(drive > 0 ? "Φ = ρ + r k Ψ" : "Φ = r k Ψ") +
-                    "; motions end on one that attracts, or with " + math("k") + (drive > 0 ? " → ∞" : " → 0 or ∞");
+  figure.subtitle = "on a ray " + math(drive > 0 ? "Φ = ρ + r k Ψ" : "Φ = r k Ψ") +
+                    "; motions end on an attracting ray, or with " + math("k") + (drive > 0 ? " → ∞" : " → 0 or ∞");
   figure.size = fitted({270, 105}, 3, size);
   figure.panels = {rays(law, ratios.low, ratios.high, r, drive), ways(law, all, drive), coefficients(law, all, drive)};
   return figure;

@@ -23,7 +23,7 @@ constexpr double plane_widths = 2.2;                    // size of the window of
 
 Colour colour_of_copy(double shift) { return viridis(0.425 * (1 + shift / copy_shifts.back())); }
 
-Text legend_of_copies() { return "its copies by " + math("X") + ", ln 2 apart"; }
+Text legend_of_copies() { return "its copies under " + math("X") + ", ln 2 apart"; }
 
 constexpr const char* legend_of_orbit = "orbit of the start";
 
@@ -31,7 +31,7 @@ constexpr const char* legend_of_orbit = "orbit of the start";
 /// lines, because the symmetry does not map them onto each other.
 Panel collapse(const ReducedOrbits& from) {
   Panel panel;
-  panel.title = "copies over their starts: one line";
+  panel.title = "copies divided by their starts: one line";
   panel.x = {math("u/u") + sub("0"), 0, plane_widths, false, {}};
   panel.y = {math("v/v") + sub("0"), 0, plane_widths, false, {}};
   const Polyline& orbit = from.orbit.front();
@@ -125,14 +125,14 @@ Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& tit
                              Label::Align::left});
     panel->arrows.push_back({{{to, {to.x - from_here.x, to.y - from_here.y}}}, colours.invariant, 1.2});
     panel->marks.push_back({{way.front()}, colours.invariant, 0.9, Marks::Shape::circle, "start"});
-    panel->lines.push_back({{std::move(way)}, {colours.invariant, 2}, "what the symmetry " + math("X") + " does"});
+    panel->lines.push_back({{std::move(way)}, {colours.invariant, 2}, "shift by the symmetry " + math("X")});
   }
   plane.title = "the plane: " + math("X") + " magnifies orbits";
   strip.title = "the strip: " + math("X") + " shifts " + math("p") + " alone";
   Figure figure;
   figure.title = title;
   figure.subtitle = Text(from.rays.empty() ? "all orbits" : "all orbits between two rays") +
-                    " are one curve, moved by the symmetry " + math("X") + "; a colour is one orbit";
+                    " are one curve, moved by the symmetry " + math("X") + "; each colour is one orbit";
   figure.size = fitted({180, 105}, 2, size);
   figure.panels = {std::move(plane), std::move(strip)};
   return figure;

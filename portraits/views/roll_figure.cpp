@@ -21,7 +21,7 @@ namespace {
 
 constexpr Colour path_colour{0x222222};
 constexpr Colour textbook_colour{0x8a8a8a};
-/// Colours that differ in grey, by their lightness. Marks distinguish the lines, too.
+/// Colours that differ in grey, by their lightness. The lines also differ in their marks.
 constexpr Colour slip_colour{0x8c0f35};
 constexpr Colour rim_colour{0x2f7fc1};
 constexpr Colour speed_colour{0xe0a030};
@@ -170,7 +170,7 @@ Panel speed_panel(const RollPicture& picture) {
   const auto [first, rolls] = std::minmax(picture.ball.rolls, picture.textbook.rolls);
   const bool logarithmic = picture.slow == 0 && first > 0 && last > long_spin * rolls;
   Panel panel;
-  panel.title = "speeds; dashed: textbook, sliding and spinning uncoupled";
+  panel.title = "speeds; dashed: textbook, slip and spin uncoupled";
   panel.x = {logarithmic ? math("t") + ", s (logarithmic)" : math("t") + ", s",
              logarithmic ? round_down(first / 10) : 0,
              last,
@@ -310,7 +310,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
       }
       const Colour colour = which == 0 ? path_colour : textbook_colour;
       frame.panels.push_back(ball_from_above(curve, turned[which], i, colour,
-                                             which == 1          ? "the textbook's, from above"
+                                             which == 1          ? "textbook, from above"
                                              : picture.lies_flat ? "this body, from above"
                                                                  : "this ball, from above",
                                              picture.lies_flat));

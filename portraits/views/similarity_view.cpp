@@ -78,7 +78,7 @@ std::vector<MappedPanel> similarity_view(const Drawing& drawing) {
   const double start =
       !portrait.highlight.empty() && portrait.highlight[0].u[0] != 0 ? portrait.highlight[0].ln_k[0] : 0;
   Panel by_q, by_ratio;
-  by_q.title = math("q = v/u") + ": the symmetry moves " + math("p") + " alone";
+  by_q.title = math("q = v/u") + ": the symmetry changes " + math("p") + " alone";
   by_q.x = {math("q = μk"), 0, mu * std::max(rays.empty() ? 4 : 3 * std::exp(high), 1.2 * std::exp(start)), false, {}};
   by_ratio.title = "the same against ln " + math("k");
   by_ratio.x = {"ln " + math("k"), low - 4, std::max(high + 4, start + 1), false, {}};

@@ -27,7 +27,7 @@ class AsymptoticTail {
   /// Returns the scaled time from the start to the stop.
   double stop() const { return from_.s + left_; }
 
-  /// Returns the state at a scaled time between that of `from` and stop().
+  /// Returns the state at a scaled time between `from` and stop().
   LogState at_time(double s) const { return at_fraction((stop() - s) / left_); }
 
   /// Returns the state at which the given fraction of the tail's time is left, 0 < fraction <= 1.

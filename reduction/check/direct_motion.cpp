@@ -65,7 +65,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   DirectEquations equations{system, beta_unit};
   auto stepper = odeint::make_controlled(stepping.tolerance, 0.0, Fehlberg());
 
-  std::vector<double> kinks;  // in ln k
+  std::vector<double> kinks;  // kinks in ln k
   for (double k : system.law().kinks()) kinks.push_back(std::log(k));
 
   Values x{here.ln_w, here.ln_v, 0};

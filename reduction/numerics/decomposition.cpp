@@ -1,8 +1,9 @@
 #include "numerics/decomposition.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SVD>
+
+#include "numerics/epsilon.hpp"
 
 namespace contensou::reduction {
 
@@ -27,7 +28,9 @@ VectorXd SingularValues::solution(const VectorXd& right, Eigen::Index rank) cons
 VectorXd solution(const MatrixXd& matrix, const VectorXd& right) { return matrix.partialPivLu().solve(right); }
 
 VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right) {
-  return matrix.colPivHouseholderQr().solve(right);
+  const SingularValues svd(matrix);
+  const double smallest = eps * static_cast<double>(matrix.cols()) * svd.values[0];
+  return svd.solution(right, (svd.values.array() > smallest).count());
 }
 
 MatrixXd product(const MatrixXd& left, const MatrixXd& right) { return left * right; }

@@ -10,7 +10,7 @@ struct SingularValues {
   explicit SingularValues(const Eigen::MatrixXd& matrix);
 
   /// Returns the least-squares solution of least norm, from the largest singular values.
-  /// @param rank  how many of them
+  /// @param rank  number of them
   Eigen::VectorXd solution(const Eigen::VectorXd& right, Eigen::Index rank) const;
 
   Eigen::VectorXd values;  ///< decreasing
@@ -20,7 +20,7 @@ struct SingularValues {
 /// Returns the solution of matrix x = right, by LU with partial pivots.
 Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
-/// Returns the least-squares solution of matrix x = right, by QR with pivots.
+/// Returns the least-squares solution of matrix x = right, of least norm if there are several.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);

@@ -184,7 +184,7 @@ struct Sized {
   double value, size;
 };
 
-/// The zero of an order of at least 2 near a direction: the simple zero of a derivative.
+/// Returns the zero near a direction, if its order is at least 2, as the simple zero of a derivative.
 template <class Function>
 std::optional<Vector2d> multiple_zero(const Function& function, const Vector2d& n, double widest, double noise) {
   for (double width = widest; width > widest * 1e-3; width /= 4) {

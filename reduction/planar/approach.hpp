@@ -80,7 +80,7 @@ class Approach {
   LeadingPower angular_, radial_;
   double width_ = 0;
   double root_ = 1;
-  LegendreSeries angular_rest_, radial_rest_;  ///< of T/z^order and R/z^order, in z^(1/root)
+  LegendreSeries angular_rest_, radial_rest_;  ///< T/z^order and R/z^order, in z^(1/root)
 };
 
 /// Moves a direction onto a zero of T of a higher order beside it, where values lose half of their digits and more:

@@ -122,7 +122,7 @@ void Scan::sample() {
   });
 }
 
-/// The direction between three samples where a function of the rates is least; infinite where there are none.
+/// Returns the direction between three samples at which a function of the rates, infinite without rates, is least.
 Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
                      const std::function<double(const Rates&)>& size) const {
   const auto function = [&](double offset) {

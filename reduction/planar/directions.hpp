@@ -19,7 +19,7 @@ double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 struct Direction {
   Eigen::Vector2d n;
   Approach before, after;                    ///< clockwise and counter-clockwise of it
-  std::optional<SectionField::Rates> rates;  ///< on it
+  std::optional<SectionField::Rates> rates;  ///< rates along the direction
 };
 
 /// The section's circle of directions.

@@ -5,10 +5,9 @@
 #include <tuple>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "contensou/reduction/planar_kinds.hpp"
+#include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/inverse_factor.hpp"
 
@@ -28,14 +27,14 @@ Vector2d spread(int i) {
 
 /// True if other zeros lie arbitrarily near to this one, at which the Jacobian has the null vector `along`.
 bool on_curve_of_zeros(const SmoothField& field, const Vector2d& zero, const Vector2d& along) {
-  // Newton's method comes to another zero at once; to a multiple one it takes many steps.
+  // Newton's method reaches a simple zero in a few steps, a multiple one in many.
   constexpr int steps = 3;
   constexpr double left = 1e-12, apart = 0.5;
   Vector2d x = zero + along;
   for (int i = 0; i < steps; ++i) {
     const auto here = jet_of(field, x);
     if (!here) return false;
-    if (!here->f.isZero(0)) x -= here->slopes.completeOrthogonalDecomposition().solve(here->f);
+    if (!here->f.isZero(0)) x -= least_squares(here->slopes, here->f);
   }
   const auto there = jet_of(field, x);
   return there && (x - zero).norm() > apart * along.norm() &&
@@ -129,8 +128,10 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
   constexpr double beside = 0.02;
   std::erase_if(found, [&](const Equilibrium& each) {
     if (each.kind() != "degenerate") return false;
-    const Eigen::JacobiSVD<Matrix2d> svd(each.slopes, Eigen::ComputeFullV);
-    return on_curve_of_zeros(field, each.x, beside * sides.minCoeff() * svd.matrixV().col(1));
+    const bool first = each.slopes.row(0).squaredNorm() >= each.slopes.row(1).squaredNorm();
+    const Vector2d row = each.slopes.row(first ? 0 : 1);
+    const Vector2d along = row.isZero(0) ? Vector2d(0, 1) : Vector2d(-row[1], row[0]).normalized();
+    return on_curve_of_zeros(field, each.x, beside * sides.minCoeff() * along);
   });
   for (const Reversor& reversor : find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()))) {
     if (reversor.matrix.determinant() > 0) continue;

@@ -289,7 +289,7 @@ Functions monomials(int degree) {
   };
 }
 
-/// The function of one variable whose values are given, as an integral.
+/// A function of one variable by its values, and its integral as text.
 struct Known {
   const char* integral;  ///< text with {} in place of the variable
   Whole below;

@@ -12,7 +12,7 @@ namespace contensou::reduction {
 /// Returns the V and H of a system as formulas: V is a sum of monomials in u, v of degree 4 or less, or of products of
 /// the field with 1, u, v, or of the functions of the field's own basis, with rational coefficients.
 ///
-/// @param field  for which V has the form
+/// @param field  field for which V has the form
 FactorFormula recognised(const SmoothField& field, const Eigen::Vector2d& start);
 
 }  // namespace contensou::reduction

@@ -29,7 +29,7 @@ struct FactorMotion final : PlanarOrbit::Motion {
   /// A part of the orbit, along which one coordinate grows or falls.
   struct Panel {
     int along;            ///< this coordinate
-    double from, length;  ///< of it
+    double from, length;  ///< start and length of the piece
     double begin;         ///< time
     LegendreSeries other, time;
 
@@ -168,7 +168,7 @@ class Follower {
     constexpr double clear = 1e-10;
     const auto step_to_rest = [](const Jet& at) {
       const double norm = at.slopes.norm();
-      const bool line = std::abs(at.slopes.determinant()) <= clear * norm * norm;  // of points at rest
+      const bool line = std::abs(at.slopes.determinant()) <= clear * norm * norm;  // a line of points at rest
       return line ? Vector2d(at.f / at.slopes.trace()) : newton_step(at);
     };
     Vector2d way = step_to_rest(here);
@@ -330,7 +330,7 @@ class Follower {
     const int across = 1 - along;
     const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
     const double noise = noise_[along] / std::abs(start.f[along]);
-    const double noise_across = noise_[across] * std::abs(half / start.f[along]);  // of w
+    const double noise_across = noise_[across] * std::abs(half / start.f[along]);  // noise of w
     const Samples s = x_[along] + half * (1 + LegendreSeries::points()), one = Samples::Ones();
     Samples q = Samples::Constant(start.f[across] / start.f[along]), slopes, rate, growth;
     double missed = infinity;
@@ -443,13 +443,13 @@ class Follower {
   FactorForm form_;
   Box box_;
   std::optional<InverseFactor> factor_ = {};
-  std::optional<Jet> first_ = {};       ///< at the start
+  std::optional<Jet> first_ = {};       ///< jet at the start
   bool on_curve_ = false;               ///< V = 0
-  double size_;                         ///< of the start
-  Vector2d scale_;                      ///< of the orbit's coordinates
+  double size_;                         ///< size of the start
+  Vector2d scale_;                      ///< scale of the orbit's coordinates
   Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x
-  double fraction_ = 1;                 ///< of the largest box
-  double stretch_ = 0.25;               ///< of the box, the last panel's
+  double fraction_ = 1;                 ///< fraction of the largest box
+  double stretch_ = 0.25;               ///< stretch of the last panel's box
   Vector2d anchor_, forward_, passed_;  ///< returns are looked for across the line through the anchor
   double extent_ = 0, along_ = 0;
   int fits_ = 0;

@@ -39,7 +39,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
       : Solution(given.value, ""), smooth(given), fitted(given), start(from) {}
 
   SmoothField smooth;
-  SmoothField fitted;  ///< for which V has its form: the same, or with its denominator cleared
+  SmoothField fitted;  ///< field for which V has its form: the field, or the field times its denominator
   Vector2d start;
   bool cleared = false;
   std::vector<TriedForm> tried = {};

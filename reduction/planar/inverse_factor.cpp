@@ -9,9 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "numerics/decomposition.hpp"
 #include "planar/differences.hpp"
 
 namespace contensou::reduction {
@@ -237,7 +235,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
   VectorXd missed;
   double size = 1;
   if (log) {
-    coefficients = changes.topRows(rows).colPivHouseholderQr().solve(divergence.head(rows));
+    coefficients = least_squares(changes.topRows(rows), divergence.head(rows));
     coefficients[0] = 0;
     coefficients[0] = -coefficients.dot(here.col(0));
     missed = changes * coefficients - divergence;
@@ -247,16 +245,12 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
   } else {
     // Functions of the form that are orthonormal over the points, so that V = 0 is no solution.
     constexpr double dependent = 1e-13;
-    const Eigen::ColPivHouseholderQR<MatrixXd> qr(values.topRows(rows));
-    const VectorXd diagonal = qr.matrixR().diagonal().cwiseAbs();
-    const Index rank = (diagonal.array() > dependent * diagonal[0]).count();
+    const SingularValues functions(values.topRows(rows));
+    const Index rank = (functions.values.array() > dependent * functions.values[0]).count();
     if (rank == 0) return std::nullopt;
-    const MatrixXd permuted = changes.topRows(rows) * qr.colsPermutation();
-    MatrixXd equations = permuted.leftCols(rank);
-    const auto triangle = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
-    triangle.solveInPlace<Eigen::OnTheRight>(equations);
-    const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(equations, Eigen::ComputeThinV);
-    const VectorXd sigma = svd.singularValues().reverse();
+    const MatrixXd orthonormal = functions.V.leftCols(rank) * functions.values.head(rank).cwiseInverse().asDiagonal();
+    const SingularValues svd(product(MatrixXd(changes.topRows(rows)), orthonormal));
+    const VectorXd sigma = svd.values.reverse();
     Index nullity = 1;
     for (Index i = 0; i < rank && (i == 0 || sigma[i - 1] <= limit); ++i) {
       const double gap = i + 1 < rank                  ? sigma[i + 1] / std::max(sigma[i], smallest)
@@ -269,9 +263,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     }
     tried.singular_value = sigma[0];
     unique = nullity == 1;
-    MatrixXd null = MatrixXd::Zero(columns, nullity);
-    null.topRows(rank) = triangle.solve(svd.matrixV().rightCols(nullity));
-    null = (qr.colsPermutation() * null).eval();
+    const MatrixXd null = product(orthonormal, MatrixXd(svd.V.rightCols(nullity)));
     // The V that is largest at the centre, or that changes most across the orbit if all vanish there.
     const double mean = 1 / std::sqrt(static_cast<double>(rows));
     VectorXd part = null.transpose() * here.col(0);

@@ -16,7 +16,7 @@ namespace contensou::reduction {
 struct Jet {
   Eigen::Vector2d f;
   Eigen::Matrix2d slopes;
-  double error = 0;  ///< of the slopes, for differences
+  double error = 0;  ///< error of the slopes, if they are differences
   Eigen::MatrixX3d basis = {};
 };
 
@@ -43,7 +43,7 @@ Box box_about(const Eigen::Vector2d& x);
 enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product, basis };
 inline constexpr int factor_forms = 8;  ///< number of forms that are tried; a basis replaces them
 
-/// True of a form whose coefficients are those of a box everywhere.
+/// Returns true if the coefficients of a box are valid everywhere.
 inline bool holds_everywhere(FactorForm form) { return form == FactorForm::affine || form == FactorForm::basis; }
 
 std::string_view name(FactorForm form);
@@ -97,7 +97,7 @@ struct FieldSamples {
   Jet centre;
   std::vector<Eigen::Vector2d> points = {};
   std::vector<Jet> jets = {};
-  double error = 0;  ///< of the slopes, relative to those that (R66) divides by
+  double error = 0;  ///< error of the slopes, relative to those that (R66) divides by
 
   int fitted() const { return static_cast<int>(points.size()) * 8 / 11; }
 };

@@ -302,7 +302,7 @@ struct Walk {
         xi = root_between([&](double at) { return passed + elapsed(at, xi) - wanted; }, left, xi);
         return true;
       }
-      if (part == 0) return false;  // the centre, but for underflow
+      if (part == 0) return false;  // the centre, except for underflow
       passed += part;
       xi = left;
     }
@@ -395,7 +395,7 @@ Vector2d ScalingMotion::at(double time) const {
   }
   if (joins) return on_ray(time - walk.passed);
   if (!linear) return at_coordinate(walk.xi);
-  // s is constant beyond, and R, too, where p has no bound.
+  // Beyond, s is constant. R is constant where p has no bound.
   const double rate = std::abs(strip.to().angular().factor);
   const double growth = strip.to().radial().order == 0 ? c * strip.to().radial().factor : 0;
   const double sigma = (time - walk.passed) * std::exp(-c * (integral + strip.ln_rho(walk.xi)));

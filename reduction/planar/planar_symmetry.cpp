@@ -101,7 +101,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   struct Sample {
     Vector2d x;
     Eigen::Matrix<double, 2, 7> rows, errors;
-    Eigen::Matrix<double, 2, 7> sizes;  ///< of the rows' terms, which may cancel
+    Eigen::Matrix<double, 2, 7> sizes;  ///< sizes of the rows' terms, which may cancel
   };
   std::vector<Sample> samples;
   bool all_zero = true;
@@ -180,7 +180,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
 /// phi = exp(s X): x -> L x + d.
 struct Transformation {
   Transformation(const Generator& g, double s) : linear(matrix_exponential(s * g.matrix)), shift(Vector2d::Zero()) {
-    constexpr int terms = 60;  // of the integral of exp(s A) over s; A has no entry above 1, and s is small
+    constexpr int terms = 60;  // terms of the integral of exp(s A) over s; A has no entry above 1, and s is small
     Vector2d term = s * g.shift;
     for (int n = 2; n <= terms && !term.isZero(0); ++n) {
       shift += term;

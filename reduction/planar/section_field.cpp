@@ -22,7 +22,7 @@ namespace {
 
 /// The frame S in which |n| grows along the scaling everywhere: with Q of A^T Q + Q A = 1, Q = S^-T S^-1.
 Matrix2d frame_of(const Matrix2d& a) {
-  Eigen::Matrix3d equations;                 // for Q11, Q12, Q22
+  Eigen::Matrix3d equations;                 // equations for Q11, Q12, Q22
   equations << 2 * a(0, 0), 2 * a(1, 0), 0,  //
       a(0, 1), a(0, 0) + a(1, 1), a(1, 0),   //
       0, 2 * a(0, 1), 2 * a(1, 1);

@@ -155,7 +155,7 @@ Strip::Terms Strip::terms(double xi) const {
   if (!rates) return {infinity, 0, 1};
   const double rate = -sense_ * rates->angular * factor;
   const double rounding = rates->size * factor * eps, crossed = -2 * tolerance_ * rates->size * factor;
-  constexpr double nearly = 1e-9;  // of its terms: T has lost most of its digits
+  constexpr double nearly = 1e-9;  // share of its terms: below it T has lost most of its digits
   const bool missed = rate < crossed || (closed() && rate < nearly * rates->angular_terms * factor);
   if (inside && missed) throw MissedRay{n, rate < crossed};
   return {std::max(rate, rounding), rates->radial, rounding / std::max(rate, rounding)};

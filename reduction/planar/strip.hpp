@@ -43,7 +43,7 @@ class Strip {
   bool closed() const { return !to_; }
   const Approach& to() const { return *to_; }
   const Approach& from() const { return *from_; }
-  /// p when the orbit comes to its end, and p when it left the other.
+  /// p at the end of the orbit, and p at its beginning.
   Limit limit() const;
   Limit origin() const;
   /// Growth of p in one turn.
@@ -98,7 +98,7 @@ class Strip {
   double length_;
   double tolerance_;
   bool timed_ = false;
-  double time_order_ = 0;  ///< of M in z next to the end
+  double time_order_ = 0;  ///< order of M in z next to the end
   double turn_ = 0;
   double last_time_ = 0;
   std::vector<Panel> panels_;

@@ -9,7 +9,7 @@ namespace contensou::fit {
 /// Dependence of the errors of one column on each other.
 struct Dependence {
   double neighbours = 0;  ///< correlation of an error with the next one
-  double growth = 1;      ///< of the variance of a mean; n values are worth n/growth independent ones
+  double growth = 1;      ///< growth of the variance of a mean; n values are worth n/growth independent ones
 };
 
 /// Estimates both from the residuals r of a fit, unbiased by the numbers that were fitted.

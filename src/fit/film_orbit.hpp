@@ -28,8 +28,8 @@ class FilmOrbit {
 
   static constexpr double standard_accuracy = 1e-10;
 
-  /// @param at  slip of either sign: the orbit of -v is that of v, mirrored. Of a resisted body slip, rolling and drive
-  ///            are 0 or more
+  /// @param at  slip of either sign; -v has the mirror image of the orbit of v. For a resisted body slip,
+  ///            rolling and drive are >= 0
   /// @param accuracy  as of OrbitCells
   FilmOrbit(const reduction::Law& law, reduction::Inertia inertia, Kind kind, const Numbers& at,
             double accuracy = standard_accuracy);
@@ -74,7 +74,7 @@ class FilmOrbit {
   double reached_ = 0;
   std::optional<OrbitCells> turns_, held_;
   double held_from_ = 0;
-  Speeds then_{};  ///< when resistance began to hold it
+  Speeds then_{};  ///< speeds at the moment from which resistance holds the ball
   mutable std::array<std::optional<Beside>, numbers> beside_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double near_axis = 1e-12;  ///< k or 1/k to which a start nearer to an axis is moved
 constexpr double at_rest = 1e-12;    ///< share of the speeds at the start, below which the body rests
 constexpr double first_width = 0.5, min_width = 1e-16;
-constexpr double ray_step = 1e-5;  ///< of c*: nearer to the ray F is a line, since the difference D would be rounded
+constexpr double ray_step = 1e-5;  ///< fraction of c*: nearer to the ray D would be rounded, and F is a line
 /// Shares of the terms of D: from `certainty` on its sign is certain, below `constant` k counts as constant, and
 /// `rounding` is the error of the terms.
 constexpr double certainty = 1e-9, constant = 1e-10, rounding = 1e-15;

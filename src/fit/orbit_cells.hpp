@@ -63,7 +63,7 @@ class OrbitCells {
   double stop() const;
 
  private:
-  static constexpr int nodes = 10;  ///< of a cell
+  static constexpr int nodes = 10;  ///< nodes of a cell
   enum { T_, ln_u, slid, turned, integrals };
   using Integrals = Eigen::Array<double, integrals, 1>;
   /// In powers of z, which goes from -1 at the start of a cell to 1.
@@ -96,8 +96,8 @@ class OrbitCells {
   bool inverse_ = false;           ///< c = 1/k
   double end_ = 0, distance_ = 0;  ///< c* and c0 - c*
   std::array<double, 2> near_{};   ///< F a little below and above c*
-  std::vector<double> kinks_;      ///< s of those ahead, the next one last
-  double s_ = 0, width_;           ///< of the next cell
+  std::vector<double> kinks_;      ///< s of the kinks ahead, the next one last
+  double s_ = 0, width_;           ///< start and width of the next cell
   Integrals now_ = Integrals::Zero();
   std::vector<Cell> cells_;
   mutable std::size_t last_cell_ = 0;

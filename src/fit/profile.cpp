@@ -19,7 +19,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-4;
-/// A sum of squares that is lower than that of the estimate by this much belongs to a better estimate.
+/// An estimate is better if its sum of squares is lower by this much.
 constexpr double better_by = 0.01;
 /// `near_limit` is a share of the range of a number: nearer to a limit, the number is at the limit. A limit counts if
 /// the sum of squares would fall beyond it by more than the share `telling` of the rise.

@@ -21,7 +21,7 @@ class Profile {
   /// @param search  with all standard deviations; kept by reference
   /// @param best    the estimate
   /// @param rise    rise of the sum of squares at the ends of an interval, > 0
-  /// @param wide    true if there may be valleys beside that of the estimate
+  /// @param wide    true if there may be valleys besides the valley of the estimate
   Profile(const Search& search, const Eigen::VectorXd& best, double rise, bool wide);
 
   /// Sets the rise for the intervals that follow.
@@ -32,7 +32,7 @@ class Profile {
   /// @param low, high  limits of the number
   Interval of(const Coordinate& number, double error, double low, double high);
 
-  /// Parameters, and the excess of their sum of squares over that of the estimate.
+  /// Parameters, and their sum of squares minus the sum of squares of the estimate.
   struct Point {
     Eigen::VectorXd parameters;
     double excess;

@@ -77,12 +77,12 @@ void Reporter::set_spreads() {
     const bool of_place = parameter == Parameter::x || parameter == Parameter::y || parameter == Parameter::angle;
     const bool in_ball = placed ? !of_place : row < slopes.rows();
     if (!in_ball || track > 0) continue;
-    if (!std::isfinite(error)) return;  // of what the data do not decide no spread tells
+    if (!std::isfinite(error)) return;  // no spread describes a number that the data do not decide
     errors[i] = error;
     if (placed && row >= shared_parameters)
       slopes.col(i).tail<5>() = start_by(parameter);
     else
-      slopes(row, i) = 1;  // slip and spin come next in named, too
+      slopes(row, i) = 1;  // named also lists slip and spin next
   }
   slopes = slopes * errors.asDiagonal();
   fit_.ball.spreads = si::spreads_of(slopes * fit_.correlation * slopes.transpose(), named);

@@ -11,7 +11,7 @@ using Eigen::Index;
 
 namespace {
 
-/// The rise of a sum of squares that is the least of several minima, over that of one.
+/// Rise of a sum of squares with several minima, compared with the rise for one minimum.
 constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
 
 }  // namespace

@@ -95,12 +95,12 @@ class Reporter {
   const FitRequest& request_;
   const bool planned_;
   Eigen::VectorXd parameters_, values_, residuals_;
-  Eigen::MatrixXd derivatives_;  ///< of the residuals, with respect to the free parameters
+  Eigen::MatrixXd derivatives_;  ///< derivatives of the residuals by the free parameters
   Eigen::MatrixXd information_;
   Inverse inverse_;
-  Eigen::MatrixXd covariance_;  ///< of the free parameters
+  Eigen::MatrixXd covariance_;  ///< covariance of the free parameters
   Eigen::VectorXd deviation_;   ///< standard errors of the free parameters
-  Dependence dependence_[7];    ///< of the errors of each observable, where their size is not given
+  Dependence dependence_[7];    ///< dependence of the errors of each observable whose noise is not given
   double variance_ = 1;         ///< factor of all variances in a robust fit, else 1
   double quantile_ = normal_quantile;
   Fit fit_;

@@ -117,7 +117,7 @@ class Search {
   /// Returns the estimate next to these parameters; sets the unknown standard deviations.
   Eigen::VectorXd settled(Eigen::VectorXd parameters);
 
-  /// Akaike's criterion, but for a constant.
+  /// Akaike's criterion, up to a constant.
   double criterion(const Eigen::VectorXd& parameters) const;
 
  private:

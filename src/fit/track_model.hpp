@@ -63,7 +63,7 @@ class TrackModel {
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:
-  /// Returns the orbit of track i up to its last instant; that of the last call if its numbers are the same.
+  /// Returns the orbit of track i up to its last instant; the orbit of the last call if the numbers are the same.
   const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
   FilmOrbit::Numbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;

@@ -23,7 +23,7 @@ export class Flow {
   constructor({ mu, law, body = "ball", chi, gamma, drive = 0 }) {
     const known = bodyCalled(body);
     const patch = mu ?? known.mu;
-    if (patch === undefined) throw new Error("mu is missing: the radius of the contact patch over that of the body");
+    if (patch === undefined) throw new Error("mu is missing: the radius of the contact patch divided by that of the body");
     const another = chi !== undefined || gamma !== undefined;
     const complaint = another ? "" : library.complaint(body, patch);
     if (complaint) throw new Error(`mu = ${patch}: ${complaint}`);

@@ -236,7 +236,7 @@ class Plane {
   /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, and its change of
   /// direction in degrees; also the time at which slip and spin end. A ball ceases to slide when its slip falls to
   /// `least` m/s, a body that lies flat when it stops.
-  /// @param fields  as in ride
+  /// @param fields  fields, see ride
   val slide(const val& fields, double rolling_friction, double least) const {
     const si::Motion motion = motion_of(fields, rolling_friction);
     const bool flat = system().inertia().chi == 1;

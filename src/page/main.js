@@ -59,7 +59,7 @@ function start(library) {
     write($("instant"), now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
-      : "No orbit yet: click the plane.");
+      : "No motion yet: click the plane.");
   };
 
   store.changed = (moment) => {

@@ -9,7 +9,7 @@ const inflated = (text) => new Response(new Blob([unpacked(text)]).stream().pipe
 globalThis.contensouFailed = (error) => {
   $("failure").hidden = false;
   $("failure").textContent = `The library could not be started: ${error.message ?? error}. The page needs a browser of 2023 or later, ` +
-    "and a host that allows WebAssembly ('wasm-unsafe-eval' where it sends a content security policy).";
+    "and a host that allows WebAssembly ('wasm-unsafe-eval' in its content security policy, if it sends one).";
 };
 
 async function begin() {

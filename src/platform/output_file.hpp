@@ -12,7 +12,7 @@ namespace contensou::platform {
 class OutputFile {
  public:
   /// @param path  "-" is standard output
-  /// @throws FileFailure  with the name of the file and the reason, as do the other functions; no file is left behind
+  /// @throws FileFailure  with file name and reason; no file is left behind. The other functions throw it, too
   explicit OutputFile(std::string path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -23,7 +23,7 @@ class OutputFile {
 
   void write(std::string_view content);
 
-  /// Puts the file in its place, and prints that on standard error.
+  /// Renames the file to its final name, and reports this on standard error.
   void finish();
 
  private:

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -26,6 +27,7 @@
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"
 #include "contensou/si/scaling.hpp"
+#include "contensou/si/wrench.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
@@ -53,6 +55,42 @@ std::string words_of(const py::handle& value) {
   constexpr std::size_t most = 60;
   const auto words = py::repr(value).cast<std::string>();
   return words.size() > most ? words.substr(0, most) + "..." : words;
+}
+
+/// Writes the friction of contacts to `values`, and its slopes to `slopes` unless it is empty; NaN if a number is NaN.
+/// @param given  loads, and friction, radius and creep of the patches: for each contact, or one for all
+/// @throws std::domain_error  of the first contact with a wrong number, with its index
+void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 4>& given, py::array_t<double>& values,
+              py::array_t<double>& slopes) {
+  const double* const speeds = motions.data();
+  double* const value_at = values.mutable_data();
+  double* const slope_at = slopes.size() == 0 ? nullptr : slopes.mutable_data();
+  std::array<const double*, 4> from{};
+  std::array<py::ssize_t, 4> step{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    from[j] = given[j].data();
+    step[j] = given[j].size() == 1 ? 0 : 1;
+  }
+  const py::ssize_t count = values.size() / 3;
+  const py::gil_scoped_release released;
+  const si::PatchFriction friction(law);
+  Interruption interruption;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    interruption.check();
+    const auto at = [&](std::size_t j) { return from[j][i * step[j]]; };
+    const Eigen::Vector3d motion(speeds[3 * i], speeds[3 * i + 1], speeds[3 * i + 2]);
+    si::Wrench wrench;
+    if (const char* fault = friction.evaluate(motion, at(0), {at(1), at(2), at(3)}, wrench)) {
+      const bool is_known =
+          !motion.hasNaN() && !std::isnan(at(0)) && !std::isnan(at(1)) && !std::isnan(at(2)) && !std::isnan(at(3));
+      if (is_known) throw std::domain_error(fmt::format("contact {}: {}", i, fault));
+      wrench.value.setConstant(std::numeric_limits<double>::quiet_NaN());
+      wrench.jacobian.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    Eigen::Map<Eigen::Vector3d>(value_at + 3 * i) = wrench.value;
+    if (slope_at == nullptr) continue;
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(slope_at + 9 * i) = wrench.jacobian;
+  }
 }
 
 /// Calls `work` for each of `count` rows on some threads.
@@ -387,6 +425,7 @@ void bind_si(py::module_& module) {
     for (const si::Quantity* quantity : si::quantities()) names.append(py::str(std::string(quantity->name)));
     return names;
   }();
+  module.def("wrenches", &wrenches);
   module.def(
       "engines",
       [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {

@@ -1,6 +1,7 @@
-// What the wrench of a patch costs, by law.
+// The cost of the wrench of a patch, by law: of the C interface, and of the header alone.
 //   benchmark_wrench            prints the table of README.md in Markdown
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -13,30 +14,35 @@
 #include <fmt/format.h>
 
 #include "contensou/wrench.h"
+#include "contensou/wrench_kernel.h"
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using namespace contensou;
 
-/// ns of one call, the least of many rounds.
-/// @param k  sliding over rim speed; 0: of each call its own, log-uniform in 1e-3 .. 1e3
-double nanoseconds(const char* name, double k) {
+constexpr contensou_patch patch{0.2, 3e-3, 1e-4};
+constexpr double load = 1.7;
+
+/// Returns the ns of one call, the least of many rounds.
+/// @param k     sliding over rim speed; 0: of each call its own, log-uniform in 1e-3 .. 1e3
+/// @param call  gets vx, vy and omega
+template <class T, class Call>
+double nanoseconds(double k, const Call& call) {
   constexpr std::size_t calls = 4096;
-  const contensou_patch patch{0.2, 3e-3, 1e-4};
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> ln_k(std::log(1e-3), std::log(1e3)), angle(-3, 3);
-  std::vector<double> motions;
+  std::vector<std::array<T, 3>> motions;
   for (std::size_t i = 0; i < calls; ++i) {
     const double ratio = k > 0 ? k : std::exp(ln_k(generator)), turn = angle(generator);
-    motions.insert(motions.end(), {std::cos(turn), std::sin(turn), std::copysign(1 / ratio / patch.radius, turn)});
+    motions.push_back({static_cast<T>(std::cos(turn)), static_cast<T>(std::sin(turn)),
+                       static_cast<T>(std::copysign(1 / ratio / patch.radius, turn))});
   }
-  const std::unique_ptr<contensou_law, void (*)(contensou_law*)> law(contensou_law_new(name), contensou_law_free);
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 200; ++round) {
     const auto start = Clock::now();
-    for (std::size_t i = 0; i < calls; ++i) {
-      contensou_wrench wrench;
-      contensou_patch_wrench(law.get(), &motions[3 * i], 1.7, &patch, &wrench);
+    for (const auto& motion : motions) {
+      auto wrench = call(motion);
       benchmark::DoNotOptimize(wrench);
     }
     const std::chrono::duration<double, std::nano> time = Clock::now() - start;
@@ -45,17 +51,48 @@ double nanoseconds(const char* name, double k) {
   return least;
 }
 
+/// Prints a cell: ns of calls with random k, and of those with the slowest k.
+template <class T, class Call>
+void cell(const Call& call) {
+  double slowest = 0;
+  for (double k : {1e-3, 0.5, 0.99, 1.1, 1.26, 2.0, 7.0, 30.0, 1e3})
+    slowest = std::max(slowest, nanoseconds<T>(k, call));
+  fmt::print(" {:.0f}, {:.0f} |", nanoseconds<T>(0, call), slowest);
+}
+
+/// Prints the cells of the header: force and moment in double and float, and with slopes in double.
+template <class Law>
+void kernel_cells() {
+  const auto values = [](const auto& at) {
+    using T = std::decay_t<decltype(at[0])>;
+    return kernel::wrench<Law>(at[0], at[1], at[2], T(patch.friction * load), T(patch.radius), T(patch.creep));
+  };
+  cell<double>(values);
+  cell<float>(values);
+  cell<double>([](const auto& at) {
+    return kernel::wrench_slopes<Law>(at[0], at[1], at[2], patch.friction * load, patch.radius, patch.creep);
+  });
+}
+
 }  // namespace
 
 int main() {
-  fmt::print("| ns a call, with the Jacobian | k from 1e-3 to 1e3 | the slowest k |\n|---|---|---|\n");
-  for (const char* name : {"elliptic", "exact", "uniform", "pade"}) {
-    double worst = 0, slowest = 0;
-    for (double k : {1e-3, 0.5, 0.99, 1.1, 1.26, 2.0, 7.0, 30.0, 1e3}) {
-      const double time = nanoseconds(name, k);
-      if (time > worst) slowest = k;
-      worst = std::max(worst, time);
-    }
-    fmt::print("| {} | {:.0f} | {:.0f}, k = {} |\n", name, nanoseconds(name, 0), worst, slowest);
+  fmt::print(
+      "| ns of a call | header | header, float | header, slopes | C interface, slopes |\n|---|---|---|---|---|\n");
+  for (const std::string name : {"pade", "elliptic", "exact", "uniform", "punch"}) {
+    fmt::print("| {} |", name);
+    if (name == "pade") kernel_cells<kernel::Pade>();
+    if (name == "elliptic") kernel_cells<kernel::Elliptic>();
+    if (name == "exact") kernel_cells<kernel::Exact>();
+    if (name == "uniform") kernel_cells<kernel::Uniform>();
+    if (name == "punch") fmt::print(" - | - | - |");
+    const std::unique_ptr<contensou_law, void (*)(contensou_law*)> law(contensou_law_new(name.c_str()),
+                                                                       contensou_law_free);
+    cell<double>([&](const auto& motion) {
+      contensou_wrench wrench;
+      contensou_patch_wrench(law.get(), motion.data(), load, &patch, &wrench);
+      return wrench;
+    });
+    fmt::print("\n");
   }
 }

@@ -37,7 +37,7 @@ test("along its ray a start runs through copies: one curve, c times as large, c 
       shares.forEach((share, i) => assertClose(share, all[0].shares[i], 1e-9, "one line"));
     }
     const c = String(Number((u / before.u).toPrecision(3)));
-    assert.match(await said(), new RegExp(`^A copy, c = ${c}: it stops after .*, c times `));
+    assert.match(await said(), new RegExp(`^Speeds × ${c}: same curve, ${c} × the time: `));
     await close();
   }
 });
@@ -46,7 +46,7 @@ test("across its ray it changes curve, and what it leaves behind fans out until 
   await open("#body=disc&law=uniform&orbits=0.8,0.7;0.2,0.9&window=2,2");
   const before = await picture();
   await pull([0.9, 1.3], [0.6, 1.6], [0.4, 1.8]);
-  assert.match(await said(), /^Another curve: it stops after τ = [\d.]+, the first after τ = [\d.]+\.$/);
+  assert.match(await said(), /^Another curve: it stops after τ = [\d.]+ \(before: τ = [\d.]+\)\.$/);
   const { orbits: [{ u, v }] } = await state();
   const all = await curves();
   assertClose(all[0].stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
@@ -115,7 +115,7 @@ test("keys make copies, too, twice as large in two steps", async () => {
   const { orbits: [{ u, v }] } = await state();
   assertClose(u / before.u, 2, 0.01, "u");
   assertClose(v / before.v, u / before.u, 1e-12, "v");
-  assert.match(await said(), /^A copy, c = (2|1\.99|2\.01): it stops after 3\.[67]/);
+  assert.match(await said(), /^Speeds × (2|1\.99|2\.01): same curve, .* × the time: 3\.[67]/);
   await close();
 });
 
@@ -186,13 +186,13 @@ test("the size of a start is a slider: its ends are the rim of the disc and the 
   const half = await to(-75);
   assert.equal(half.view, "uv");
   assertClose(half.stop / first.stop, 10 ** -0.3, 1e-5, "c times as long");
-  assert.match(half.said, /^A copy, c = 0\.501: it stops after/);
+  assert.match(half.said, /^Speeds × 0\.501: same curve, 0\.501 × the time: /);
   // The farther, the nearer to the circle of radius 1, and never beyond.
   const rims = [];
   for (const value of [250, 500, 750, 1000]) {
     const { view, place, said } = await to(value);
     assert.equal(view, "disc");
-    assert.match(said, /The circle is infinity\.$/);
+    assert.match(said, /The outer circle is infinity\.$/);
     rims.push(Math.hypot(place[0], place[1]));
   }
   rims.forEach((rim, i) => assert.ok(rim <= 1 && (i === 0 || rim > rims[i - 1]), `${rims}`));

@@ -80,7 +80,7 @@ test("what fails is said beside the buttons, and no promise is left unhandled", 
     addEventListener("unhandledrejection", ({ reason }) => globalThis.unhandled.push(String(reason)));
   };
   await open("", {}, true, failing);
-  for (const [takes, button, words] of [[false, "#save-film", /takes no films/], [true, "#save-film", /no such film/], [true, "#save-png", /no canvas of \d+ × \d+ pixels/]]) {
+  for (const [takes, button, words] of [[false, "#save-film", /cannot record films/], [true, "#save-film", /no such film/], [true, "#save-png", /cannot draw \d+ × \d+ pixels/]]) {
     await page.evaluate((takes) => (globalThis.takesFilms = takes), takes);
     await page.click(button);
     await page.waitForFunction((words) => new RegExp(words).test(document.getElementById("copied").textContent), words.source);

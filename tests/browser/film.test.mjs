@@ -22,7 +22,7 @@ function filmOf(ball, rows, until, slip, spin) {
 }
 const file = (name, text) => ({ name, mimeType: "text/csv", buffer: Buffer.from(text) });
 const report = () => page.textContent("#film-report");
-const fitted = () => page.waitForFunction(() => /fitted:/.test(document.getElementById("film-status").textContent));
+const fitted = () => page.waitForFunction(() => /is fitted\./.test(document.getElementById("film-status").textContent));
 
 test("a film is fitted as the program fits it, and the ball takes what was found", async () => {
   const text = filmOf("gel", 60, 0.5, "0.6", "200");
@@ -85,7 +85,7 @@ test("a film of the spin alone determines a product, and says so; one of the cen
   const words = ["roll", "--ball", "pool", "--velocity", "0.9,0.9", "--angular-velocity", "-31,-108,105", "--law", "exact", "--at", times.join(","), "--format", "csv"];
   const rows = execFileSync(program, words, { encoding: "utf8" }).split("\n").filter((line) => /^[-\d]/.test(line)).map((line) => line.split(","));
   await page.setInputFiles("#film", file("centre.csv", `t,x,y,spin\n${rows.map((row) => [row[0], row[1], row[2], row[7]].join(",")).join("\n")}\n`));
-  await page.waitForFunction(() => /centre\.csv is fitted:/.test(document.getElementById("film-status").textContent));
+  await page.waitForFunction(() => /centre\.csv is fitted\./.test(document.getElementById("film-status").textContent));
   const { ball, orbits: [{ along, across }] } = await state();
   assertClose(Math.hypot(along, across), 0.9 * Math.SQRT2, 1e-4, "speed of the centre");
   assertClose(ball.friction, 0.2, 1e-3, "friction");
@@ -124,7 +124,7 @@ test("what is wrong with a film is said where it is read, with its line", async 
   await page.selectOption("#ball", "");
   await page.setInputFiles("#film", file("track.csv", "t,slip,spin\n0,1,2\n"));
   await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
-  assert.match(await page.textContent("#film-problem"), /choose one above/);
+  assert.match(await page.textContent("#film-problem"), /Choose a real ball above/);
   await close();
 });
 
@@ -140,7 +140,7 @@ test("a film of 100 000 pictures is fitted, all of it", async () => {
 test("pictures are of any width, and of the plane, the balls, the patch and the motion in time", async () => {
   await open("#ball=pool&orbits=3,4,0.9,0.9&part=whole&rollingFriction=0.01");
   await page.evaluate(() => globalThis.page.store.move({ fraction: 0.3 }));
-  const words = { plane: /time left/, lanes: /spinning 105 rad\/s/, patch: /friction left/, panes: /t \(s\)/ };
+  const words = { plane: /time left/, lanes: /spinning 105 rad\/s/, patch: /against sliding/, panes: /t \(s\)/ };
   for (const [picture, text] of Object.entries(words)) {
     await page.selectOption("#picture", picture);
     const svg = String(await saved("#save-svg"));

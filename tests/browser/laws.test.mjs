@@ -92,7 +92,7 @@ test("rolling friction is a drive of the plane where a reduced motion has it; wh
   await close();
   for (const [link, why] of [["orbits=3,4,0.9,0.9", /must roll the way it slides/], ["orbits=30,0.01", /keeps this ball from turning at first/]]) {
     await open(`#ball=pool&${link}&rollingFriction=0.01`);
-    assert.match(await page.textContent("#terminal"), /The plane is without rolling friction: /);
+    assert.match(await page.textContent("#terminal"), /The plane is drawn without rolling friction: /);
     assert.match(await page.textContent("#terminal"), why);
     assert.equal(await page.evaluate(() => globalThis.page.store.request.drive), 0);
     assert.doesNotMatch(await page.textContent("#command"), /rolling/);

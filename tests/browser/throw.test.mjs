@@ -157,7 +157,7 @@ test("keys throw, Escape and a short way throw nothing, and a wheel beside the b
   for (const key of ["ArrowUp", "ArrowUp", "Shift+ArrowRight"]) await page.keyboard.press(key);
   assert.equal(await told(), "0.563 m/s, 85 rad/s");
   await page.keyboard.press("Escape");
-  assert.match(await told(), /Both ended/);
+  assert.match(await told(), /ended at the same instant/);
   await page.keyboard.press("Enter");
   assert.equal((await state()).orbits.length, 1);
   assert.equal(await told(), "0.5 m/s, 60 rad/s");
@@ -209,7 +209,7 @@ test("every picture is drawn on a phone", async () => {
 
 test("the dare: what came of a throw is what the library says, and the program", async () => {
   await open();
-  assert.match(await page.textContent("#dare-line"), /You can't/);
+  assert.match(await page.textContent("#dare-line"), /No puck does/);
   await fling(-120, 0, -400);
   const { orbits: [, { u, v }] } = await state();
   const { late, stop, radius, timeFactor } = await page.evaluate(([u, v]) => {
@@ -217,10 +217,10 @@ test("the dare: what came of a throw is what the library says, and the program",
     return { late: plane.instant(u, v, 0.99 * plane.stop(u, v)), stop: plane.stop(u, v), radius: store.state.ball.radius, timeFactor: store.timeFactor };
   }, [u, v]);
   assertClose(stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
-  assert.equal(await told(), `Both ended at one instant, after ${duration(stop * timeFactor, "s")}; at 99 % of that it still slid at ${length(late.v, "m")}/s and spun at ${shown(Math.abs(late.u) / radius, 2)} rad/s.`);
+  assert.equal(await told(), `Sliding and spinning ended at the same instant, after ${duration(stop * timeFactor, "s")}. At 99 % of that time it still slid at ${length(late.v, "m")}/s and spun at ${shown(Math.abs(late.u) / radius, 2)} rad/s.`);
   await page.locator("#presets a", { hasText: "Gel" }).click();
-  assert.match(await page.textContent("#dare-line"), /A puck can't/);
-  assert.match(await told(), /^It slid for 0\.627 s; its spin ends after 5\.17 s\.$/);
+  assert.match(await page.textContent("#dare-line"), /A puck cannot/);
+  assert.match(await told(), /^It slides for 0\.627 s\. Its spin ends after 5\.17 s\.$/);
   await close();
 });
 

@@ -82,7 +82,7 @@ test("the story is whole again after there was no motion", async () => {
   await open("#ball=puck&orbits=2.286,0.5");
   const story = await page.textContent("#story");
   await page.click("#orbits li .remove");
-  assert.equal(await page.textContent("#story"), "Up is sliding, sideways is spinning.");
+  assert.equal(await page.textContent("#story"), "Up: faster sliding. To the side: faster spin.");
   await page.click("#presets a");
   assert.equal(await page.textContent("#story"), story);
   await close();
@@ -153,13 +153,13 @@ test("at each step of the tour the text says what the headline and the numbers s
       stop: own.stop, end: own.end, orbits, stops: motions.map(({ stop }) => stop), spinWhereLost: motion.u[lost] / orbits[0].u };
   });
   const wanted = [
-    [/little is left of the friction to stop what slides/, /^Spin a puck, and it slides 4 times as far$/, ({ times }) => times > 3],
+    [/Only a small part of the friction then slows the sliding/, /^Spin a puck, and it slides 4 times as far$/, ({ times }) => times > 3],
     [/Each motion is one curve/, /^Spin a ball, and it slides 19 times as far$/, ({ orbits }) => orbits.length === 4],
     [/twice as long until the stop/, /^Spin makes this puck slide 36 % farther$/, ({ stops }) => Math.abs(stops[0] / stops[1] - 2) < 1e-12],
-    [/to the left or to the right: the ball slides equally far/, /^Spin makes this ball slide 11 % farther$/, ({ stops }) => stops[0] === stops[1]],
-    [/a little spin hardly matters: this pool ball slides (.*) farther than the textbook says\. It still spins long after it has begun to roll/, /^This ball soon rolls, and spins on$/,
+    [/to the left or to the right the ball slides equally far/, /^Spin makes this ball slide 11 % farther$/, ({ stops }) => stops[0] === stops[1]],
+    [/a little spin hardly matters: this pool ball slides (.*) farther than textbooks predict\. It still spins long after it has begun to roll/, /^This ball soon rolls, and keeps spinning$/,
       ({ times, stop, end, story, text }) => times < 1.05 && stop > 5 * end && story.includes(`${/slides (.*) farther/.exec(text)[1]} farther`)],
-    [/below 10⁻³⁰⁰, long before the spin is gone/, /^This ball soon rolls, and spins on$/, ({ spinWhereLost }) => spinWhereLost > 0.3],
+    [/below 10⁻³⁰⁰ long before the spin is gone/, /^This ball soon rolls, and keeps spinning$/, ({ spinWhereLost }) => spinWhereLost > 0.3],
   ];
   await open();
   for (const [step, [text, headline, holds]] of wanted.entries()) {
@@ -176,7 +176,7 @@ test("at each step of the tour the text says what the headline and the numbers s
 test("every preset says what is to be seen", async () => {
   await open();
   const wanted = { "Puck": /4 times/, "No spin": /Without spin/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bowling hook": /curves by 6/,
-    "Floor polisher": /10 times/, "Curling stone": /end at one instant/ };
+    "Floor polisher": /10 times/, "Curling stone": /stone spins as long as it slides/ };
   for (const link of await page.$$("#presets a")) {
     await link.click();
     assert.match(await page.textContent("#headline"), wanted[await link.textContent()]);

@@ -645,7 +645,7 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
 TEST_CASE("The axis says that it is bent, whatever the title", "[table]") {
   const portraits::SpeedScale scale = portrait_of(0.3).scale;
   CHECK_THAT(figure_of(0.3).panels[0].y.name.words(),
-             Catch::Contains(fmt::format("shaded: height as vs, s = {:.3g}", scale.exponent)));
+             Catch::Contains(fmt::format("shaded part: vs, s = {:.3g}", scale.exponent)));
   CHECK_THAT(figure_of(1).panels[0].y.name.words(), !Catch::Contains("shaded"));
 }
 

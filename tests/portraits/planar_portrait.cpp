@@ -156,7 +156,7 @@ TEST_CASE("a planar portrait as a drawing", "[output]") {
   CHECK(figure.colour_bar.has_value());
   const Panel& panel = figure.panels[0];
   CHECK(panel.to_scale);
-  CHECK(layer(panel, "ray that orbits come to").lines.size() == 2);
+  CHECK(layer(panel, "ray that orbits approach").lines.size() == 2);
   CHECK(layer(panel, "ray that orbits leave").lines.size() == 2);
   CHECK(layer(panel, "time left").lines.size() == portrait.isochrones.size());
   CHECK(layer(panel, "direction").lines.size() > 100);

@@ -130,7 +130,7 @@ TEST_CASE("next to a kink the Jacobian is symmetric as far as differences are, a
     CAPTURE(name, asymmetry, size);
     CHECK(asymmetry < 1e-6);
     CHECK(size < 5);
-    if (name == std::string("exact")) CHECK(asymmetry < 1e-15);
+    if (name == std::string("exact") || name == std::string("uniform")) CHECK(asymmetry < 1e-15);
   }
 }
 
@@ -246,6 +246,12 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
       CHECK(wrench.jacobian[1][0] == same.jacobian(1, 0));
     }
   }
+  for (const auto& [motion, of] :
+       {std::pair{Vector3d(1.7e308, 1.7e308, 0), good}, {Vector3d(0, 0, -1e308), contensou_patch{0.2, 100, 1e-4}}}) {
+    CHECK(call(motion, normal_force, of) == 0);
+    CHECK(std::hypot(wrench.force[0], wrench.force[1]) == Approx(motion.x() > 0 ? limit : 0).epsilon(1e-15));
+    CHECK(wrench.moment == Approx(motion.x() > 0 ? 0 : 100 * limit * 3 * EIGEN_PI / 16).epsilon(1e-15));
+  }
   for (const auto& [weight, of] :
        {std::pair{0.0, good}, {-1.0, good}, {normal_force, contensou_patch{0, 3e-3, 1e-4}}}) {
     CHECK(call({1, 1, 1}, weight, of) == 0);
@@ -271,8 +277,6 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
   refused({1, 0, 0}, normal_force, {0.2, 3e-3, nan});
   refused({1, 0, 0}, normal_force, {0.2, -1, 1e-4});
   refused({1, 0, 0}, normal_force, {-0.2, 3e-3, 1e-4});
-  refused({1.7e308, 1.7e308, 0}, normal_force, good);
-  refused({0, 0, 1e308}, normal_force, {0.2, 100, 1e-4});
   refused({1, 0, 0}, 1e300, {0.2, 3e-3, 1e-20});
   refused({1, 1, 1}, 1, {0.3, 1e160, 1e160});  // the square of the radius
   CHECK(contensou_patch_wrench(nullptr, Vector3d(1, 0, 0).data(), normal_force, &good, &wrench) == 1);

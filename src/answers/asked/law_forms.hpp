@@ -8,7 +8,7 @@ namespace contensou::answers {
 
 /// The error of the Pade law of the paper: pool, steel and bowling ball of `balls`, by their length of slip.
 inline constexpr const char* cost_of_pade =
-    "whose extra slip of a spinning ball is too long: 5 times (pool), 129 (steel), 470 (bowling)";
+    "in which the length that spin adds to the slip is too long: 5 times (pool), 129 (steel), 470 (bowling)";
 
 /// The forms of --law, each with its meaning.
 std::vector<std::pair<std::string, std::string>> law_forms();

@@ -26,7 +26,7 @@ struct PortraitSpec {
   /// Draws a portrait, with the units of a ball.
   portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
 
-  /// Draws a portrait, and returns the map of each panel, too.
+  /// Draws a portrait and returns the map of each panel.
   portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
 
   /// Returns the source that the data of the portrait state.

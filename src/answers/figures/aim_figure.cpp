@@ -146,13 +146,13 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
                            spin_colour,
                            1.4,
                            portraits::Marks::Shape::dot,
-                           fmt::format("asked for: slip {:.4g} m/s, spin {:.4g} rad/s", start.slip, start.spin)});
+                           fmt::format("aim: slip {:.4g} m/s, spin {:.4g} rad/s", start.slip, start.spin)});
   }
 
   portraits::Figure figure;
   figure.title = portraits::title_of(portraits::shortened(ball.ball.name), fmt::format("{:.4g}", flow.system().mu()),
                                      portraits::shortened(law.name()));
-  figure.subtitle = fmt::format("where starts end: {:.4g} m and {:.4g} turns take {:.4g} s", end.distance,
+  figure.subtitle = fmt::format("starts by distance and turns; {:.4g} m and {:.4g} turns take {:.4g} s", end.distance,
                                 std::copysign(end.turns, start.spin), end.time);
   figure.size = portraits::fitted({170, 130}, 1, size);
   figure.panels = {std::move(panel)};

@@ -17,7 +17,7 @@ using portraits::Point;
 
 constexpr portraits::Colour law_colour{0x8c0f35}, nearest_colour{0x707070}, table_colour{0x4a90cc};
 constexpr std::size_t most_rows = 250;  ///< shown of a table; more would be one blot
-constexpr int samples = 400;            ///< of a curve
+constexpr int samples = 400;            ///< points of a curve
 
 /// s after the first row until which something is left of that speed, by table or law, and a little more.
 double lasting(const MotionsBeside& motions, double si::SlipAndSpin::*speed) {
@@ -80,8 +80,8 @@ portraits::Figure check_figure(const MotionsBeside& motions, const std::string& 
   portraits::Figure figure;
   figure.title = fmt::format("{},  law: {}", portraits::shortened(ball), portraits::shortened(law.name));
   figure.subtitle =
-      fmt::format("off by up to {:.2g} % of the start in slip, {:.2g} % in spin; nearest: {}", 100 * law.slip.relative,
-                  100 * law.spin.relative, portraits::shortened(motions.nearest().name));
+      fmt::format("largest deviation, in % of the start: slip {:.2g}, spin {:.2g}; nearest model: {}",
+                  100 * law.slip.relative, 100 * law.spin.relative, portraits::shortened(motions.nearest().name));
   figure.panels = {panel_of(motions, "slip", "m/s", &si::SlipAndSpin::slip),
                    panel_of(motions, "spin", "rad/s", &si::SlipAndSpin::spin)};
   figure.size = portraits::fitted({180, 80}, 2, size);

@@ -22,7 +22,7 @@ using portraits::Point;
 constexpr Colour fit_colour{0x8c0f35};
 constexpr Colour textbook_colour{0x777777};
 constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
-/// Colours of the tracks, one after the other. They differ in grey, too.
+/// Colours of the tracks, one after the other. They also differ in grey.
 constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
 
 /// Largest number of values shown of a track. More would be one blot.
@@ -188,7 +188,7 @@ Panel confidence_panel(const fit::Fit& fit) {
   covariance << f_error * f_error, together, together, eps_error * eps_error;
   const Point middle{friction.value, mm * patch.value};
   Panel panel;
-  panel.title = "where they lie: 68 and 95 %";
+  panel.title = "confidence regions: 68 and 95 %";
   panel.x = {"friction", middle.x - 3 * f_error, middle.x + 3 * f_error, false, {}};
   panel.y = {"patch radius, mm", middle.y - 3 * eps_error, middle.y + 3 * eps_error, false, {}};
   const auto outer = ellipse(middle, covariance, 0.95), inner = ellipse(middle, covariance, 0.68);
@@ -224,7 +224,7 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   if (fit.rolls_with_friction()) {
     line("rolling friction " + with_error(fit.estimate(fit::Parameter::rolling_friction), 1));
   } else {
-    line(fmt::format("their correlation {:.2f}", fit.correlation_of_contact()));
+    line(fmt::format("correlation of both {:.2f}", fit.correlation_of_contact()));
   }
   if (tracks == 1) {
     line("slip at the start " + with_error(fit.estimate(fit::Parameter::slip), 1, "m/s"));
@@ -255,7 +255,7 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
   if (fit.rolls_with_friction())
     figure.subtitle += ", rolling friction " + with_error(fit.estimate(fit::Parameter::rolling_friction), 1);
   if (fit.only)
-    figure.subtitle = fmt::format("of friction and patch radius these data determine {} only",
+    figure.subtitle = fmt::format("the data do not determine friction and patch radius, only {}",
                                   portraits::shortened(fit.only->name()));
   std::vector<Panel> below;  // residuals, and the words
   for (const fit::Noise& noise : fit.noise) {

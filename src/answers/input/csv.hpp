@@ -38,8 +38,8 @@ class CsvBlock {
   };
 
   std::vector<Record> records_;
-  std::string text_;                  ///< of all records
-  std::string values_;                ///< of all fields
+  std::string text_;                  ///< text of all records
+  std::string values_;                ///< values of all fields
   std::vector<std::size_t> ends_{0};  ///< a field i is values_ from ends_[i] to ends_[i + 1]
 };
 
@@ -48,7 +48,7 @@ class CsvRow {
  public:
   CsvRow(const CsvBlock& block, const CsvBlock::Record& record) : block_(block), record_(record) {}
 
-  /// Returns the line on which the record begins, counted from 1. Lines end in LF, CR LF or CR, inside quotes, too.
+  /// Returns the line on which the record begins, counted from 1. Lines end in LF, CR LF or CR, also inside quotes.
   long line() const { return record_.line; }
 
   /// Returns the record as it stands in the file, without its line end.
@@ -104,8 +104,8 @@ class CsvParser {
   bool at_line_start_ = true;
   bool after_return_ = false;  ///< a line feed here belongs to the line end before
   long record_line_ = 0;
-  long quote_line_ = 0;  ///< on which the quotes of the field open
-  std::string text_;     ///< of the record so far
+  long quote_line_ = 0;  ///< line of the opening quote of the field
+  std::string text_;     ///< text of the record so far
   std::string values_;   ///< its fields
   std::vector<std::size_t> ends_;
 };
@@ -181,7 +181,7 @@ class CsvReader {
   std::optional<platform::InputFile> file_;  ///< none: the buffer contains the whole text
   CsvParser parser_;
   std::string buffer_;
-  double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< of the file, if known
+  double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< size of the file, if known
   double bytes_read_ = 0;
   bool at_end_ = false;
   std::optional<BadLine> fault_;  ///< is thrown after the records before it have been given

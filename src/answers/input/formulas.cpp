@@ -103,7 +103,7 @@ struct Step {
   };
 };
 
-/// The level rises with the binding. In the table a longer sign comes before the one that begins it.
+/// Operators that bind more have a higher level. "<=" must come before "<", so that the longer sign is found first.
 struct Operator {
   Function function;
   int level;

@@ -20,9 +20,9 @@ using Dual = std::array<double, N + 1>;
 struct FormulaShape {
   /// Before the equals signs; the second is empty where one is due, both for one formula without an equals sign.
   std::array<std::string, 2> left;
-  std::vector<std::string> variables;               ///< of the formulas
-  std::string sentence;                             ///< for messages, such as a system is "u' = F; v' = G"
-  std::map<std::string, std::string> refused = {};  ///< names that no parameter has, either, and why
+  std::vector<std::string> variables;               ///< variables of the formulas
+  std::string sentence;                             ///< sentence for messages, such as: a system is "u' = F; v' = G"
+  std::map<std::string, std::string> refused = {};  ///< names that are no parameters, with the reason
 };
 
 /// Returns the names before the equals signs of a text, without blanks.
@@ -43,7 +43,7 @@ std::vector<std::string> left_sides(const std::string& text);
 class Formulas {
  public:
   /// @param text  formulas of at most 20000 characters, nested at most 250 deep
-  /// @param parameters  in place of those of the text
+  /// @param parameters  values that replace those of the text
   /// @throws BadInput  quoting the mistake and saying at which character; for a parameter that is a name of another
   ///                   kind or that no formula has
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);

@@ -26,7 +26,7 @@ double factor_of(const std::string& unit, std::string_view si_unit);
 /// A column of numbers, and the factor that converts it to SI units.
 struct SiColumn {
   CsvColumn column;
-  std::string unit = {};  ///< as written in the header
+  std::string unit = {};  ///< unit as written in the header
   double factor = 1;
 };
 

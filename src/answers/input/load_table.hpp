@@ -9,7 +9,7 @@
 namespace contensou::answers {
 
 /// Reads a changing load from a CSV with columns t (s) and load (N), or in the units of their headings.
-/// @throws BadLine      for a table that is no such load
+/// @throws BadLine      if the table is not a load
 /// @throws FileFailure  if the file cannot be read
 si::LoadHistory read_load_history(const std::string& path);
 

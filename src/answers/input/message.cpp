@@ -46,7 +46,7 @@ std::string words_of(std::string message) {
 
 bool is_fault(const std::exception& error) {
   if (is_one_of<std::domain_error, std::bad_alloc>(error)) return false;
-  // Three of the standard library are std::runtime_error, too.
+  // Three classes of the standard library also derive from std::runtime_error.
   return !is_one_of<std::runtime_error>(error) ||
          is_one_of<std::overflow_error, std::range_error, std::underflow_error>(error);
 }

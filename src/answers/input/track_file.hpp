@@ -16,10 +16,10 @@ using NoiseByName = std::map<std::string, double>;
 
 /// Options of reading a track.
 struct TrackRequest {
-  NoiseByName noise = {};            ///< of columns that do not say it themselves
-  std::optional<double> from = {};   ///< s, where the motion begins; else the first row's time
+  NoiseByName noise = {};            ///< noise of columns without NAME_sd
+  std::optional<double> from = {};   ///< s, begin of the motion; else the first row's time
   std::optional<double> until = {};  ///< s
-  std::optional<double> fps = {};    ///< of a column frame, which stands for t where there is none
+  std::optional<double> fps = {};    ///< pictures a second, for a column frame in place of t
   std::optional<double> pixel = {};  ///< m, of columns in px and px/s
 };
 

@@ -13,32 +13,31 @@ namespace contensou::answers {
 
 /// Names, unit and meaning of a field, as help prints them.
 struct FieldText {
-  std::string
-      names;         ///< in backquotes, with what is no name around them: `bounds` [lower, upper]; CSV `lower`, `upper`
-  std::string unit;  ///< none: a pure number, or a name
+  std::string names;  ///< names in backquotes, with the other words: `bounds` [lower, upper]; CSV `lower`, `upper`
+  std::string unit;   ///< none: a pure number, or a name
   std::string meaning;
 };
 
 /// The columns and fields that a verb reads and writes.
 struct VerbFields {
-  std::string_view option;  ///< of the verb, with which it has them, such as "--batch"; none: without
+  std::string_view option;  ///< option of the verb that the fields need, such as "--batch"; empty: none
   std::vector<FieldText> (*fields)();
 };
 
 /// A field of the result of a verb. A table of them is all that JSON, CSV and help know of that result.
 template <class Result>
 struct Field {
-  const char* name;              ///< of the member of JSON; none: it is in CSV alone
+  const char* name;              ///< name of the member of JSON; none: only in CSV
   const char* unit;              ///< none: a pure number, or a name
   const char* meaning;           ///< empty: it shares the line of help of the next
   Json (*value)(const Result&);  ///< null where this result has none
 
   /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an
-  /// object; an entry without a name has none. In those of an array of objects * stands for the member "name". Without
+  /// object; an entry without a name has none. In an array of objects * stands for the member "name". Without
   /// a text, as in JSON; an empty one: none.
   const char* columns = nullptr;
-  int place = 0;           ///< of the columns: they follow those of a lower place
-  const char* shape = "";  ///< of an array or object, for help
+  int place = 0;           ///< place of the columns, in increasing order
+  const char* shape = "";  ///< shape of an array or object, for help
 };
 
 /// The value of a field that JSON has as null.
@@ -64,14 +63,14 @@ std::vector<std::string> names_of(std::initializer_list<ColumnText> columns);
 std::vector<FieldText> texts_of(std::initializer_list<ColumnText> columns, const std::string& before = "");
 
 /// A row of CSV gets the columns of a value.
-/// @param columns  as Field's
+/// @param columns  columns, see Field
 void append_columns(Json& row, const std::string& name, const char* columns, const Json& value);
 
 /// A field as help shows it.
 FieldText text_of(const std::string& name, const char* columns, const char* unit, const char* meaning,
                   const char* shape);
 
-/// One list after the other, and a field without a meaning with the next.
+/// Returns the lists as one. A field without a meaning is joined with the next field.
 std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists);
 
 /// The members of JSON, in the order of the table.

@@ -12,7 +12,7 @@ class TextTable {
  public:
   struct Column {
     std::size_t
-        width;   ///< at least: as wide as its widest cell, and of numbers that stand behind another column by two more
+        width;   ///< least width; a column is as wide as its widest cell, numbers behind another column two wider
     char align;  ///< < or >
   };
 

@@ -17,10 +17,10 @@ struct AimReport {
   si::Experiment experiment;  ///< ball with the start that was found
   reduction::Law law;
   si::Velocities start;
-  double slip;                   ///< at the start
+  double slip;                   ///< slip at the start
   double distance, turns, time;  ///< results of the start
   si::Velocities final;
-  std::optional<si::Event> rolls;  ///< for a ball only
+  std::optional<si::Event> rolls;  ///< begin of rolling, for a ball only
   std::optional<si::CueStrike> strike;
   std::optional<si::Event> rest;  ///< only with rolling friction
 
@@ -30,7 +30,7 @@ struct AimReport {
 constexpr Field<AimReport> aim_row[]{
     {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
     {"ball", "", "body, as in stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
-    {"slip", "m/s", "sliding speed at the start, along x; of a ball that does not roll yet, speed of its centre",
+    {"slip", "m/s", "sliding speed at the start, along x; also the speed of the centre, if the ball does not roll yet",
      [](const AimReport& r) -> Json { return r.slip; }},
     {"spin", "1/s", "spin at the start, about the vertical",
      [](const AimReport& r) -> Json { return r.start.angular_velocity.z(); }},
@@ -45,12 +45,12 @@ constexpr Field<AimReport> aim_row[]{
        return {w.x(), w.y(), w.z()};
      },
      ",wy,", 0, " [x, y, z]"},
-    {"distance", "m", "distance of the centre from the start, when slip and spin end (with rolling friction at rest)",
+    {"distance", "m", "distance of the centre when slip and spin end, or with rolling friction when the ball rests",
      [](const AimReport& r) -> Json { return r.distance; }},
-    {"turns", "", "turns about the vertical until then", [](const AimReport& r) -> Json { return r.turns; }},
-    {"time", "s", "time when slip and spin end (with rolling friction all motion)",
+    {"turns", "", "number of turns about the vertical", [](const AimReport& r) -> Json { return r.turns; }},
+    {"time", "s", "time when slip and spin end; with rolling friction: when the ball rests",
      [](const AimReport& r) -> Json { return r.time; }},
-    {"final_velocity", "m/s", "speed of rolling after that, without rolling friction",
+    {"final_velocity", "m/s", "speed of the ball when it rolls without spin; not with rolling friction",
      [](const AimReport& r) { return r.is_ball() && !r.rest ? Json(r.final.velocity.x()) : Json(); }},
     {"rolls_after", "s, m, m, m/s", "time and place at which the slip of a ball falls below the threshold",
      [](const AimReport& r) -> Json {
@@ -63,7 +63,7 @@ constexpr Field<AimReport> aim_row[]{
     {"rest", "s, m, m", "time and place at which the centre rests, with rolling friction",
      [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
     {"strike", "m/s; 1; kg",
-     "level stroke of a cue of this mass that gives the start; right of and above the centre in radii",
+     "level stroke of a cue that gives the start; its point right of and above the centre, in radii",
      [](const AimReport& r) -> Json {
        if (!r.strike) return {};
        const auto& [speed, right, above, elevation, mass] = *r.strike;

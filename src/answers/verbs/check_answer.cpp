@@ -42,7 +42,7 @@ using Row = CheckedLaw;
 constexpr Field<Row> row_fields[]{
     {"law", "", "name of the law of friction", [](const Row& row) -> Json { return row.law; }},
     {"check", "", "name of the check", [](const Row& row) -> Json { return row.check.name; }},
-    {"measured", "", "the worst; it must not exceed allowed",
+    {"measured", "", "largest error found; the check passes if it is at most allowed",
      [](const Row& row) -> Json { return or_infinity(row.check.measured); }},
     {"allowed", "", "limit of the measured value", [](const Row& row) -> Json { return row.check.allowed; }},
     {"", "", "ok or FAIL", [](const Row& row) -> Json { return verdict(row.check); }, "verdict"},
@@ -61,8 +61,8 @@ constexpr Field<MotionsBeside> beside_fields[]{
      },
      "", 0, " {`slip`, `spin`}"},
     {"models", "",
-     "worst errors as shares of the start; the law's own first; "
-     "an engine's elliptic cone is elliptic, its box is the textbook",
+     "largest errors divided by slip and spin at the start, the law first; elliptic is the elliptic cone of engines, "
+     "textbook their box",
      [](const MotionsBeside& motions) {
        Json models = Json::array();
        for (const auto& [name, motion, slip, spin] : motions.models) {
@@ -75,7 +75,7 @@ constexpr Field<MotionsBeside> beside_fields[]{
      [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
 };
 
-/// The name of a law, without the words that end a row: that of a file may have them.
+/// The name of a law, without the words that end a row: the name of a file may contain them.
 std::string label(const std::string& law) {
   std::string text = quotation(law);
   text = text.substr(1, text.size() - 2);
@@ -180,9 +180,9 @@ std::vector<FieldText> check_fields() {
   return joined(
       {texts_of_rows("checks", row_fields),
        {{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
-         "columns of --against, rows in order of time; the first is the start; in another unit as 'wz [rpm]'"},
+         "columns of the table of --against. The first row is the start; times increase. Another unit: 'wz [rpm]'"},
         {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
-         "motion of a rigid body, in place of slip and spin, z up; without wx, wy if it lies flat"}},
+         "velocities that replace slip and spin; z is up. A body that lies flat needs no wx, wy"}},
        texts_of(beside_fields)});
 }
 

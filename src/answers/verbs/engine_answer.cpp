@@ -89,7 +89,7 @@ constexpr Field<EngineWithBall> name_fields[]{
      [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
 };
 constexpr Field<EngineWithBall> moment_fields[]{
-    {"", "", "last one of the parameters",
+    {"", "", "name and value of the parameter of the moment",
      [](const EngineWithBall& of) {
        const auto& all = of.use->parameters;
        return all.empty() ? Json::array({"", ""}) : Json::array({all.back().name, all.back().value(of.contact)});
@@ -100,8 +100,8 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"title", "", "full name", [](const EngineWithBall& of) -> Json { return of.engine->title; }, ""},
     {"repository", "", "repository on github.com",
      [](const EngineWithBall& of) -> Json { return of.engine->repository; }, ""},
-    {"version", "", "version that was read", [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
-    {"parameters", "", "parameters to type in; the last one is that of the moment",
+    {"version", "", "version of its source", [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
+    {"parameters", "", "parameters to type in; the last one sets the moment",
      [](const EngineWithBall& of) {
        Json parameters = Json::object();
        for (const auto& [name, unit, value] : of.use->parameters) {
@@ -112,9 +112,9 @@ constexpr Field<EngineWithBall> text_fields[]{
      "", 0, " {NAME {`value`, `unit`, `formula`}}"},
     {"limit", "", "limit of the moment in the engine", [](const EngineWithBall& of) -> Json { return of.use->limit; },
      ""},
-    {"combination", "", "rule for the numbers of two bodies",
+    {"combination", "", "rule by which the engine combines the numbers of two bodies",
      [](const EngineWithBall& of) -> Json { return of.engine->combination; }, ""},
-    {"needs", "", "switches that the numbers need",
+    {"needs", "", "settings without which the engine ignores the numbers",
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
     {"settings", "", "settings, one row of CSV each; none for a flat body that the engine does not support",
      [](const EngineWithBall& of) {
@@ -157,7 +157,7 @@ constexpr Field<Report> report_fields[]{
      [](const Report& r) -> Json { return r.own.fade.slip_length; }, "law_slip_length"},
     {"turns", "", "turns about the vertical under the law", [](const Report& r) -> Json { return r.own.fade.turns; },
      "law_turns"},
-    {"engines", "", "engines, each with the fields from name on",
+    {"engines", "", "a description of each engine, with the fields that follow",
      [](const Report& r) {
        Json engines = Json::array();
        for (const EngineWithBall& engine : r.engines) engines.push_back(members_of_engine(engine));

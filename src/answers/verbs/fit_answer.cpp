@@ -235,9 +235,9 @@ constexpr Field<FitReport> answer_fields[]{
      },
      "", 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
     {"tracks", "rad/s",
-     "also `direction`, `vx`, `vy`, `x`, `y`, `angle` at the start; with rolling friction `rolling` in place of `vx`, "
-     "`vy`; of a track with an angle `half_turn_spin`, from where on its turns are found by trial; "
-     "`other_spins` that fit as well, by other turns or by another motion",
+     "start of each track, also `direction`, `vx`, `vy`, `x`, `y`, `angle`; with rolling friction `rolling` in place "
+     "of `vx`, `vy`; `half_turn_spin`: spin above which the turns of an angle are found by trial; `other_spins`: "
+     "spins that fit as well, with other turns or another motion",
      [](const FitReport& r) {
        Json list = Json::array();
        for (std::size_t i = 0; i < r.tracks.size(); ++i) {

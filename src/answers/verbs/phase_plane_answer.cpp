@@ -62,7 +62,7 @@ End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
 constexpr Field<ReducedSystem> system_fields[]{
     {"law", "", "name of the law of friction", [](const ReducedSystem& system) -> Json { return system.law().name(); }},
     {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
-    {"drive", "", "force along the slip divided by f N; r_high then belongs to (Phi - drive)/(k Psi)",
+    {"drive", "", "force along the slip divided by f N; with it r_high is the limit of (Phi - drive)/(k Psi)",
      [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
 };
 constexpr Field<TerminalRatios> regime_fields[]{
@@ -90,7 +90,7 @@ constexpr Field<TerminalRatios> list_fields[]{
        return rays;
      },
      "", 0, " [{`k`, `attracts`, `accuracy`}]"},
-    {"ends", "", "all ends",
+    {"ends", "", "limits of k, each with its range of starts",
      [](const TerminalRatios& ratios) {
        Json ends = Json::array();
        for (const TerminalRatio& end : ratios.ends) ends.push_back(members_of(end_fields, end_of(ratios, end)));
@@ -130,16 +130,16 @@ constexpr Field<SingularPoint> point_fields[]{
 };
 constexpr Field<ReducedSystem> body_fields[]{
     {"mu", "", "patch radius divided by R", [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
-    {"body", "", "1 + m R^2/J, m R^2/J_z",
+    {"body", "", "inertia: chi = 1 + m R^2/J, gamma = m R^2/J_z",
      [](const ReducedSystem& system) -> Json {
        return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};
      },
      "", 0, " {`chi`, `gamma`}"},
 };
 constexpr Field<PhasePlane> plane_fields[]{
-    {"mu_low", "", "r_low as a patch ratio of this body; not with --drive",
+    {"mu_low", "", "mu at which r of this body is r_low; not with --drive",
      [](const PhasePlane& plane) -> Json { return plane.points.front().k == 0 ? Json(plane.mu_low) : Json(); }, ""},
-    {"mu_high", "", "r_high as a patch ratio of this body",
+    {"mu_high", "", "mu at which r of this body is r_high",
      [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
     {"tangent", "", "half-line along which most orbits enter the origin",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
@@ -264,7 +264,7 @@ std::vector<FieldText> phase_plane_fields() {
   return joined(
       {{{"JSON `law`, `r`, `drive`, `r_low`, `r_high`, `limit`, `k_star`, `k_star_accuracy`, `k_from`, `k_to`, "
          "`rays`, `ends`",
-         "", "fields of terminal"}},
+         "", "fields as in terminal"}},
        texts_of(body_fields),
        texts_of(plane_fields),
        texts_of(point_fields)});

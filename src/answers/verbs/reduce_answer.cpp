@@ -306,7 +306,8 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
 void add_factor(Answer& answer, const SolvedPlane& solved) {
   const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
   const std::string_view form = solved.plane->form();
-  const std::string v = fmt::format("{}{}", form == "basis" ? "a sum of the basis" : form, divided);
+  const std::string_view shown = form == "basis" ? "a sum of the basis" : form == "affine" ? "f ^ X, X affine" : form;
+  const std::string v = fmt::format("{}{}", shown, divided);
   const auto [factor, integral] = solved.formula();
   Json& members = answer.members;
   members["factor"] = factor.empty() ? v + ", 1 at the start" : fmt::format("{}{}", factor, divided);
@@ -540,7 +541,7 @@ std::vector<FieldText> reduce_fields() {
   return {
       {"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "", "law of friction, patch ratio and inertia; not with --system"},
       {"`system`", "", "the system as typed, with --system"},
-      {"`u0`, `v0`, `drive`", "speed, speed, 1", "the start; drive over f N, with --drive"},
+      {"`u0`, `v0`, `drive`", "speed, speed, 1", "the start; drive divided by f N, with --drive"},
       {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; "
        "CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, `b2`",
        "",
@@ -548,13 +549,13 @@ std::vector<FieldText> reduce_fields() {
       {"JSON `singular_values`", "", "singular values of the determining equations, divided by the largest"},
       {"`level`, `gap`", "", "values below level count as 0; the others are larger by the factor gap"},
       {"`form`, `factor`", "",
-       "scaling, or the form of the inverse integrating factor V, or null; V as a formula, up to a constant factor, or in words"},
+       "scaling, form of the integrating factor V, or null; V as a formula, up to a constant factor, or in words"},
       {"`integral`", "", "first integral H as a formula, if it is recognised"},
       {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
        "forms of V in the order of the search; cleared: V was multiplied by the denominator of the field"},
       {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
        "canonical coordinates of the start: v/u and ln v; with --system angle and logarithm of the distance"},
-      {"`first_integral`", "", "p minus its value on one orbit"},
+      {"`first_integral`", "", "p minus p of one orbit at this q; constant along a motion"},
       {"JSON `rays` [{`k` or `angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
        "invariant rays: direction of the motion, eigenvalues along the ray and across, 2 for a double ray"},
       {"`kind`, `undecided`", "", "type of the blown-up centre; null if not decided, and the reason"},
@@ -567,17 +568,17 @@ std::vector<FieldText> reduce_fields() {
       {"JSON `reversors`", "", "images of (u, v) under the maps that turn motions back, such as (u, -v)"},
       {"JSON `turn` {`factor`, `sigma`}", "", "scaling by one turn of a focus, and its logarithm"},
       {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
-       "orbit of the start in both directions; a focus turn by turn"},
+       "orbit of the start, forward and backward in time; one turn if it is a spiral"},
       {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
-       "images of the start under the symmetry; their orbits are the strip, shifted in p by ln of the factor"},
+       "images of the start under the symmetry; their orbits are the orbit of strip, shifted in p by ln(factor)"},
       {"`tau_stop`, `accuracy`", "speed, 1",
        "stop time (inf if the centre is not reached, null before a border or if not decided) and relative error"},
       {"`end`", "", "end of the motion, with --system"},
       {"every `end`", "", fmt::format("{}; null if not decided", fmt::join(named_ends(), ", "))},
       {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
-       "stop time by each route; section is the route of --system"},
+       "stop time by each method; section is the method for --system"},
       {"`period`", "", "time after which the motion returns"},
-      {"JSON `by_steps` {`difference`, `time`}", "", "relative difference from an integration in steps, and its time"},
+      {"JSON `by_steps` {`difference`, `time`}", "", "relative difference from integration in time steps; its time"},
   };
 }
 

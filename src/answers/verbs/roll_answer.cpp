@@ -44,7 +44,7 @@ constexpr Field<Roll> start_fields[]{
     {"angular_velocity", "1/s", "angular velocity at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).angular_velocity); }},
     {"t_stop", "s", "time when slip and spin end", [](const Roll& roll) -> Json { return roll.whole.stop_time(); }},
-    {"load", "s, N", "in: columns `t`, `load` of the table of --load, where it is one",
+    {"load", "s, N", "columns `t` and `load` of the table that --load names",
      [](const Roll& roll) { return roll.load ? members_of(*roll.load) : Json(); }, nullptr, 0,
      " {`t` [...], `load` [...]}"},
 };
@@ -68,8 +68,8 @@ constexpr Field<RollEvents> event_fields[]{
     {"spin_ends", "s, m, m", "time and place at which the spin ends; 0 without spin",
      [](const RollEvents& events) { return members_of(events.of.spin_ends); }, nullptr, 0, " {`t`, `x`, `y`}"},
     {"rest", "s, m, m",
-     "time and place at which the centre rests: turning has ended and the slip is below 0.0001 m/s. With rolling "
-     "friction or on a slope; for a puck in place of rolls_after",
+     "time and place at which the centre rests: the turning has ended and the slip is below 0.0001 m/s; with rolling "
+     "friction, on a slope, or for a puck, which has no rolls_after",
      [](const RollEvents& events) {
        if (events.lies_flat) return members_of(events.of.rolls);
        return events.of.rest ? members_of(*events.of.rest) : Json();
@@ -101,8 +101,8 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      },
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
     {"energy_balance", "J",
-     "energies, if the mass is known; kept is that of rolling; `lost_rolling` with --rolling-friction; "
-     "`gained_on_slope` with --slope. A ball that rolls down for ever: until slip and spin end",
+     "energies, if the mass is known; kept: energy of rolling; `lost_rolling` with --rolling-friction; "
+     "`gained_on_slope` with --slope. If the ball rolls down for ever: energies until slip and spin end",
      [](const Roll& roll) -> Json {
        if (!si::mass_is_known(roll.experiment.ball)) return {};
        const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();
@@ -112,13 +112,13 @@ constexpr Field<Roll> rest_of_roll_fields[]{
        return members;
      },
      nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
-    {"textbook", "", "same events under the uncoupled model, by the same threshold",
+    {"textbook", "", "events under the uncoupled model, with the same threshold",
      [](const Roll& roll) {
        return members_of(event_fields, RollEvents{roll.theirs(), roll.lies_flat()});
      }},
     {"gradient", "SI",
-     "partial derivatives of each number of an event by each number of the ball and its start, with --gradient; those "
-     "that do not exist are left out",
+     "partial derivatives of the numbers of each event by the numbers of the ball and its start, with --gradient; "
+     "those that do not exist are left out",
      [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
     {"uncertainty", "as the event",

@@ -77,10 +77,10 @@ struct StopReport {
   double sliding_only;                             ///< tau of a body that did not pivot
   double pivoting_only;                            ///< tau of a body that did not slide
   std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
-  std::optional<CoarserTable> coarser;             ///< of a law that is a table of pressures
-  std::vector<reduction::StopEstimate> estimates;  ///< for small mu
+  std::optional<CoarserTable> coarser;             ///< result for every other row of a pressure table
+  std::vector<reduction::StopEstimate> estimates;  ///< estimates for small mu
   std::optional<reduction::StopTimeGradient> gradient;
-  std::optional<Uncertainty> uncertainty;    ///< of t_stop for a ball, else of tau_stop
+  std::optional<Uncertainty> uncertainty;    ///< uncertainty of t_stop for a ball, else of tau_stop
   std::optional<si::LoadHistory> load = {};  ///< a load that changes
 
   /// Returns the time, s, that a ball takes for tau, >= 0, under its load, which may change.
@@ -96,7 +96,7 @@ double pivoting_only(const GivenStart& start) {
   if (experiment && si::is_driven(*experiment) && state.u != 0) {
     si::Experiment still = *experiment;
     still.start = si::SlipAndSpin{0, si::spin_at_start(*experiment)};
-    return tau_of(still, system.law());  // in place, or down the slope
+    return tau_of(still, system.law());  // spinning in place, or sliding down the slope
   }
   return system.drive() > 0 ? reduction::Flow(system).stop_time({state.u, 0}).tau : system.pivoting_limit(state.u);
 }
@@ -107,7 +107,7 @@ double sliding_only(const GivenStart& start) {
   return tau_of(si::without_spin(*start.experiment), system.law());
 }
 
-/// Returns the rest of a moving ball with rolling friction or on a slope, if it comes to one.
+/// Returns time and place at which a moving ball rests, with rolling friction or on a slope; empty if it never rests.
 std::optional<si::Event> rest_of(const GivenStart& start) {
   return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }
@@ -143,7 +143,7 @@ constexpr Field<StopReport> fields[]{
     {"law", "", "name of the law of friction", [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
     {"route", "", "name of the route", [](const StopReport& r) -> Json { return name(r.route); }},
     {"mu", "", "patch radius divided by R", [](const StopReport& r) -> Json { return r.start.system.mu(); }},
-    {"body", "", "1 + m R^2/J, m R^2/J_z",
+    {"body", "", "inertia: chi = 1 + m R^2/J, gamma = m R^2/J_z",
      [](const StopReport& r) -> Json {
        const auto [chi, gamma] = r.start.system.inertia();
        return {{"chi", chi}, {"gamma", gamma}};
@@ -156,7 +156,7 @@ constexpr Field<StopReport> fields[]{
      },
      nullptr, 4},
     {"pieces", "speed, 1",
-     "parts of a motion whose turning rolling friction stops or starts: their first tau, and whether the ball turns",
+     "parts of a motion, if rolling friction stops or starts turning: their first tau; true if the ball turns",
      [](const StopReport& r) -> Json {
        const auto pieces = r.start.pieces();
        if (pieces.size() < 2) return {};
@@ -179,12 +179,12 @@ constexpr Field<StopReport> fields[]{
        return r.start.is_in_pieces() ? Json() : Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
      },
      "lower,upper", 0, " [lower, upper]"},
-    {"limits", "speed", "tau_stop of a body with u0 = 0, with v0 = 0",
+    {"limits", "speed", "tau_stop without spin (u0 = 0), and without slip (v0 = 0)",
      [](const StopReport& r) -> Json {
        return {{"sliding_only", r.sliding_only}, {"pivoting_only", r.pivoting_only}};
      },
      nullptr, 0, " {`sliding_only`, `pivoting_only`}"},
-    {"other_law", "speed", "stop time under the other of the laws exact and pade",
+    {"other_law", "speed", "stop time under pade if the law is exact, under exact if it is pade",
      [](const StopReport& r) -> Json {
        if (!r.other) return {};
        return {{"law", r.other->law}, {"tau_stop", r.other->tau}};
@@ -229,7 +229,7 @@ constexpr Field<StopReport> fields[]{
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
      },
      "", 0, " {`name`, `body`, `radius`, `mass`, `friction`, `gravity`, `patch_radius`, ...}"},
-    {"load", "s, N", "in: columns t, load of the table of --load, where it is one",
+    {"load", "s, N", "columns t and load of the table that --load names",
      [](const StopReport& r) { return r.load ? members_of(*r.load) : Json(); }, "", 0, " {`t` [...], `load` [...]}"},
     {"slip", "m/s", "slip at the start, with --ball", [](const StopReport& r) { return of_ball(r, si::slip_at_start); },
      ""},

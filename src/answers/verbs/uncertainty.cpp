@@ -211,8 +211,8 @@ constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.99445788
 
 /// Sets the quantiles of a part from samples.
 /// @param samples  one or more samples of the part
-/// @param below    shares of all samples whose first order is below its own quantiles. The quantiles of the part have
-///                 these places in the order of its samples, which removes most of the sampling error.
+/// @param below    shares of samples below each quantile, to first order. The quantiles of the part are taken at these
+///                 shares of its samples, which removes most of the sampling error.
 void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const Eigen::ArrayXd& below) {
   KnownTo& known = part.known;
   constexpr double rounding = 1e-12;
@@ -226,7 +226,7 @@ void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const 
   }
 }
 
-/// @throws BadInput  where a derivative does not exist, and if no sample is a possible start
+/// @throws BadInput  if a derivative does not exist, or if no sample is a possible start
 Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::string_view corner) {
   Uncertainty result{varied.parts};
   const auto count = static_cast<Index>(spreads.numbers.size()), parts = static_cast<Index>(result.parts.size());
@@ -305,7 +305,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
       .numbers = {},
       .parts = {},
       .system = si::undriven_system(experiment, law),
-      .samples = events.resisted() ? 1'000 : 10'000,  // with a drive each sample needs solutions of its own
+      .samples = events.resisted() ? 1'000 : 10'000,  // a drive needs new solutions for each sample
       .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
       .mu = [&](const auto& places, const VectorXd& values) { return si::patch_ratio(moved(places, values), law); },
       .at =

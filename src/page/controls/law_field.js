@@ -15,8 +15,8 @@ export const lawTitle = (law) => (law?.startsWith(`${table}:`) ? "pressure.csv" 
 export function lawOfTable(text) {
   const [header, ...rows] = text.replace(/^\ufeff/, "").trim().split(/\r\n?|\n/).map((line) => line.split(",").map((cell) => cell.trim()));
   const columns = ["rho", "pressure"].map((name) => header.indexOf(name));
-  if (columns.includes(-1)) throw new Error("A table of pressure has columns rho and pressure: its first line is \"rho,pressure\".");
-  if (rows.length > mostRows) throw new Error(`A table of at most ${mostRows} rows is taken here, which go with the link; the program takes any: --law FILE.csv.`);
+  if (columns.includes(-1)) throw new Error("A pressure table has the columns rho and pressure: its first line must be \"rho,pressure\".");
+  if (rows.length > mostRows) throw new Error(`This page takes tables of at most ${mostRows} rows, because its link contains them. The program takes longer ones: --law FILE.csv.`);
   return `${table}:${rows.map((row) => columns.map((column) => row[column] ?? "").join("/")).join(";")}`;
 }
 

@@ -33,8 +33,8 @@ export function makeOrbits(store, plane) {
         return parseNumber(form.elements[name].value);
       });
       what = "This start cannot be shown: ";
-      if (v < 0) throw new Error("a sliding speed is ≥ 0");
-      if (u === 0 && v === 0) throw new Error("u₀ = v₀ = 0 is rest");
+      if (v < 0) throw new Error("v₀ must be ≥ 0");
+      if (u === 0 && v === 0) throw new Error("u₀ = v₀ = 0 is a body at rest");
       plane.startOrbit({ u, v }, (edit, done) => done(store.change(edit)));
     } catch (error) {
       problem = what + error.message;

@@ -10,11 +10,11 @@ import { allowed, bodyOf, initialState, moved, takeBall, unrolled } from "../sta
 /** The titles of entries of the library, by their names. */
 const titlesOf = (entries) => Object.fromEntries(entries.map(({ name, title = name.replace("-", " ") }) => [name, title]));
 
-const fieldTitles = { none: "none", motion: "of the motion (2.6)", regularised: "regularised (2.7)" };
-const patchTitles = { patch_radius: "its radius ε (m)", spin_deceleration: "spin deceleration (rad/s²)", whole_face: "its whole face" };
+const fieldTitles = { none: "none", motion: "motion (2.6)", regularised: "regularised motion (2.7)" };
+const patchTitles = { patch_radius: "radius ε (m)", spin_deceleration: "spin deceleration (rad/s²)", whole_face: "whole face" };
 const ballLabels = {
-  radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)", patchBy: "patch known by",
-  patch: "patch", along: "centre: along the slip (m/s)", across: "across it (m/s)", rollingFriction: "rolling friction (pool: 0.01)",
+  radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)", patchBy: "patch given by",
+  patch: "patch", along: "centre, along the slip (m/s)", across: "centre, across the slip (m/s)", rollingFriction: "rolling friction (pool: 0.01)",
   slope: "slope (degrees; downhill < 0)",
 };
 
@@ -93,7 +93,7 @@ function makeChoices(controls, store, plane) {
     $("inertia").hidden = state.body !== "own";
     showView(state.view);
     write($("view-hint"), view.hint);
-    const without = contact?.without ? `. The plane is without rolling friction: ${contact.without}.` : "";
+    const without = contact?.without ? `. The plane is drawn without rolling friction: ${contact.without}.` : "";
     write($("terminal"), `k → ${shown(facts.terminalRatio, 6)}: ${facts.meaning}${without}`);
     $("theme").setAttribute("aria-label", `Theme: ${state.theme === "auto" ? "as the system" : state.theme}`);
   });
@@ -123,7 +123,7 @@ function makeSliders(controls, store, plane) {
     (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * mostFriction)));
   const setMu = (state, mu) => {
     const { largestMu } = store.body;
-    if (allowed("mu", mu) > largestMu) throw new Error(`mu is the patch radius over R: at most ${largestMu} here`);
+    if (allowed("mu", mu) > largestMu) throw new Error(`mu is the patch radius divided by R: at most ${largestMu} here`);
     // Patch radius and spin deceleration are proportional to mu.
     if (state.ball) state.ball.patch = Number(((state.ball.patch * mu) / state.mu).toPrecision(12));
     else state.mu = mu;

@@ -34,7 +34,7 @@ export function makeHandles(story) {
     set(key, Number(sliderOf(key).value) + steps[event.key] * (event.shiftKey ? 0.1 : 1));
   });
   return Object.fromEntries(["slip", "spin"].map((key) => {
-    const handle = make("span", { className: "handle", tabIndex: 0, title: "Drag to the side, or arrow keys" });
+    const handle = make("span", { className: "handle", tabIndex: 0, title: "Drag to the side, or use the arrow keys" });
     handle.dataset.key = key;
     for (const [name, value] of Object.entries({ "role": "slider", "aria-label": key, "aria-valuemin": 0, "aria-valuemax": 1000 })) handle.setAttribute(name, String(value));
     return [key, handle];

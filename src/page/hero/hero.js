@@ -161,7 +161,7 @@ export class Hero {
     const time = state.fraction * end * timeFactor;
     const places = bodies.map(({ at }) => at(state.fraction));
     const has = bodies.map((body) => time >= (1 - 1e-12) * body.end);
-    const word = ({ rest }) => (!ride.rolls ? "stands" : time < (rest?.t ?? Infinity) ? "rolls" : "rests");
+    const word = ({ rest }) => (!ride.rolls ? "stopped" : time < (rest?.t ?? Infinity) ? "rolls" : "rests");
     // A ruler lies between them where both go straight.
     const [plain, own] = bodies;
     const straight = bodies.every(({ stop: { x, y, path } }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
@@ -185,7 +185,7 @@ export class Hero {
     if (this.film) this.drawFilm(this.film);
     else this.lanes.drawInSight();
     this.patch.drawInSight();
-    $("patch").setAttribute("aria-label", `The patch from below: friction against sliding is ${shown(100 * now.force, 2)} % of f N` +
+    $("patch").setAttribute("aria-label", `The contact patch from below: ${shown(100 * now.force, 2)} % of the friction f N acts against the sliding` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
     if (this.aim) return;
     const last = state.fraction < 1 ? null : plane.instant(orbit.u, orbit.v, late * motion.stop);

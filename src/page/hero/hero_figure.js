@@ -192,5 +192,5 @@ export function drawPatch(surface, { still, k, spin, force }, theme) {
   }
   if (force > 0.02) arrow(force, accent);
   const left = force < 0.001 ? "none" : `${shown(100 * force, force < 0.1 ? 1 : 2)} %`;
-  surface.text(x0, base + 1.2 * size, `friction left: ${left}`, style);
+  surface.text(x0, base + 1.2 * size, `against sliding: ${left}`, style);
 }

@@ -73,7 +73,7 @@ export class Ruler {
     if (!ends || !this.part) return;
     const [from, to] = this.own ? [this.own.from, this.own.to] : ends.map(([x, y]) => toTable(x, y));
     this.pull({ part: this.part, from, to, at: [0, 0] }, dx, -dy);
-    this.hero.say(`The ruler: ${this.words}. Arrows move ${names[this.part]}, r the next, Escape puts it back.`);
+    this.hero.say(`The ruler: ${this.words}. Arrow keys move ${names[this.part]}, r goes to the next part, Escape puts the ruler back.`);
   }
 
   reset() {

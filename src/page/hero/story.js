@@ -46,39 +46,39 @@ function wordsOf(/** @type {Facts} */ facts) {
   const { name, real, rolls, slip, spin, along, across, least, own, plain } = facts;
   const unit = real ? "m" : "";
   const time = (t) => `${real ? "" : "τ = "}${duration(t, unit)}`;
-  const leave = along === slip && across === 0 ? "leave" : "touch down, slipping";
+  const leave = along === slip && across === 0 ? "leave at" : "land with a slip of";
   const turns = spin === 0 ? "does not spin" : real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
     ...facts, thing: name.split(" ").at(-1), time, leave, then: rolls ? "then it rolls" : "then it stops",
     speed: named("slip", real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`), turns: named("spin", turns),
     far: named("own", length(own.path, unit)), farPlain: named("plain", length(plain.path, unit)),
-    farther: length(own.path - plain.path, unit), times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
-    threshold: rolls ? ` Here it rolls once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first"}.` : "",
+    times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
+    threshold: rolls ? ` A ${name.split(" ").at(-1)} counts as rolling once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first slip"}.` : "",
   };
 }
 
-const two = ({ name, leave, speed, farPlain, then, turns, far, farther, longer, times }) =>
-  `Two equal ${name}s ${leave} at ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}. ` +
-  `${named("own", "The other spins")} ${turns}: it slides ${far}, ${farther} more: ${more(times, "far")} and ${longer}. Textbooks say ${farPlain} both times.`;
+const two = ({ name, leave, speed, farPlain, then, turns, far, longer, times }) =>
+  `Two equal ${name}s ${leave} ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}. ` +
+  `${named("own", "The other spins")} ${turns}: it slides ${far}, ${more(times, "far")}, and takes ${longer}. Textbooks predict ${farPlain} for both.`;
 
 const sentences = {
   much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words) + words.threshold],
   more: (words) => [`Spin makes this ${words.thing} slide ${shown(100 * (words.times - 1), 2)} % farther`, two(words) + words.threshold],
-  soon: (words) => [`This ${words.thing} soon rolls, and spins on`, `${two(words)} Its spin lasts ${words.time(words.stop)}.${words.threshold}`],
-  together: (words) => ["Sliding and turning end at one instant",
-    `${two(words)} Sliding alone would end after ${words.time(words.plain.end)}, turning alone after ${words.time(words.turningAlone)}; ` +
-    `together they end at one instant, after ${words.time(words.stop)}.`],
+  soon: (words) => [`This ${words.thing} soon rolls, and keeps spinning`, `${two(words)} Its spin ends after ${words.time(words.stop)}.${words.threshold}`],
+  together: (words) => [`This ${words.thing} spins as long as it slides`,
+    `${two(words)} Sliding alone would end after ${words.time(words.plain.end)}, spinning alone after ${words.time(words.turningAlone)}. ` +
+    `Together they end at the same instant, after ${words.time(words.stop)}.`],
   curves: (words) => [`The path of this ${words.thing} curves by ${shown(Math.abs(words.own.turned), 2)}°`,
-    `It touches down slipping at ${words.speed}, which is not where it goes: friction pulls along the slip, and the path curves by ` +
-    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. It spins ${words.turns}; without spin it would curve by ` +
+    `It lands with a slip of ${words.speed}, which does not point along its path. Friction acts against the slip, so the path curves by ` +
+    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}. Then it rolls straight on. It spins ${words.turns}. Without spin the path would curve by ` +
     `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.${words.threshold}`],
   plain: (words) => ["Without spin, textbooks are right",
-    `This ${words.name} ${words.leave.replace(/^(leave|touch)/, (verb) => `${verb}${verb === "touch" ? "es" : "s"}`)} at ${words.speed} and ${words.turns}: ` +
-    `it slides ${words.farPlain}, ${words.then}. Textbooks say the same of one that spins: give it spin, and see.${words.threshold}`],
-  rolls: (words) => [`This ${words.thing} already rolls`,
-    `Its slip is too small to be seen.${words.spin === 0 ? "" : ` Only its spin is left: it ends after ${words.time(words.stop)}.`}${words.threshold}`],
+    `This ${words.name} ${words.leave.replace(/^\w+/, "$&s")} ${words.speed} and ${words.turns}: ` +
+    `it slides ${words.farPlain}, ${words.then}. Textbooks predict the same distance with spin. Give it spin and compare.${words.threshold}`],
+  rolls: (words) => [words.slip > words.least ? `This ${words.thing} rolls almost at once` : `This ${words.thing} already rolls`,
+    `${words.slip > words.least ? `It slides for only ${words.time(words.own.end)} and ${words.far}.` : "It slides too slowly to be seen."}${words.spin === 0 ? "" : ` Its spin ends after ${words.time(words.stop)}.`}${words.threshold}`],
   spins: (words) => [`A ${words.thing} that spins in place`,
-    `Nothing is seen to slide: only the rim of the patch rubs, and the ${words.thing} turns ever slower, until it stops after ${words.time(words.stop)}.`],
+    `It does not move along the table. The contact patch rubs as it turns, so the ${words.thing} turns ever slower and stops after ${words.time(words.stop)}.`],
   rests: (words) => [`A ${words.thing} at rest`, "Nothing slides and nothing spins."],
 };
 
@@ -91,32 +91,32 @@ export function say(/** @type {Facts} */ facts) {
   return { headline, pieces, story: pieces.map(([, words]) => words).join("") };
 }
 
-/** Said where there is no motion. */
-export const nothing = { headline: "Click the plane: a motion starts there", story: "Up is sliding, sideways is spinning." };
+/** Said if there is no motion. */
+export const nothing = { headline: "Click the plane: a motion starts there", story: "Up: faster sliding. To the side: faster spin." };
 
 /** Asked before anything is told. */
 export const question = {
   headline: "One puck spins. Which slides farther?",
-  story: "Two equal pucks leave side by side, equally fast; one of them spins, the other does not. What do you say?",
+  story: "Two equal pucks leave side by side at the same speed. One spins, the other does not. Your guess?",
   answers: ["the one that spins", "the one without spin", "equally far"],
 };
 
 export const dare = {
-  stops: "Make it stop sliding before it stops spinning. You can't.",
-  rolls: "A ball may cease to slide before it ceases to spin: it rolls. A puck can't.",
+  stops: "Throw it. Can you make it stop sliding while it still spins? No puck does.",
+  rolls: "A ball can stop sliding while it still spins: then it rolls. A puck cannot.",
 };
 
 /**
- * What came of it: a body that cannot roll ends both at one instant.
+ * The outcome of a throw: sliding and spinning of a body that cannot roll end at the same instant.
  *
  * @param last  slip and spin, in the units of the facts, when that share of the time until the stop has passed
  */
 export function outcome(/** @type {Facts} */ facts, last, share) {
   const { real, rolls, slip, spin, own, stop } = facts;
   const time = (t) => `${real ? "" : "τ = "}${duration(t, real ? "s" : "")}`;
-  if (slip === 0) return spin === 0 ? "It is at rest: throw it." : "It only spins: throw it.";
-  if (spin === 0) return "It did not spin: twist it, too.";
-  if (rolls) return `It slid for ${time(own.end)}; its spin ends after ${time(stop)}.`;
+  if (slip === 0) return spin === 0 ? "It is at rest. Throw it." : "It only spins. Throw it.";
+  if (spin === 0) return "It did not spin. Throw it again, with spin.";
+  if (rolls) return `It slides for ${time(own.end)}. Its spin ends after ${time(stop)}.`;
   const speeds = real ? `${length(last.slip, "m")}/s and spun at ${shown(Math.abs(last.spin), 2)} rad/s` : `v = ${length(last.slip, "")} and spun with u = ${length(Math.abs(last.spin), "")}`;
-  return `Both ended at one instant, after ${time(stop)}; at ${shown(100 * share)} % of that it still slid at ${speeds}.`;
+  return `Sliding and spinning ended at the same instant, after ${time(stop)}. At ${shown(100 * share)} % of that time it still slid at ${speeds}.`;
 }

@@ -10,7 +10,7 @@ const most = 12;     // starts of one pull whose curves stay
 const apart = 0.12;  // of the start: how far they are from each other
 const decades = 4;      // to either end of the slider
 const vanished = 0.04;  // of the window: a start so small is looked for in the blown-up origin
-const hints = { uv: "", disc: " The circle is infinity.", blowup: " The inner circle is rest." };
+const hints = { uv: "", disc: " The outer circle is infinity.", blowup: " The inner circle is rest." };
 
 /** How many times as large a start is as another, and whether it is a copy of it: both speeds by one factor. */
 export function sizeOf({ u, v }, base) {
@@ -120,7 +120,7 @@ export class Copies {
     if (!pull) return "";
     const { c, along } = sizeOf(orbit, pull.base);
     const [before, after] = [pull.stop, motion.stop].map((tau) => (contact ? `${shown(tau * timeFactor, 4)} s` : `τ = ${shown(tau, 4)}`));
-    return along ? `A copy, c = ${shown(c, 3)}: it stops after ${after}, c times ${before}.`
-      : `Another curve: it stops after ${after}, the first after ${before}.`;
+    return along ? `Speeds × ${shown(c, 3)}: same curve, ${shown(c, 3)} × the time: ${after}.`
+      : `Another curve: it stops after ${after} (before: ${before}).`;
   }
 }

@@ -25,10 +25,10 @@ export function drawCopies(surface, store, { copies }) {
   drawFigure(surface, [motions, pull?.base, copies.ghosts, chosen], figure, store, { covered: false });
 }
 
-/** The four panels: v and u over their starts, the strip, stop times by sizes. */
+/** The four panels: v and u divided by their starts, the strip, stop times against sizes. */
 export function panelsOf(curves, { base, stop }, theme) {
   const zero = { words: "0", italic: false, level: -1 };
-  const byTime = (key) => panelOf([italic(key), "/", italic(key), zero, " by ", italic("t"), "/", italic("t"), "*"], { low: 0, high: 1 }, { low: 0, high: 1.04 },
+  const byTime = (key) => panelOf([italic(key), "/", italic(key), zero, " against ", italic("t"), "/", italic("t"), "*"], { low: 0, high: 1 }, { low: 0, high: 1.04 },
     curves.filter(({ start }) => start[key] !== 0).map(({ start, stop: its, colour, width, ...motion }) =>
       ({ colour, width, lines: Array.from(motion.tau).flatMap((t, i) => [t / its, motion[key][i] / start[key]]) })));
 
@@ -38,10 +38,10 @@ export function panelsOf(curves, { base, stop }, theme) {
   const lines = curves.map(({ k, v, colour, width }) =>
     ({ colour, width, lines: Array.from(k).flatMap((ratio, i) => (logarithm(v[i]) > low ? [logarithm(ratio), logarithm(v[i])] : [])) }));
   const ratios = lines.flatMap(({ lines }) => lines.filter((value, i) => i % 2 === 0 && Number.isFinite(value)));
-  const strip = panelOf([italic("v"), " by ", italic("k"), ": a copy is moved up"], decades(Math.min(-0.6, ...ratios) - 0.2, Math.max(0.6, ...ratios) + 0.2), decades(low, high), lines);
+  const strip = panelOf([italic("v"), " against ", italic("k")], decades(Math.min(-0.6, ...ratios) - 0.2, Math.max(0.6, ...ratios) + 0.2), decades(low, high), lines);
 
   const points = curves.map(({ start, stop: its, colour, width }) => ({ points: [logarithm(sizeOf(start, base).c), logarithm(its / stop)], colour, size: (width + 1.5) / 3.6 }));
   const half = Math.max(fewest, ...points.flatMap(({ points }) => points.map(Math.abs)).filter(Number.isFinite)) + 0.2;
-  const times = panelOf([italic("t"), "* by size ", italic("c")], decades(-half, half), decades(-half, half), [{ lines: [-half, -half, half, half], colour: theme.line, width: 3 }], points);
+  const times = panelOf([italic("t"), "* against ", italic("c")], decades(-half, half), decades(-half, half), [{ lines: [-half, -half, half, half], colour: theme.line, width: 3 }], points);
   return [byTime("v"), byTime("u"), strip, times];
 }

@@ -87,7 +87,7 @@ export class Plane {
     const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
     const count = state.orbits.length;
     $("plane").setAttribute("aria-label",
-      `Phase portrait, view ${this.store.view.title}: ${plain(portrait.figure.title)}; drawn are ` +
+      `Phase portrait, view ${this.store.view.title}: ${plain(portrait.figure.title)}; it shows ` +
       `${[...new Set(legend)].join(", ") || "orbits"}; ${count} ${count === 1 ? "orbit" : "orbits"} of yours` +
       (motion ? `; the chosen one stops at ${this.store.stopText(motion.stop)}` : ""));
   }

@@ -1,15 +1,15 @@
-// What the page says of the library's views.
+// Titles and hints of the library's views.
 
 const texts = {
-  uv: ["plane", "The paper's plane: sliding v against pivoting u = R ω, ω the spin about the vertical. Every orbit runs into the origin."],
-  bent: ["bent", "The plane, with v below the shading on the scale of a power where μ is small: orbits then run straight into the origin."],
-  patch: ["patch", "Both speeds as the rim of the patch has them: the slope of a ray is k = v/(μ|u|)."],
-  log: ["log", "Logarithms of both speeds. Scaling moves an orbit along the diagonal: all of them are copies of one curve."],
-  similarity: ["similarity", "Canonical coordinates: here scaling is a shift along p = ln v, and every orbit is the same curve, shifted."],
-  blowup: ["blow-up", "The origin blown up, so that it is seen by direction: to the inner half-circle, and to the line u = 0 of the chart (u, ln k)."],
-  disc: ["disc", "The whole half-plane on Poincaré's disc: infinity is the circle."],
-  time: ["time", "Both speeds over their starts, and k, while the time τ passes to the stop τ*. By scaling, only k at the start matters. A click there is a moment."],
-  pair: ["pair", "The plane, and beside it ln k against u: how orbits enter the origin."],
+  uv: ["plane", "Zhuravlev's plane: sliding speed v against u = R ω, where ω is the spin about the vertical. Every motion ends at the origin."],
+  bent: ["bent", "The plane, with another scale near v = 0 if μ is small: the shaded part shows a power of v. There orbits are straight lines into the origin."],
+  patch: ["patch", "Sliding speed and rim speed of the patch on equal scales: a ray from the origin has the slope k = v/(μ|u|)."],
+  log: ["log", "Logarithms of both speeds. Multiplying both speeds shifts an orbit along the diagonal, so all orbits are one curve, shifted."],
+  similarity: ["similarity", "Canonical coordinates: multiplying both speeds shifts an orbit along p = ln v, so all orbits are one curve, shifted."],
+  blowup: ["blow-up", "The origin is drawn as the inner half-circle, so that the direction of each orbit at its end is seen. In the chart (u, ln k) the line u = 0 is the origin."],
+  disc: ["disc", "The whole half-plane in a half-disc (Poincaré): the circle is infinity."],
+  time: ["time", "Both speeds divided by their first values, and k, against time τ divided by the stop time τ*. Only k at the start matters. Click to go to a moment."],
+  pair: ["pair", "The plane, and ln k against u, which shows how orbits enter the origin."],
 };
 
 /** A view of the library with its title and a hint to the reader. */

@@ -35,7 +35,7 @@ export class Zooming {
     const run = this.running = {};
     const closer = (decades) => (decades < 1 ? "Closer" : `10${superscript(Math.floor(decades))} times closer`);
     const to = (decades) => this.by(10 ** -decades, from,
-      `${closer(decades)}: the numbers run, the curves stand still. All sizes are one.`);
+      `${closer(decades)}: the numbers on the axes change, the curves do not. Every size looks alike.`);
     if (isStill()) return to(1);
     const began = performance.now();
     const step = (time) => {

@@ -16,7 +16,7 @@ export async function pngOf(draw, size, width) {
   const canvas = make("canvas", { width, height: Math.round((size.height * width) / size.width) });
   draw(new CanvasSurface(canvas, size));
   const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
-  if (!blob) throw new Error(`this browser has no canvas of ${canvas.width} × ${canvas.height} pixels`);
+  if (!blob) throw new Error(`this browser cannot draw ${canvas.width} × ${canvas.height} pixels`);
   return blob;
 }
 

@@ -25,7 +25,7 @@ export function makeFilm(store, player) {
   /** What the library finds, in words and as a figure; the ball is then as it was found. */
   const fit = (name, text) => {
     const { library, request, state } = store;
-    if (!state.ball) throw new Error("A film is of a real ball: choose one above, its radius is needed.");
+    if (!state.ball) throw new Error("Choose a real ball above first: the fit needs its radius.");
     const laws = [request.law, request.against].filter(Boolean);
     const ball = request.ball ?? shotOf(state.ball, startOf(0, 0));
     const found = library.fit(text, name, ball, laws.join());
@@ -52,12 +52,12 @@ export function makeFilm(store, player) {
   const read = async (file) => {
     store.ask((state) => (state.lab = true));
     try {
-      say(`${file.name} is fitted...`);
+      say(`Fitting ${file.name}...`);
       const text = await file.text();
       // What is said is seen before the work begins.
       await new Promise((seen) => setTimeout(seen, 50));
       const found = fit(file.name, text);
-      say(`${file.name} is fitted: the ball above has its friction, patch, slip and spin now.`, "", found);
+      say(`${file.name} is fitted. The ball above now has the fitted friction, patch, slip and spin.`, "", found);
     } catch (error) {
       say("", error.message);
     }

@@ -40,14 +40,14 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     tell(copied ? `${what} copied.` : text);
   };
   on("copy-link", () => {
-    if (!address.link) return tell(`This page has no address of its own here. What follows # in a link to it: ${toFragment(store.state)}`);
+    if (!address.link) return tell(`This page has no address here. Add this to a link to the page: #${toFragment(store.state)}`);
     return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
   });
   on("copy-embed", async () => {
     const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
     await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
     if (location.protocol !== "file:") return;
-    $("copied").append(" It names the file on this computer: readers need the page on a server, and its address there.");
+    $("copied").append(" It names the file on this computer. For readers put the page on a server and use its address there.");
   });
   on("copy-citation", () => copy(citation(address.link ?? "", $("version").textContent), "BibTeX"));
   on("copy-command", () => copy($("command").textContent, "Command"));
@@ -71,8 +71,8 @@ export function makeShare(store, { plane, hero, player, address, film }) {
   });
   on("save-film", async () => {
     const type = filmType();
-    if (!type) throw new Error("this browser takes no films");
-    tell(`The film is being taken: ${Math.ceil(player.seconds)} s.`);
+    if (!type) throw new Error("this browser cannot record films");
+    tell(`Recording the film: ${Math.ceil(player.seconds)} s.`);
     try {
       save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)), type);
     } finally {

@@ -57,7 +57,7 @@ class OutputOptions {
   /// Reads the three options: the ending of the file decides the format, or else --format, or else the kind.
   /// @param place  index of the kind
   /// @throws BadInput  if the format is not one of the kind's, if ending and --format disagree, if a file needs an
-  ///                   ending, and for --digits with other than text
+  ///                   ending, and for --digits with a format other than text
   Output read(std::size_t place = 0) const;
 
   const Argument& format_argument() const { return format_; }

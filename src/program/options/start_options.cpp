@@ -305,7 +305,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
     return experiment;
   } catch (const si::RunFileError&) {
     throw;
-  } catch (const std::domain_error& error) {  // of the values together, not of a place in a file
+  } catch (const std::domain_error& error) {  // an error of the values together, not of a place in a file
     reject_ball(error.what());
   }
 }

@@ -110,7 +110,7 @@ class StartOptions {
 
   bool ball_given() const { return ball_.given(); }
 
-  /// Lets --load name a table of the load against time, too; before add_ball.
+  /// Also allows --load to name a table of the load against time. Call it before add_ball.
   void take_load_history() { takes_load_history_ = true; }
 
   /// Returns the table that --load names. Throws BadLine, and FileFailure if it cannot be read.

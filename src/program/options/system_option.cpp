@@ -13,10 +13,10 @@ namespace contensou::program {
 void SystemOption::add(CLI::App& app) {
   app.option_defaults()->group("Another system");
   system_.add(app, "--system", "\"u' = F; v' = G\"",
-              "system to solve in place of (2.6), as formulas in u and v; also \"y' = F(x, y)\" or \"x'' = F(x, x')\"; "
-              "--u0 and --v0 of either sign are the start");
+              "system to solve in place of (2.6), as formulas in u and v; also \"y' = F(x, y)\" or \"x'' = F(x, "
+              "x')\"; --u0 and --v0 are the start, of either sign");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
-             "functions whose linear combinations are tried as inverse integrating factor V of --system");
+             "functions of u and v; their linear combinations are tried as inverse integrating factor V of --system");
 }
 
 reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) const {

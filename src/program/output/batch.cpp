@@ -23,14 +23,14 @@ namespace {
 /// Some rows of the table, and what becomes of them.
 struct Piece {
   CsvBlock rows;
-  std::vector<double> values, results;  ///< of one row
+  std::vector<double> values, results;  ///< values and results of one row
   fmt::memory_buffer lines;
   std::string complaints;
   long overflows = 0;
   std::string first_overflow;  ///< message on the first infinite result
   ExitStatus status = ExitStatus::done;
-  std::exception_ptr fault;  ///< of the first row that has no line
-  double fraction_read = 0;  ///< of the table, with these rows; NaN if it has no known length
+  std::exception_ptr fault;  ///< fault of the first row without a line
+  double fraction_read = 0;  ///< fraction of the table read up to these rows; NaN if its length is unknown
 };
 
 class Batch {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t margin = 22;  ///< column in which meanings begin
 constexpr const char* shared = " ('contensou help ";
-constexpr long most_lines = 110;  ///< of the help of a verb
+constexpr long most_lines = 110;  ///< limit for the help of a verb
 
 /// @param column  column in which the first line begins
 /// @param indent  column in which the other lines begin
@@ -20,7 +20,7 @@ std::string wrapped(std::string_view text, std::size_t column, std::size_t inden
   std::string lines;
   std::istringstream words{std::string(text)};
   for (std::string word; words >> word;) {
-    const auto bytes_more = std::ranges::count_if(word, [](char c) { return (c & 0xC0) == 0x80; });  // of UTF-8
+    const auto bytes_more = std::ranges::count_if(word, [](char c) { return (c & 0xC0) == 0x80; });  // UTF-8
     const std::size_t size = word.size() - static_cast<std::size_t>(bytes_more);
     if (!lines.empty()) {
       const bool fits = column + 1 + size <= help_width;

@@ -63,7 +63,7 @@ double dp_dq(double mu, State state) {
   return rate.v / state.v / (rate.v / state.u - state.v * rate.u / (state.u * state.u));
 }
 
-/// The change of p = ln v while ln q grows by 1 to that of the start.
+/// The change of p = ln v while ln q grows by 1 up to its value at the start.
 double change_by_quadrature(double mu) {
   const double top = std::log(start.v / start.u);
   const auto integrand = [&](double ln_q) {

@@ -104,14 +104,14 @@ class FitCommand final : public Verb {
     stop_time_.add(app, "--stop-time", "TIME", "measured stop time, in seconds from the start; needs --noise stop=SD",
                    positive("time", "s"));
     pixel_.add(app, "--pixel", "LENGTH", "size of a pixel, for columns such as 'x [px]'", positive("length", "m"));
-    start_.add_ball(app, "ball with the values that are not free; --radius alone is enough, too");
+    start_.add_ball(app, "ball with the values that are not fitted; --radius can replace it");
     start_.take_radius_for_ball();
     law_.add_several(app, "LAW,...",
                      "law, or several to rank (default exact); 'contensou help laws' lists all of them");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES",
-              "numbers to find, of friction,patch,rolling_friction,slip,spin (default: "
-              "all that the body has; never the patch of a disc or ring)",
+              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has; "
+              "never the patch of a disc or ring)",
               parse_free);
     app.add_flag("--robust", robust_, "give outliers less weight (Huber's loss)");
     app.add_flag("--plan", plan_, "predict the errors of a film with --fps and --noise; takes no FILE");

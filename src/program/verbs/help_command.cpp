@@ -46,9 +46,9 @@ std::string views() {
 
 std::string units() {
   std::string text = help_paragraph(
-      "An option in SI units takes a unit behind its number, as in --slip \"2 m/s\", --spin 300rpm or --radius \"2.25 "
-      "in\". A number without a unit has the first unit of its kind. A unit behind a list is for all its numbers. In a "
-      "range the unit stands before the count: --spin \"0:60 rpm:3\". In run files such values stand in quotes.");
+      "An option in SI units takes a unit after its number, as in --slip \"2 m/s\", --spin 300rpm or --radius \"2.25 "
+      "in\". A number without a unit has the first unit of its kind. A unit after a list applies to all its numbers. "
+      "In a range the unit stands before the count: --spin \"0:60 rpm:3\". In run files such values stand in quotes.");
   for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
   return text + "\n" +
          help_paragraph(
@@ -100,9 +100,9 @@ std::string files() {
 
 std::string all_fields() {
   std::string text = help_paragraph(
-      "Names of columns in CSV and of members in JSON. JSON also has schema, which is 1, and version. "
-      "Lines of CSV that begin with # are comments. The members of an object are columns of their own. "
-      "u, v and tau are in one unit of speed, which is m/s for a ball.");
+      "Names of columns in CSV and of members in JSON. JSON also has schema, which is 1, and version. Lines of CSV "
+      "that begin with # are comments. The members of an object are columns of their own. in: marks a column of the "
+      "input, out: one of the output. u, v and tau are in one unit of speed, which is m/s for a ball.");
   for (const VerbEntry& entry : verbs()) text += help_on_fields(entry, true);
   return text;
 }
@@ -161,7 +161,7 @@ Proofs and numerics: numerics.md. Both files are in share/doc/contensou of the
 installation; in the sources they are reduction/README.md and numerics.md.
 )";
 
-/// The words of its headings, which are topics, too.
+/// The words of its headings, which are also topics.
 constexpr std::string_view theory_words[]{"equations", "symmetry", "generator", "reduction",
                                           "canonical", "integral", "theorem"};
 

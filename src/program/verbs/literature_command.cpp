@@ -21,12 +21,12 @@ constexpr Field<Published> number_fields[]{
     {"name", "", "the number's name", [](const Published& n) -> Json { return n.name; }},
     {"source", "", "authors, journal and year", [](const Published& n) -> Json { return n.source; }},
     {"link", "", "DOI or repository", [](const Published& n) -> Json { return n.link; }},
-    {"read", "", "the part that was read: abstract, code, in textbooks, or as cited",
+    {"read", "", "part that was read: abstract, code, textbooks, or a citation",
      [](const Published& n) -> Json { return n.read; }},
     {"published", "", "the number as published", [](const Published& n) -> Json { return n.published; }},
     {"computed", "", "the number as computed here", [](const Published& n) -> Json { return n.computed; }},
     {"verdict", "", "agrees or differs", [](const Published& n) -> Json { return verdict(n); }},
-    {"recorded", "", "the verdict on record; another one is a failed check (status 1)",
+    {"recorded", "", "expected verdict; if verdict differs, the status is 1",
      [](const Published& n) -> Json { return n.confirmed ? "agrees" : "differs"; }},
 };
 

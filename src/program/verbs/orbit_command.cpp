@@ -44,7 +44,7 @@ constexpr Field<OrbitReport> orbit_fields[]{
      [](const OrbitReport& r) {
        return r.start.experiment ? members_of_ball(*r.start.experiment, r.start.system.law()) : Json();
      }},
-    {"load", "s, N", "columns t, load of the table of --load",
+    {"load", "s, N", "columns t and load of the table that --load names",
      [](const OrbitReport& r) { return r.load ? members_of(*r.load) : Json(); }, nullptr, 0,
      " {`t` [...], `load` [...]}"},
 };
@@ -62,11 +62,11 @@ constexpr ColumnField<OrbitReport> orbit_columns[]{
     {"u_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.u_estimate); }},
     {"v_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.v_estimate); }},
     {"ln_v_estimate", "speed",
-     "asymptotic solution for small mu at the same tau, with --estimate; u and v are 0 from its own stop, E1, on",
+     "asymptotic solution for small mu at the same tau, with --estimate; u and v are 0 after its stop time E1",
      [](const OrbitReport& r) { return unless_empty(r.ln_v_estimate); }},
     {"tau_left", "speed", "time until the stop, with --time-left",
      [](const OrbitReport& r) { return unless_empty(r.tau_left); }},
-    {"t", "s", "time of a ball", [](const OrbitReport& r) { return unless_empty(r.t); }},
+    {"t", "s", "time in seconds, with --ball", [](const OrbitReport& r) { return unless_empty(r.t); }},
     {"q", "", "v/u, with --reduction", [](const OrbitReport& r) { return unless_empty(r.q); }},
     {"p", "", "ln v, with --reduction", [](const OrbitReport& r) { return unless_empty(r.p); }},
     {"integral", "",
@@ -87,8 +87,8 @@ class OrbitCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
     time_left_
         .add(app, "--time-left", "T1,T2,...|FILE",
-             "times before the stop, in place of --at; with --ball also '1,2 s'. Adds the column tau_left, which FILE "
-             "has, too",
+             "times before the stop, in place of --at; with --ball also '1,2 s'; FILE has a column tau_left. Adds "
+             "the column tau_left",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
     beta_
@@ -162,7 +162,7 @@ class OrbitCommand final : public Verb {
   }
 
  private:
-  /// @throws BadInput  for what is of one orbit, where rolling friction makes the motion of several
+  /// @throws BadInput  for options of a single orbit, if rolling friction makes a motion of several orbits
   void require_one_orbit(reduction::Route route) const {
     const char* const why = " needs one orbit, and rolling friction divides this motion into several";
     if (route != reduction::Route::quadrature)

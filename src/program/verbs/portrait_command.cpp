@@ -86,18 +86,18 @@ std::vector<FieldText> portrait_fields() {
       {"CSV `kind`, `index`", "", "orbit, highlight, through, isochrone, ...; number of the line of that kind"},
       {"CSV `u`, `v`, `tau`", "speed", "states on the line, and the time left until the stop"},
       {"CSV `ln_v`, `k`", "", "logarithm of v, and v/(mu abs(u))"},
-      {"CSV `beta`", "1/speed", "regularised time (2.8) since the first state of an orbit, of --view regularised"},
-      {"CSV `t`", "s", "time left of a ball"},
+      {"CSV `beta`", "1/speed", "regularised time (2.8) since the first state of an orbit, with --view regularised"},
+      {"CSV `t`", "s", "time left until the stop, with --ball"},
       {"JSON `portraits` [{`version`, ...}]", "",
        "a portrait for each of several --mu or --law, with the members below"},
       {"`law`, `mu`", "", "law of friction, patch radius divided by R; columns with several --mu or --law"},
-      {"JSON `body` {`chi`, `gamma`}, `view`", "", "1 + m R^2/J, m R^2/J_z; name of the view"},
+      {"JSON `body` {`chi`, `gamma`}, `view`", "", "inertia, as in stop; name of the view"},
       {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane that is shown"},
       {"JSON `drive`", "", "force along the slip divided by f N, with --drive, rolling friction or a slope"},
-      {"JSON `ball`, `seconds_per_tau`", "; s/speed", "name of the ball, and the unit of its tau"},
+      {"JSON `ball`, `seconds_per_tau`", "; s/speed", "name of the ball; seconds in one unit of tau"},
       {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV", "lists of the states of each orbit"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "states with the same stop time"},
-      {"JSON `highlight`, `through` [...]", "", "orbits of the start and of --through, as one of orbits"},
+      {"JSON `highlight`, `through` [...]", "", "orbit of the start, and those of --through, in the form of orbits"},
       {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "lines under the law of --against"},
   };
 }
@@ -109,7 +109,7 @@ std::vector<FieldText> system_portrait_fields() {
       {"CSV `u`, `v`, `tau`", "", "states on the line; time left until the centre, inf where it is not reached"},
       {"JSON `system`", "", "the system as typed"},
       {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "kind and rays, as in reduce"},
-      {"JSON `form`", "", "form, as in reduce, without a scaling; null if orbits are steps"},
+      {"JSON `form`", "", "form as in reduce, if there is no scaling; null if time steps give the orbits"},
       {"JSON `centre` [U, V]", "", "centre of the scaling; null without one"},
       {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane that is shown"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues` [[re, im], [re, im]]}]", "",
@@ -117,7 +117,7 @@ std::vector<FieldText> system_portrait_fields() {
       {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "", "lists of the states of each orbit"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "states with the same time left"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
-       "orbits of the start, of --through and of saddles, as those of orbits"},
+       "orbits of the start, of --through and of saddles, in the form of orbits"},
       {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor V is 0"},
   };
 }
@@ -283,15 +283,15 @@ class PortraitCommand final : public Verb {
         [this](const std::string& typed) { read_window(typed, request_); });
     window_ = &looks_.back();
     add("--orbits", "N",
-        fmt::format("number of orbits on each side of u = 0, or of all with --system, 0 to {} (default 12)",
+        fmt::format("number of orbits on each side of u = 0, or with --system of all orbits, 0 to {} (default 12)",
                     max_orbits),
         into(request_.orbits, at_most(max_orbits)));
     add(
         "--through", "U,V", "point of one more orbit; may be repeated",
         [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N|T1,T2,...",
-        fmt::format("number of isochrones of the stop time, 0 to {} (about; default 7), or their times, with --ball in "
-                    "s; 'T,' is one time",
+        fmt::format("number of lines of equal stop time, 0 to {} (about; default 7), or a list of stop times, with "
+                    "--ball in s; 'T,' is a list of one",
                     max_isochrones),
         [this, read = at_most(max_isochrones)](const std::string& typed) {
           if (typed.find(',') != std::string::npos) {
@@ -307,7 +307,7 @@ class PortraitCommand final : public Verb {
              one_of<Style::Arrows>(
                  {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}})));
     add("--field", "FIELD",
-        "direction field: motion (2.6), regularised (2.7), none (default); the logarithm of the speed is the length",
+        "direction field: motion (2.6), regularised (2.7), none (default); length of an arrow: log of the speed",
         into(style_.field, one_of<Style::Field>({{"none", Style::Field::none},
                                                  {"motion", Style::Field::motion},
                                                  {"regularised", Style::Field::regularised},

@@ -79,7 +79,7 @@ double parse_end(const std::string& typed) {
   return end;
 }
 
-constexpr long max_frames = 1000;  ///< of a film: 40 s
+constexpr long max_frames = 1000;  ///< limit for a film: 40 s
 
 /// Columns of the tables of --batch.
 constexpr ColumnText straight_shots{"slip,spin", "m/s, 1/s", "start along x; all other columns pass through"};
@@ -126,18 +126,18 @@ class RollCommand final : public Verb {
                     si::rolling_slip),
         [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     app.add_flag("--gradient", gradient_,
-                 "print the derivatives of each event by each number of the ball and its start, too");
+                 "also print the derivatives of each event by each number of the ball and its start");
     uncertainty_.add(
         app, "--uncertainty", "NAME=SPREAD,...",
-        "standard deviations of the input, such as slip=1%,friction=5%, or of vx, vy, wx, wy, wz; fit takes "
-        "those of the run file. Prints those of the events");
+        "standard deviations of the input, such as slip=1%,friction=5%, or of vx, vy, wx, wy, wz; or fit: those of "
+        "the run file. Prints those of the events");
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_.add(app, "--until", "TIME", "last instant, in seconds (default: a little past the stop)", parse_end)
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV of starts with columns slip,spin or vx,vy,wx,wy,wz in SI units; "
-               "- is standard input. Adds the events");
+               "CSV of starts with columns slip,spin or vx,vy,wx,wy,wz in SI units; - is standard input. The output "
+               "adds columns for the events");
     app.add_flag("--keep-going", keep_going_, "continue after a bad row, with empty results");
     bulk_.add(app);
     figure_.add(app);
@@ -283,7 +283,7 @@ class RollCommand final : public Verb {
   }
 
   /// The load, if it changes.
-  /// @throws BadInput  where the patch would change with it, and for what is of a constant load
+  /// @throws BadInput  if the patch would change with the load, and for options that need a constant load
   std::optional<si::LoadHistory> load_for(const si::Experiment& experiment, const reduction::Law& law) const {
     const auto load = start_.load_history();
     if (!load) return load;

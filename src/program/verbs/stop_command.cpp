@@ -21,12 +21,12 @@ namespace contensou::program {
 namespace {
 
 /// Columns of the tables of --batch, without and with --ball.
-constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed", "patch radius over R, R omega_z and sliding speed"};
+constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed", "patch radius divided by R, R omega_z and slip"};
 constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "start of a ball, with --ball"};
 
 std::vector<FieldText> stop_batch_texts() {
   return joined({texts_of({reduced_starts, ball_starts}, "in: "),
-                 texts_of({{"tau_stop", "speed", "end of slip and spin; all other columns pass through"},
+                 texts_of({{"tau_stop", "speed", "stop time; all other columns pass through"},
                            {"t_stop", "s", "stop time, with --ball"},
                            {"tau_stop_LAW,t_stop_LAW", "", "stop time under each law, with several laws"}},
                           "out: ")});
@@ -40,12 +40,12 @@ class StopCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app, "; with --batch also several names between commas");
     route_.add(app);
-    app.add_flag("--estimate", estimate_, "print the asymptotic estimates for small mu and their errors, too");
+    app.add_flag("--estimate", estimate_, "also print the asymptotic estimates for small mu and their errors");
     app.add_flag("--gradient", gradient_,
-                 "print the exact derivatives of tau_stop by u0, v0, mu, chi, gamma and the drive, too");
+                 "also print the exact derivatives of tau_stop by u0, v0, mu, chi, gamma and the drive");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of the input, such as slip=1%,friction=5%; "
-                     "fit takes those of the run file. Prints that of the stop time");
+                     "standard deviations of the input, such as slip=1%,friction=5%; or fit: those of the run file. "
+                     "Prints the standard deviation of the stop time");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "CSV of starts with columns mu,u0,v0, or with --ball slip,spin (m/s, rad/s); - is standard input. Adds "
@@ -97,7 +97,7 @@ class StopCommand final : public Verb {
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     const auto ball = has_ball ? std::optional(start_.read_ball(laws.front(), at_rest("--batch"))) : std::nullopt;
     std::deque<StopTimes> stop_times;  // stay where they are
-    std::vector<double> mu;            // of the ball, by each law
+    std::vector<double> mu;            // mu of the ball, by each law
     BatchRequest request{.inputs = names_of({has_ball ? ball_starts : reduced_starts}),
                          .results = {},
                          .compute =

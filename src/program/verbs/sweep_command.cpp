@@ -55,11 +55,11 @@ struct Range {
   }
 };
 
-/// The starts of a sweep: every mu with every v0 with every u0. Their order is that of a C array, u0 the fastest.
+/// The starts of a sweep: every mu with every v0 with every u0. They are in the order of a C array; u0 changes fastest.
 struct SweepGrid {
   Range mu;
   bool mu_is_range;  ///< true if the array has an axis for mu
-  Range u0;          ///< of a ball, its spin
+  Range u0;          ///< u0; for a ball its spin
   Range v0;
   std::optional<si::Experiment> ball = {};  ///< the grid and the stop times are in SI
 
@@ -73,8 +73,8 @@ enum class SweepFormat { npy, csv };
 
 /// Columns of a table, without and with --ball; npy contains the last.
 constexpr ColumnText system_columns{"mu,u0,v0,tau_stop", "1, speed, speed, speed",
-                                    "start and end of slip and spin; npy: tau_stop alone, in the shape (N_v0, N_u0) or "
-                                    "(N_mu, N_v0, N_u0)"};
+                                    "start, and stop time; an npy contains tau_stop alone, in the shape (N_v0, N_u0) "
+                                    "or (N_mu, N_v0, N_u0)"};
 constexpr ColumnText ball_columns{"spin,slip,t_stop", "1/s, m/s, s",
                                   "starts and stop times, with --ball; shape of npy: (N_slip, N_spin)"};
 
@@ -107,7 +107,7 @@ std::string heading(const SweepRequest& request) {
   if (grid.mu_is_range) shape.insert(shape.begin(), grid.mu.count);
   constexpr char byte_order = std::endian::native == std::endian::little ? '<' : '>';
   constexpr std::size_t preamble = 10;   // magic, version, length
-  constexpr std::size_t alignment = 64;  // of the doubles
+  constexpr std::size_t alignment = 64;  // alignment of the doubles
   std::string dictionary =
       fmt::format("{{'descr': '{}f8', 'fortran_order': False, 'shape': ({}), }}", byte_order, fmt::join(shape, ", "));
   const std::size_t used = preamble + dictionary.size() + 1;

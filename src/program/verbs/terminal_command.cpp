@@ -32,7 +32,7 @@ class TerminalCommand final : public Verb {
       output.write(terminal_answer(body_.read(law)));
       return ExitStatus::done;
     }
-    // All r are drawn; that of a body is marked.
+    // All r are drawn; the r of a body is marked.
     std::optional<double> r;
     if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();
     output.write(

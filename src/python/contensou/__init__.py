@@ -4,6 +4,7 @@
     ct.stop_time(u=1, v=1, mu=0.1)              # the paper's time until slip and spin end
     ct.Flow(mu=0.3).orbit(u=1, v=1).at(tau=2)   # the state at a time
     ct.Ball.pool().roll(slip=1, spin=100)       # a real ball, in SI units
+    ct.wrench("exact", (1, 0, 100), 1.7, (0.2, 3e-3, 1e-4))  # force and moment of a contact patch
     ct.fit(t, slip=v, spin=w, ball=ct.Ball.pool())  # friction and patch radius, from a film
     ct.portrait(mu=1).plot()                    # a phase portrait
     ct.reduce("u' = -v - a*u; v' = u - a*v", u=1, v=1, a=0.1)  # the symmetry of any planar system, and its motion
@@ -23,9 +24,10 @@ from ._flow import Check, Checks, End, Flow, FlowReduction, Orbit, Ray, Singular
 from ._law import Law, law
 from ._portrait import Portrait, portrait
 from ._reduce import Equilibrium, Generator, PlanarOrbit, PlanarRay, Reduction, reduce
+from ._wrench import wrench
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Equilibrium", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
     "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "Rolls", "SingularPoint", "Terminal", "__version__", "aim",
-    "balls", "check", "engine", "engines", "fit", "fit_plan", "law", "portrait", "reduce", "stop_time",
+    "balls", "check", "engine", "engines", "fit", "fit_plan", "law", "portrait", "reduce", "stop_time", "wrench",
 ]

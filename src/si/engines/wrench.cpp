@@ -1,31 +1,49 @@
 #include "contensou/si/wrench.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/tangent.hpp"
 #include "contensou/wrench.h"
 
 namespace contensou::si {
 
 namespace {
 
-/// Returns sqrt(x^2 + y^2 + z^2). std::hypot takes longer, and that of three numbers overflows in libc++ 16.
-double length(double x, double y, double z) {
-  const double square = x * x + y * y + z * z;
-  return square > 1e-200 && square < 1e300 ? std::sqrt(square) : std::hypot(std::hypot(x, y), z);
+/// A law that is not in the kernel, with the slopes of its tangent.
+struct OtherLaw {
+  std::function<reduction::Tangent(reduction::Slip)> tangent;
+
+  kernel::Friction<double> operator()(const kernel::Slip<double>& at) const {
+    const auto [resistance, force_slope, moment_slope] = tangent({at.p, at.r});
+    constexpr double least = 1e-300;  // below, a quotient is its limit
+    return {at.p > least ? resistance.force / at.p : force_slope,
+            at.r > least ? resistance.moment / at.r : moment_slope, force_slope, moment_slope};
+  }
+};
+
+template <class L>
+auto wrench_of(L law) {
+  return [law = std::move(law)](double vx, double vy, double w, double limit, double radius, double creep) {
+    return kernel::wrench_slopes<L>(vx, vy, w, limit, radius, creep, law);
+  };
 }
 
 /// Returns a description of a wrong number; null if there is none.
-const char* fault_of(reduction::Slip slip, double load, const Patch& patch) {
+const char* fault_of(const Eigen::Vector3d& motion, double load, const Patch& patch) {
   if (!(patch.friction >= 0)) return "friction must be >= 0";
   if (!(patch.radius >= 0)) return "the patch radius must be >= 0";
   if (!(patch.creep >= std::numeric_limits<double>::min())) return "the creep speed must be positive";
-  if (!std::isfinite(slip.sliding) || !std::isfinite(slip.pivoting)) return "speeds must be finite";
+  if (!motion.allFinite()) return "speeds must be finite";
   const double stiffness = patch.friction * load / patch.creep;
   const bool bounded = std::isfinite(stiffness) && std::isfinite(stiffness * patch.radius * patch.radius);
   return bounded ? nullptr : "f N/s and f N eps^2/s must be finite";
@@ -33,31 +51,25 @@ const char* fault_of(reduction::Slip slip, double load, const Patch& patch) {
 
 }  // namespace
 
+PatchFriction::PatchFriction(const reduction::Law& law) : wrench_(wrench_of(OtherLaw{reduction::tangent_of(law)})) {
+  const auto* pressure = law.as<reduction::PressureLaw>();
+  const auto* elliptic = law.as<reduction::EllipticLaw>();
+  if (law.as<reduction::HertzLaw>() != nullptr) wrench_ = wrench_of(kernel::Exact{});
+  if (pressure != nullptr && pressure->p() == 0) wrench_ = wrench_of(kernel::Uniform{});
+  if (elliptic != nullptr) wrench_ = wrench_of(kernel::Elliptic{elliptic->moment()});
+  if (law.as<reduction::PadeLaw>() != nullptr) wrench_ = wrench_of(kernel::Pade{});
+}
+
 const char* PatchFriction::evaluate(const Eigen::Vector3d& motion, double load, const Patch& patch,
                                     Wrench& wrench) const {
   wrench = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
-  const reduction::Slip slip{length(motion.x(), motion.y(), patch.creep), patch.radius * std::abs(motion.z())};
-  if (const char* fault = fault_of(slip, load, patch)) return fault;
-  const double limit = patch.friction * load;
-  if (!(limit > 0)) return nullptr;
-  const auto [resistance, force_slope, moment_slope] = tangent_(slip);
-  const Eigen::Vector2d along = motion.head<2>() / slip.sliding;
-  const double arm = std::copysign(patch.radius, motion.z());
-  wrench.value << -limit * resistance.force * along, -limit * arm * resistance.moment;
-
-  const double inverse = 1 / std::max(slip.sliding, slip.pivoting);
-  // Factor of either slope in a derivative by the sliding speed.
-  const double by_sliding = slip.pivoting * inverse * inverse;
-  const double by_pivoting = slip.sliding * inverse * inverse;
-  const double across = resistance.force / slip.sliding;
-  wrench.jacobian.topLeftCorner<2, 2>() =
-      limit * ((across - force_slope * by_sliding) * along * along.transpose() - across * Eigen::Matrix2d::Identity());
-  wrench.jacobian.topRightCorner<2, 1>() = limit * arm * force_slope * by_pivoting * along;
-  wrench.jacobian.bottomLeftCorner<1, 2>() = limit * arm * moment_slope * by_sliding * along.transpose();
-  wrench.jacobian(2, 2) = -limit * arm * arm * moment_slope * by_pivoting;
-  if (wrench.value.allFinite() && wrench.jacobian.allFinite()) return nullptr;
-  wrench = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
-  return "force, moment and their slopes must be finite";
+  if (const char* fault = fault_of(motion, load, patch)) return fault;
+  const auto found = wrench_(motion.x(), motion.y(), motion.z(), patch.friction * load, patch.radius, patch.creep);
+  const Eigen::Vector3d value(found.fx, found.fy, found.m);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> jacobian(found.slopes[0]);
+  if (!value.allFinite() || !jacobian.allFinite()) return "force, moment and their slopes must be finite";
+  wrench = {value, jacobian};
+  return nullptr;
 }
 
 Wrench PatchFriction::operator()(const Eigen::Vector3d& motion, double load, const Patch& patch) const {

@@ -259,7 +259,7 @@ Integration integrate(const Experiment& experiment, const reduction::Law& law, c
   auto stepper = odeint::make_controlled(tolerance, 0.0, CashKarp());
   const std::vector<Eigen::Index> order = increasing(times);
   auto next = order.begin();
-  double t = 0;  // in units of time_scale
+  double t = 0;  // time in units of time_scale
   double step = 1e-3 * std::min(1.0, ball.slip_time_left(std::max(v0, R * std::abs(spin))) / ball.time_scale);
   const double T = ball.time_scale;
   while (!in_tail(ball, x, t * T)) {

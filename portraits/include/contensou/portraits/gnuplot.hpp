@@ -36,7 +36,7 @@ std::string gnuplot_script(const Figure& figure);
 /// most 300 s, and ends with this program. Its input and output stay in memory. If it draws the figure and also writes
 /// to its standard error, that text goes to std::cerr.
 ///
-/// @return  a whole file: the beginning and end are those of the format, and an SVG contains all plots of the figure
+/// @return  a whole file with the beginning and end of its format; an SVG contains all plots of the figure
 /// @throws GnuplotError       if gnuplot is not found, fails, takes longer, or draws no whole file
 /// @throws std::domain_error  as lay_out, and for tex as pgfplots
 std::string render(const Figure& figure, PictureFormat format);

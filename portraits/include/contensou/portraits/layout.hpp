@@ -73,7 +73,7 @@ std::vector<LegendEntry> legend_entries(const Figure& figure);
 struct PlacedText {
   Text text;
   Point at;         ///< mm
-  double size = 1;  ///< in sizes of letters
+  double size = 1;  ///< size of the letters, relative to the usual one
   Label::Align align = Label::Align::centre;
   bool faint = false, turned = false;
 };

@@ -29,7 +29,7 @@ struct PortraitStyle {
   bool invariant = true;       ///< draw the axes and the ray, which are the nullclines
   bool colour_by_time = true;  ///< colour orbits by the time left, unless two laws are compared
   bool asked = true;           ///< draw the highlighted orbit and those through points; false if the caller draws them
-  bool estimate = false;       ///< in the view of time, draw the approximation for small mu beside each motion
+  bool estimate = false;       ///< draw the approximation for small mu beside each motion (view time)
   bool screen = false;         ///< light on dark for a projector; false: dark on light for paper
   AskedSize size = {};         ///< an empty side follows from the view
 };

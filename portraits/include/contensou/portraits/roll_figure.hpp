@@ -28,7 +28,7 @@ struct RollPicture {
   RollCurve ball;
   RollCurve textbook;  ///< motion from the same start under the uncoupled model: sliding and spinning independent
   AskedSize size = {};
-  double slow = 0;          ///< for a film: factor by which it is slower than the ball; 0: no film
+  double slow = 0;          ///< factor by which a film is slower than the ball; 0: no film
   bool lies_flat = false;   ///< the body rests when its slip ends, because it does not roll
   bool whole_path = false;  ///< draw up to the last row; false: up to a little after the ball rolls
 };

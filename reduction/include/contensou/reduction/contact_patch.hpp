@@ -20,7 +20,7 @@ class ContactPatch {
   explicit ContactPatch(std::function<double(double)> pressure);
 
   /// Returns force and moment by (1.1), in polar coordinates about the centre of the patch.
-  /// @throws std::domain_error  for a slip that no law can answer (require_slip)
+  /// @throws std::domain_error  for a slip that no law accepts (require_slip)
   Resistance over_disc(Slip slip) const;
 
   /// Returns force and moment by (1.2), in polar coordinates (q, theta) about the centre of velocity, which lies at the

@@ -28,8 +28,8 @@ struct Equilibrium {
   Eigen::Vector2d x;
   Eigen::Matrix2d slopes;  ///< Jacobian of the field
 
-  /// True if imaginary eigenvalues are those of a center: x lies on the axis of a reflection that is a reversor, which
-  /// closes motions that meet the axis twice, or V is not 0 there, so that they are levels of H.
+  /// True if the eigenvalues are imaginary and x is a center: x lies on the axis of a reflection that is a reversor,
+  /// which closes motions that meet the axis twice, or V is not 0 there, so that they are levels of H.
   bool closes = false;
 
   /// Returns the eigenvalues of the Jacobian, the one with the smaller real or imaginary part first.

@@ -25,7 +25,7 @@ struct Basis {
 /// A field with its Jacobian. Where it has no value it throws or returns what is not finite.
 struct SmoothField {
   PlanarField value;
-  /// The derivatives, exact except for rounding; row 0 holds those of u'. If it is empty, differences take their place.
+  /// The derivatives, exact except for rounding; row 0 belongs to u'. If it is empty, differences take their place.
   std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
   /// D with its derivatives by u and v, if the field is a quotient N/D: V D may have a form where V has none.
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
@@ -39,7 +39,7 @@ struct TriedForm {
   double singular_value;  ///< the least: mean square of (R66) over the points of the fit
   double gap;             ///< ratio of the least singular value that counts as large to the largest that counts as 0
   double residual;        ///< largest (R66) at other points
-  bool cleared = false;   ///< the form is that of V times the denominator of the field
+  bool cleared = false;   ///< true if V times the denominator of the field has the form
 };
 
 /// V and H as formulas in u and v, as people write them; empty where the numbers are not recognised.
@@ -77,8 +77,9 @@ class FactorReduction {
   /// is below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
   FactorFormula formula() const;
 
-  /// Returns the system as one that is solved. V is 1 at the start unless the start lies on V = 0. V and H have values
-  /// in the box of the start, H only where V does not vanish in between; V that is affine has values everywhere.
+  /// Returns the solved system. V is 1 at the start unless the start lies on V = 0. V and H have values
+  /// in the box of the start, H only where V does not vanish in between. V of an affine generator has values
+  /// everywhere.
   /// @throws std::domain_error  if no factor was found
   PlanarReduction reduction() const;
 

@@ -17,8 +17,8 @@ enum class InvariantDirection {
 
 /// The end of the half-line at which a singular point lies.
 enum class SingularPlace {
-  origin,    ///< at u = v = 0: the origin has no linear part and is blown up to a line
-  infinity,  ///< on the circle at infinity of the Poincare disc
+  origin,    ///< u = v = 0: the origin has no linear part and is blown up to a line
+  infinity,  ///< circle at infinity of the Poincare disc
 };
 
 std::string_view name(InvariantDirection direction);

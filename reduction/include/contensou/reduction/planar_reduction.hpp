@@ -19,7 +19,7 @@ namespace contensou::reduction {
 /// q). S n is the closed curve p = 0. X moves p alone, p -> p + s. For A = 1 the curve is a circle, p is ln |x - x_0|
 /// up to a constant, and q the angle.
 struct PlanarCanonical {
-  double q;      ///< from -pi, excluded, to pi
+  double q;      ///< angle, -pi < q <= pi
   double p;      ///< -infinity at the centre x_0
   double dp_dq;  ///< R/T along the orbit through the point; infinite on a ray; NaN at the centre
 };
@@ -171,7 +171,7 @@ class PlanarReduction {
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
 
-  /// Returns the first part of the orbit, for a picture. By V alone its end is undecided after some boxes.
+  /// Returns the first part of the orbit, for a picture. If V alone solves the system, the end may stay undecided.
   PlanarOrbit part_of_orbit(const Eigen::Vector2d& start) const;
 
   /// Returns the system whose motions go the other way: x' = -f(x).

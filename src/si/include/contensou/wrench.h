@@ -36,8 +36,8 @@ void contensou_law_free(contensou_law* law);
  *  @param motion  vx, vy of the patch centre over the other body in m/s, omega about the normal in rad/s
  *  @param load    N in newtons; for 0 or less there is no contact, and the wrench is 0
  *  @param wrench  result; zeros in case of an error
- *  @return        0; or 1 if a pointer is null, a number is not finite, a speed, a slope or a result overflows, or a
- *                 member of the patch is out of its range */
+ *  @return        0; or 1 if a pointer is null, a number is not finite, a slope or a result overflows, or a member of
+ *                 the patch is out of its range */
 int contensou_patch_wrench(const contensou_law* law, const double motion[3], double load, const contensou_patch* patch,
                            contensou_wrench* wrench);
 

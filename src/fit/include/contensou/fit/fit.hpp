@@ -134,7 +134,7 @@ struct RollingFrictionSeen {
 /// The result of a fit.
 struct Fit {
   std::string law;
-  si::Experiment ball;  ///< with the fitted contact and the start of the first track
+  si::Experiment ball;  ///< ball with the fitted contact and the start of the first track
   /// Friction, patch_radius, and rolling_friction if the ball has it or it was free; then for each track slip, spin and
   /// the numbers that place it.
   std::vector<Estimate> estimates;

@@ -66,7 +66,7 @@ struct Engine {
   std::string_view repository;  ///< repository on github.com
   std::string_view version;     ///< version whose source was read
   EngineUse ball;
-  EngineUse face;                ///< for a body that lies flat; no settings: there is none, or this was not read
+  EngineUse face;                ///< use for a body that lies flat; no settings: it has none, or they were not read
   std::string_view combination;  ///< combination of the numbers of two bodies
   std::vector<std::string_view> remarks;  ///< known problems
   std::vector<std::string_view> sources;  ///< FILE:LINES

@@ -36,7 +36,7 @@ std::optional<Component> find_component(std::string_view name);
 /// Returns a standard deviation from text such as "2 mm" or "5%", in the number's unit; empty for any other text.
 /// @param unit   unit of the Quantity
 /// @param value  value of which a % is taken
-/// @param value  what a % is of
+/// @param value  value of which a % is taken
 /// @throws std::domain_error  for a % of 0
 std::optional<double> parse_spread(std::string_view text, std::string_view unit, double value);
 

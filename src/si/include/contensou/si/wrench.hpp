@@ -4,7 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/tangent.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/wrench_kernel.h"
 
 namespace contensou::si {
 
@@ -33,8 +34,9 @@ struct Wrench {
 ///
 /// At rest the Jacobian is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, with K = lim k Psi (1/5
 /// for exact). With lengths in units of eps it is below 5 f N/s everywhere under every law. (The law ring has a
-/// logarithm at k = 1, which differences cut off.) For exact and elliptic, whose slopes are in closed form, it is
-/// symmetric to rounding. For others it is symmetric to 1e-9, and to 1e-6 next to the kink of ring and similar laws.
+/// logarithm at k = 1, which differences cut off.) For exact, uniform and elliptic, which are in the kernel
+/// (contensou/wrench_kernel.h), it is symmetric to rounding. For others it is symmetric to 1e-9, and to 1e-6 next to
+/// the kink of ring and similar laws.
 ///
 /// A body at rest under a force creeps. Under a tangential load T < f N alone it creeps at
 ///   |v| = s T/sqrt((f N)^2 - T^2),
@@ -46,12 +48,12 @@ struct Wrench {
 /// Steps that iterate to the solution need no such bound.
 class PatchFriction {
  public:
-  explicit PatchFriction(const reduction::Law& law) : tangent_(reduction::tangent_of(law)) {}
+  explicit PatchFriction(const reduction::Law& law);
 
   /// Computes the wrench. It does not allocate, and several threads may call it at once.
   /// @param motion  vx, vy of the patch centre over the other body in m/s, omega about the normal in rad/s
   /// @param load    N in newtons; for 0 or less there is no contact, and the wrench is 0
-  /// @throws std::domain_error  if a number is not finite, a speed or slope overflows, or the patch is out of range
+  /// @throws std::domain_error  if a number is not finite, a result overflows, or the patch is out of range
   Wrench operator()(const Eigen::Vector3d& motion, double load, const Patch& patch) const;
 
   /// Computes the wrench without exceptions.
@@ -60,7 +62,8 @@ class PatchFriction {
   const char* evaluate(const Eigen::Vector3d& motion, double load, const Patch& patch, Wrench& wrench) const;
 
  private:
-  std::function<reduction::Tangent(reduction::Slip)> tangent_;
+  std::function<kernel::WrenchSlopes<double>(double vx, double vy, double w, double limit, double radius, double creep)>
+      wrench_;
 };
 
 }  // namespace contensou::si

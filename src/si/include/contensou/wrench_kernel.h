@@ -1,0 +1,220 @@
+/// The wrench of a contact patch in one header, for programs without the library and for CUDA: C++17, <cmath> alone. No
+/// function allocates or throws. In CUDA all run on host and device. contensou/si/wrench.hpp describes the law.
+///
+///     const auto [fx, fy, m] = contensou::kernel::wrench<contensou::kernel::Exact>(vx, vy, w, f * N, radius);
+#pragma once
+
+#include <cmath>
+
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define CONTENSOU_HOST_DEVICE __host__ __device__
+#elif defined(__GNUC__)
+#define CONTENSOU_HOST_DEVICE [[gnu::always_inline]] inline  // at -O2 g++ calls each group of a polynomial otherwise
+#else
+#define CONTENSOU_HOST_DEVICE inline
+#endif
+
+namespace contensou::kernel {
+
+/// Friction of a patch on a body: force in N, moment about the normal in N m.
+template <class T>
+struct Wrench {
+  T fx, fy, m;
+};
+
+/// Force and moment with their derivatives. Rows: fx, fy, m; columns: vx, vy in m/s and w in rad/s.
+template <class T>
+struct WrenchSlopes {
+  T fx, fy, m;
+  T slopes[3][3];
+};
+
+/// Speeds of a patch in one unit.
+template <class T>
+struct Slip {
+  T sliding;  ///< v of the patch centre, >= 0
+  T p, r;     ///< sliding and rim speed divided by the larger of both
+  T gap;      ///< |v^2 - rim^2|
+  T y;        ///< 1 - (smaller/larger)^2
+};
+
+/// Friction at a slip. A type is a law if it returns this of a Slip.
+template <class T>
+struct Friction {
+  T force;         ///< Phi/p, where the force is f N Phi
+  T moment;        ///< Psi/r, where the moment is f N radius Psi
+  T force_slope;   ///< a in dPhi = a (r dp - p dr)
+  T moment_slope;  ///< b in dPsi = -b (r dp - p dr)
+};
+
+/// Returns c0 + c1 x + c2 x^2 + ... by groups of four, which do not wait for each other.
+template <class T, class... More>
+CONTENSOU_HOST_DEVICE constexpr T polynomial(T x, T square, double c0, double c1, double c2, double c3, More... more) {
+  const T sum = static_cast<T>(c0) + static_cast<T>(c1) * x + (static_cast<T>(c2) + static_cast<T>(c3) * x) * square;
+  if constexpr (sizeof...(more) == 0) {
+    return sum;
+  } else {
+    return sum + square * square * polynomial(x, square, more...);
+  }
+}
+
+// tests/si/wrench_kernel.py derives the numbers in Exact and Uniform. Before rounding, values are within 1e-16 of
+// the law and slopes within 4e-16.
+
+/// Hertz's pressure, (1 - rho^2)^(1/2).
+struct Exact {
+  template <class T>
+  CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
+    if (at.p < at.r) {
+      const T s = at.p * at.p, unit = static_cast<T>(0.29452431127404312), c = unit * (4 - 3 * s);  // 3 pi/32
+      return {unit * (4 - s), unit * (2 - s * (2 - static_cast<T>(0.75) * s)), c, c * at.p};
+    }
+    const T q = std::sqrt(at.gap), v = at.sliding;
+    const T x = (q - static_cast<T>(0.41421356237309505) * v) / (q + static_cast<T>(2.4142135623730950) * v),
+            x2 = x * x;
+    const T g = polynomial(x, x2, 0.9071125286736317, 0.30425457749546636, 1.1551906332175033, 1.1449807610049823,
+                           0.7563633902936407, 1.4866726675325146, 0.4958622190578202, 1.7214634834500315,
+                           0.29468110475215387, 1.907691786507437, 0.12688185317068487, 2.065912842354644,
+                           -0.0173887907824959, 2.1892388935102525, -0.184780075289385, 2.6397294344366022);
+    const T c = polynomial(x, x2, 0.2596975262247793, -0.3206869212235045, -0.3360017295426326, 1.401431607477617,
+                           -2.7468418160429025, 4.330171001887282, -6.119035992574208, 8.093614909711174,
+                           -10.237654693981968, 12.539212345733436, -14.98810957931447, 17.576182266857984,
+                           -20.295928234993998, 23.142044342661467, -26.126350845614272, 29.21053186837435,
+                           -31.90065766821959, 35.164890287544374, -46.61997905823398, 50.72581028356366);
+    return {g, (g - at.y * c) / 4, c * at.r, c};
+  }
+};
+
+/// Uniform pressure over the patch.
+struct Uniform {
+  template <class T>
+  CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
+    const T y = at.y;
+    T g = 0, h = 0, c = 0;  // for k > 1
+    if (y >= static_cast<T>(0.5)) {
+      const T x = (y - static_cast<T>(0.70710678118654752)) / (y + static_cast<T>(0.70710678118654752)), x2 = x * x;
+      g = polynomial(x, x2, 0.96190659426731, 0.19187552486001952, 0.149084065720948, 0.1312914117695403,
+                     0.11756841820327281, 0.1082912010499383, 0.10059918367279014, 0.09464274958657316,
+                     0.08950087541269489, 0.08525131037529438, 0.08149754787119957, 0.078264227162809,
+                     0.0749297222657328, 0.07237164664917121, 0.07878340419683787, 0.07645590497418735);
+      h = polynomial(x, x2, 0.25667702313576346, -0.035430868860621786, -0.01763821490921442, -0.013604709872505337,
+                     -0.010004450584237918, -0.008343407236273305, -0.006814684010725436, -0.005923433975933529,
+                     -0.0050875905671623695, -0.004537658368943323, -0.004015698706959541, -0.0036453634234560354,
+                     -0.0032755247110523755, -0.0030116489072405557, -0.003067910814140791, -0.002850992031510163);
+      c = (g - 3 * h) / y;
+    } else {
+      const T y2 = y * y, by_log = y > 0 ? y * std::log(y) : 0;
+      g = polynomial(y, y2, 0.8488263631567752, 0.21220659078919363, 0.031359726395144547, 0.012673815141945259,
+                     0.006863852821450759, 0.004084164896778682, -0.0011442619147128065, -0.023992210907279717,
+                     -0.05526040900484313, -0.03370317691445262, -0.0020290414510833674, 0.00011461754343776461) +
+          y * by_log *
+              polynomial(y, y2, 0.07957747154431893, 0.09947183647427947, 0.10879650130220221, 0.11417660781858778,
+                         0.11629967051682476, 0.10589344443495839, 0.06431843222493028, 0.014895427447238747);
+      c = polynomial(y, y2, 0.4244131815783876, 0.28459384872995763, 0.2749866838276666, 0.2725377710807206,
+                     0.2715706405265358, 0.2707987444590404, 0.2621212806340326, 0.16667643820747532,
+                     -0.2596660967354723, -0.8658620961940847, -0.7099823465501379, -0.14218806830695793) +
+          by_log * polynomial(y, y2, 0.3183098861837905, 0.5968310365925494, 0.8703785923672355, 1.142371120181363,
+                              1.4136106688061327, 1.681895998664058, 1.9116141830120834, 1.9020228048084944,
+                              1.3163810931360984, 0.4456963561849244, 0.041001941944150126, -0.0005538068596478298);
+      h = (g - y * c) / 3;
+    }
+    if (!(at.p < at.r)) return {g, h, c * at.r, c};
+    const T inner = g - at.p * at.p * c;
+    return {g, (g + y * inner) / 3, inner, inner * at.p};
+  }
+};
+
+/// An ellipse as limit surface, Phi^2 + (Psi/C)^2 = 1.
+struct Elliptic {
+  double c = 0.58904862254808623;  ///< C = Psi(0), by default of Hertz's pressure, 3 pi/16
+
+  template <class T>
+  CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
+    const T square = static_cast<T>(c) * static_cast<T>(c), g = 1 / std::sqrt(at.p * at.p + square * at.r * at.r),
+            cube = square * g * g * g;
+    return {g, square * g, cube * at.r, cube * at.p};
+  }
+};
+
+/// The paper's approximation of Exact, Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
+struct Pade {
+  template <class T>
+  CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
+    const T scale = static_cast<T>(0.84882636315677512);  // 8/(3 pi)
+    const T g = 1 / (scale * at.r + at.p), h = 1 / (2 * scale * at.r + 5 * at.p);
+    return {g, h, scale * g * g, 5 * h * h};
+  }
+};
+
+/// Computes the friction of `wrench`, its slopes only if asked for.
+template <bool with_slopes, class Law, class T>
+CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit, T radius, T creep, const Law& law) {
+  WrenchSlopes<T> result{};
+  if (!(limit > 0)) return result;
+  const auto larger = [](T a, T b) { return a < b ? b : a; };
+  T slip = larger(larger(std::fabs(vx), std::fabs(vy)), creep), rim = std::fabs(radius * w);
+  int exponent = 0;
+  if (const T size = larger(slip, rim); !(size > static_cast<T>(1e-15) && size < static_cast<T>(1e15))) {
+    // Scale all speeds by a power of 2, so that no square and no product overflows.
+    int of_slip = 0, of_radius = 0, of_w = 0;
+    slip = std::frexp(slip, &of_slip);
+    rim = std::fabs(std::frexp(radius, &of_radius) * std::frexp(w, &of_w));
+    if (!(slip > 0 || rim > 0)) return result;
+    exponent = of_radius + of_w;
+    if (!(rim > 0) || (slip > 0 && of_slip > exponent)) exponent = of_slip;
+    vx = std::ldexp(vx, -exponent), vy = std::ldexp(vy, -exponent), creep = std::ldexp(creep, -exponent);
+    rim = std::ldexp(rim, of_radius + of_w - exponent);
+  }
+  const T square = vx * vx + vy * vy + creep * creep, sliding = std::sqrt(square), gap = std::fabs(square - rim * rim);
+  const bool slides = sliding > rim;
+  const T per = 1 / (slides ? sliding : rim), p = slides ? 1 : sliding * per, r = slides ? rim * per : 1;
+  const Friction<T> friction = law(Slip<T>{sliding, p, r, gap, gap * per * per});
+  const T x = vx * per, y = vy * per, turn = w < 0 ? -r : r;
+  result.fx = -limit * (friction.force * x);
+  result.fy = -limit * (friction.force * y);
+  result.m = -friction.moment * (limit < 1 ? limit * radius * turn : limit * turn * radius);
+  if constexpr (with_slopes) {
+    const T along_x = sliding > 0 ? vx / sliding : 0, along_y = sliding > 0 ? vy / sliding : 0;
+    const T arm = w < 0 ? -radius : radius, falls = friction.force - friction.force_slope * r;
+    const T weight = limit < 1 ? limit * per : per, rest = limit < 1 ? 1 : limit;  // so that little overflows
+    const auto scaled = [&](T slope, T first, T second) {
+      slope = slope * weight * first * second * rest;
+      return exponent == 0 ? slope : std::ldexp(slope, -exponent);
+    };
+    const T across = scaled(falls * along_x * along_y, 1, 1), turns = friction.moment_slope * r;
+    result.slopes[0][0] = scaled(falls * along_x * along_x - friction.force, 1, 1);
+    result.slopes[0][1] = result.slopes[1][0] = across;
+    result.slopes[1][1] = scaled(falls * along_y * along_y - friction.force, 1, 1);
+    result.slopes[0][2] = scaled(friction.force_slope * x, arm, 1);
+    result.slopes[1][2] = scaled(friction.force_slope * y, arm, 1);
+    result.slopes[2][0] = scaled(turns * along_x, arm, 1);
+    result.slopes[2][1] = scaled(turns * along_y, arm, 1);
+    result.slopes[2][2] = scaled(-friction.moment_slope * p, radius, radius);
+  }
+  return result;
+}
+
+/// Returns force and moment of friction, 0 at rest. The power fx vx + fy vy + m w is never positive.
+///
+/// Accuracy  in double 4 eps, in float 1e-6, relative to the law for k from 1e-8 to 1e8. No finite argument gives NaN,
+///           and no result overflows unless f N radius does.
+/// Source    reduction/numerics.md (R32), (R36); Zh98 (1.3) to (1.6).
+/// @param vx, vy  velocity of the patch centre over the other body in m/s
+/// @param w       angular velocity about the normal in rad/s
+/// @param limit   f N in newtons; for 0 or less there is no contact, and all is 0
+/// @param radius  of the patch in m, >= 0
+/// @param creep   speed in m/s, >= 0, below which friction is viscous (contensou/si/wrench.hpp); 0: dry friction
+template <class Law, class T>
+CONTENSOU_HOST_DEVICE Wrench<T> wrench(T vx, T vy, T w, T limit, T radius, T creep = 0, const Law& law = {}) {
+  const WrenchSlopes<T> found = friction_of_patch<false>(vx, vy, w, limit, radius, creep, law);
+  return {found.fx, found.fy, found.m};
+}
+
+/// Returns force, moment and their nine slopes. At rest without creep, the slopes are 0. Parameters as in `wrench`.
+template <class Law, class T>
+CONTENSOU_HOST_DEVICE WrenchSlopes<T> wrench_slopes(T vx, T vy, T w, T limit, T radius, T creep = 0,
+                                                    const Law& law = {}) {
+  return friction_of_patch<true>(vx, vy, w, limit, radius, creep, law);
+}
+
+}  // namespace contensou::kernel
