@@ -8,6 +8,7 @@
 
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/planar_kinds.hpp"
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -18,11 +19,7 @@ namespace {
 /// Returns dD/dk at a zero k of D = Phi - rho - r k Psi, k neither 0 nor infinity, by differences in ln k.
 double excess_slope(const Law& law, double r, double k) {
   const double ln_k = std::log(k);
-  const auto excess = [&](double x) {
-    const double ratio = std::exp(x);
-    const auto [force, moment] = law(slip_of_ratio(ratio));
-    return force - r * ratio * moment;
-  };
+  const auto excess = [&](double x) { return Balance::of(law, r, 0, std::exp(x)).difference(); };
   const auto central = [&](double h) { return (excess(ln_k + h) - excess(ln_k - h)) / (2 * h); };
 
   constexpr double at_kink = 1e-6;
