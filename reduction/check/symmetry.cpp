@@ -1,6 +1,11 @@
 #include "contensou/reduction/symmetry.hpp"
 
 #include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "system/balance.hpp"
 
 namespace contensou::reduction {
 
@@ -42,6 +47,16 @@ double slope_symmetry_residual(const ReducedSystem& system, State state) {
     return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
   };
   return std::abs(partial(1, 0) + partial(0, 1)) / std::abs(system.slope(state));
+}
+
+double separated_slope(const ReducedSystem& system, double q) {
+  if (q == 0 || !std::isfinite(q)) {
+    throw std::domain_error(fmt::format("separated_slope: q must be finite and not 0, got {}", q));
+  }
+  // d ln v = -(Phi - rho) ds/v and d ln k = -(Phi - rho - r k Psi) ds/v (README (R2), (R48)), and q = mu k.
+  const double k = std::abs(q) / system.mu();
+  const Balance balance = Balance::of(system.law(), system.r(), system.drive(), k);
+  return balance.force / (q * balance.difference());
 }
 
 }  // namespace contensou::reduction

@@ -10,7 +10,6 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "check/hertz_inner_orbit.hpp"
-#include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/regularised_motion.hpp"

@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"

@@ -16,7 +16,6 @@
 #include "answers/input/message.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
-#include "contensou/reduction/canonical_coordinates.hpp"
 #include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
@@ -24,6 +23,7 @@
 #include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/planar_steps.hpp"
 #include "contensou/reduction/stop_time.hpp"
+#include "contensou/reduction/symmetry.hpp"
 
 namespace contensou::answers {
 
