@@ -1,0 +1,74 @@
+// Steps a reference motion with contensou/wrench_kernel.h alone: explicit steps of 0.1 ms. Each line is 5 ms later.
+//   stepper CASE.toml SECONDS [elliptic]     prints t, vx, vy, wx, wy, wz; with the elliptic cone in place of the law
+#include <contensou/wrench_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace kernel = contensou::kernel;
+
+/// All load on the rim of a ring. The law is the mean over the points of the rim.
+struct Rim {
+  template <class T>
+  kernel::Friction<T> operator()(const kernel::Slip<T>& at) const {
+    kernel::Friction<T> mean{};
+    constexpr int points = 64;  // of a quarter of the rim; each stands for the opposite point, too
+    for (int i = 0; i < points; ++i) {
+      const T s = std::sin((i + T(0.5)) * T(1.5707963267948966) / points), p = at.p, r = at.r;
+      const T one = std::sqrt(p * p + r * r + 2 * p * r * s), other = std::sqrt(p * p + r * r - 2 * p * r * s);
+      const T sum = one + other, rest = 2 * s * s / sum, per = 1 / (points * one * other);
+      mean.force += (sum / 2 - r * r * rest) * per;
+      mean.moment += (sum / 2 - p * p * rest) * per;
+    }
+    return mean;
+  }
+};
+
+int main(int count, char** words) {
+  if (count < 3) return 2;
+  std::map<std::string, std::vector<double>> numbers;  // of "key = 1" and "key = [1, 2]"
+  std::string line, key, body;
+  for (std::ifstream file(words[1]); std::getline(file, line);) {
+    line = line.substr(0, line.find('#'));
+    for (char& c : line) c = std::strchr("=[],'", c) ? ' ' : c;
+    std::istringstream in(line);
+    in >> key;
+    if (key == "body") in >> body;
+    for (double x; in >> x;) numbers[key].push_back(x);
+  }
+  const auto number = [&](const char* name) { return numbers.count(name) ? numbers[name].at(0) : 0; };
+  const bool ball = body == "ball", ring = body == "ring", elliptic = count > 3;
+  const double m = number("mass"), R = number("radius"), a = ball ? number("patch_radius") : R;
+  const double alpha = number("slope") * std::acos(-1.0) / 180, load = m * number("gravity") * std::cos(alpha);
+  const double pull = -number("gravity") * std::sin(alpha), limit = number("friction") * load;
+  const double inertia = (ball   ? 0.4
+                          : ring ? 1
+                                 : 0.5) *
+                         m * R * R,
+               resist = 1.4 * number("rolling_friction") * load * R;
+  std::vector<double> v = numbers["velocity"], w = numbers["angular_velocity"];
+  if (v.empty()) v = {number("slip"), 0}, w = {0, 0, number("spin")};
+  const double dt = 1e-4;
+  std::printf("t,vx,vy,wx,wy,wz\n");
+  for (long step = 0; step * dt <= std::atof(words[2]); ++step) {
+    if (step % 50 == 0) std::printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", step * dt, v[0], v[1], w[0], w[1], w[2]);
+    const double vx = v[0] - (ball ? R * w[1] : 0), vy = v[1] + (ball ? R * w[0] : 0);  // of the contact
+    const auto [fx, fy, moment] = elliptic ? kernel::wrench<kernel::Elliptic>(vx, vy, w[2], limit, a)
+                                  : ball   ? kernel::wrench<kernel::Exact>(vx, vy, w[2], limit, a)
+                                  : ring   ? kernel::wrench<Rim>(vx, vy, w[2], limit, a)
+                                           : kernel::wrench<kernel::Uniform>(vx, vy, w[2], limit, a);
+    v[0] += (fx / m + pull) * dt, v[1] += fy / m * dt, w[2] += moment / inertia * dt;
+    if (!ball) continue;  // a disc or ring does not tip
+    w[0] += R * fy / inertia * dt, w[1] -= R * fx / inertia * dt;
+    const double turning = std::hypot(w[0], w[1]), loss = std::min(turning, resist / inertia * dt);
+    for (int i = 0; i < 2 && turning > 0; ++i) w[i] -= w[i] / turning * loss;
+  }
+}
