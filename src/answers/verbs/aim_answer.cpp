@@ -29,7 +29,8 @@ struct AimReport {
 
 constexpr Field<AimReport> aim_row[]{
     {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
-    {"ball", "", "body, as in stop", [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
+    {"ball", "", "values of the body and of its patch",
+     [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"slip", "m/s", "sliding speed at the start, along x; also the speed of the centre, if the ball does not roll yet",
      [](const AimReport& r) -> Json { return r.slip; }},
     {"spin", "1/s", "spin at the start, about the vertical",
@@ -45,7 +46,8 @@ constexpr Field<AimReport> aim_row[]{
        return {w.x(), w.y(), w.z()};
      },
      ",wy,", 0, " [x, y, z]"},
-    {"distance", "m", "distance of the centre when slip and spin end, or with rolling friction when the ball rests",
+    {"distance", "m",
+     "distance of the centre from its start when slip and spin end, or with rolling friction when the ball rests",
      [](const AimReport& r) -> Json { return r.distance; }},
     {"turns", "", "number of turns about the vertical", [](const AimReport& r) -> Json { return r.turns; }},
     {"time", "s", "time when slip and spin end; with rolling friction: when the ball rests",

@@ -58,9 +58,9 @@ constexpr const char* textbook_columns =
 
 constexpr Field<BounceReport> bounce_row[]{
     {"law", "", "name of the law of friction", [](const BounceReport& r) -> Json { return r.law.name(); }},
-    {"mu", "", "patch radius divided by R",
+    {"mu", "", "radius of the patch divided by the radius R of the body",
      [](const BounceReport& r) -> Json { return si::patch_ratio(r.experiment, r.law); }},
-    {"ball", "", "body, as in stop; the patch is that of the impact",
+    {"ball", "", "values of the body and of its patch at the impact",
      [](const BounceReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"height", "m", "height of the drop, with --drop",
      [](const BounceReport& r) -> Json { return r.height ? Json(*r.height) : Json(); }, ""},

@@ -79,7 +79,7 @@ constexpr Field<Contact> setting_fields[]{
      [](const Contact& of) -> Json { return of.fade.slip; }},
     {"t_spin", "s", "time until 1e-3 of the spin is left in the engine",
      [](const Contact& of) -> Json { return of.fade.spin; }},
-    {"slip_length", "m", "length that the contact slides in all",
+    {"slip_length", "m", "total length that the contact slides",
      [](const Contact& of) -> Json { return of.fade.slip_length; }},
     {"turns", "", "turns about the vertical in the engine", [](const Contact& of) -> Json { return of.fade.turns; }},
 };
@@ -153,7 +153,7 @@ constexpr Field<Report> report_fields[]{
      [](const Report& r) -> Json { return r.own.fade.slip; }, "law_t_slip"},
     {"t_spin", "s", "time until 1e-3 of the spin is left under the law",
      [](const Report& r) -> Json { return r.own.fade.spin; }, "law_t_spin"},
-    {"slip_length", "m", "length that the contact slides in all",
+    {"slip_length", "m", "total length that the contact slides",
      [](const Report& r) -> Json { return r.own.fade.slip_length; }, "law_slip_length"},
     {"turns", "", "turns about the vertical under the law", [](const Report& r) -> Json { return r.own.fade.turns; },
      "law_turns"},

@@ -62,13 +62,14 @@ End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
 constexpr Field<ReducedSystem> system_fields[]{
     {"law", "", "name of the law of friction", [](const ReducedSystem& system) -> Json { return system.law().name(); }},
     {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
-    {"drive", "", "force along the slip divided by f N; with it r_high is the limit of (Phi - drive)/(k Psi)",
+    {"drive", "",
+     "constant force along the slip divided by friction f times load N; with it r_high is the limit of (Phi - drive)/(k Psi)",
      [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
 };
 constexpr Field<TerminalRatios> regime_fields[]{
-    {"r_low", "", "Phi/(k Psi) at k = 0, where the regime changes",
+    {"r_low", "", "value of r up to which k tends to 0: Phi/(k Psi) at k = 0",
      [](const TerminalRatios& ratios) -> Json { return ratios.low; }},
-    {"r_high", "", "Phi/(k Psi) at k = infinity, where the regime changes again",
+    {"r_high", "", "value of r from which on k tends to infinity: Phi/(k Psi) at k = infinity",
      [](const TerminalRatios& ratios) -> Json { return ratios.high; }},
 };
 constexpr Field<End> end_fields[]{
@@ -129,7 +130,8 @@ constexpr Field<SingularPoint> point_fields[]{
      [](const SingularPoint& point) -> Json { return point.kind == "saddle"; }},
 };
 constexpr Field<ReducedSystem> body_fields[]{
-    {"mu", "", "patch radius divided by R", [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
+    {"mu", "", "radius of the patch divided by the radius R of the body",
+     [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
     {"body", "", "inertia: chi = 1 + m R^2/J, gamma = m R^2/J_z",
      [](const ReducedSystem& system) -> Json {
        return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};

@@ -36,9 +36,10 @@ constexpr Field<Roll> start_fields[]{
     {"law", "", "name of the law of friction", [](const Roll& roll) -> Json { return roll.law.name(); }},
     {"route", "", "name of the route",
      [](const Roll& roll) -> Json { return roll.integrated || !roll.whole.is_reduced() ? "integrated" : "reduced"; }},
-    {"mu", "", "patch radius divided by R",
+    {"mu", "", "radius of the patch divided by the radius R of the body",
      [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
-    {"ball", "", "body, as in stop", [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
+    {"ball", "", "values of the body and of its patch",
+     [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
     {"velocity", "m/s", "velocity at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},
     {"angular_velocity", "1/s", "angular velocity at the start",
@@ -112,7 +113,7 @@ constexpr Field<Roll> rest_of_roll_fields[]{
        return members;
      },
      nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
-    {"textbook", "", "events under the uncoupled model, with the same threshold",
+    {"textbook", "", "events under the uncoupled model of textbooks, with the same threshold",
      [](const Roll& roll) {
        return members_of(event_fields, RollEvents{roll.theirs(), roll.lies_flat()});
      }},

@@ -142,14 +142,16 @@ constexpr auto of_ball = [](const StopReport& report, auto value) {
 constexpr Field<StopReport> fields[]{
     {"law", "", "name of the law of friction", [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
     {"route", "", "name of the route", [](const StopReport& r) -> Json { return name(r.route); }},
-    {"mu", "", "patch radius divided by R", [](const StopReport& r) -> Json { return r.start.system.mu(); }},
+    {"mu", "", "radius of the patch divided by the radius R of the body",
+     [](const StopReport& r) -> Json { return r.start.system.mu(); }},
     {"body", "", "inertia: chi = 1 + m R^2/J, gamma = m R^2/J_z",
      [](const StopReport& r) -> Json {
        const auto [chi, gamma] = r.start.system.inertia();
        return {{"chi", chi}, {"gamma", gamma}};
      },
      nullptr, 1, " {`chi`, `gamma`}"},
-    {"drive", "", "force along the slip divided by f N, with --drive, rolling friction or a slope",
+    {"drive", "",
+     "constant force along the slip divided by friction f times load N, with --drive, rolling friction or a slope",
      [](const StopReport& r) -> Json {
        const double drive = r.start.system.drive();
        return drive > 0 ? Json(drive) : Json();

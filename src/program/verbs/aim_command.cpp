@@ -25,9 +25,10 @@ auto at_least_0(const char* unit, bool above = false) {
 class AimCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    distance_.add(app, "--distance", "LENGTH",
-                  "distance of the centre when slip and spin end, or with rolling friction when the ball rests",
-                  at_least_0("m"));
+    distance_.add(
+        app, "--distance", "LENGTH",
+        "distance of the centre from its start when slip and spin end, or with rolling friction when the ball rests",
+        at_least_0("m"));
     turns_.add(app, "--turns", "N", "number of turns about the vertical until slip and spin end; either sign", number);
     time_.add(app, "--time", "TIME", "time when slip and spin end. Give two of --distance, --turns, --time",
               at_least_0("s"));
@@ -36,10 +37,11 @@ class AimCommand final : public Verb {
                   "--time. Only starts with forward slip are found",
                   at_least_0("m", true));
     rolling_speed_.add(app, "--rolling-speed", "SPEED",
-                       "speed of rolling once the spin is 0, for --rolls-at; 0: the ball stays", at_least_0("m/s"));
+                       "speed of rolling once the spin is 0, for --rolls-at; 0: the ball stops there",
+                       at_least_0("m/s"));
     spin_.add(app, "--spin", "ROTATION",
               "spin about the vertical at the start, for --rolls-at; either sign (default 0)", quantity("rad/s"));
-    start_.add_ball(app, "body in SI units, whose start is ignored", StartOptions::no_start);
+    start_.add_ball(app, "body in SI units, whose start is not used", StartOptions::no_start);
     law_.add(app);
     figure_.add(app);
     output_.add(app);

@@ -33,7 +33,7 @@ constexpr Field<CatalogueEntry> ball_fields[]{
      [](const CatalogueEntry& of) -> Json { return of.experiment.contact.friction; }},
     {"patch_radius", "m", "radius of the patch",
      [](const CatalogueEntry& of) -> Json { return si::patch_radius_of(of.experiment, own_law(of)); }},
-    {"mu", "", "patch radius divided by R",
+    {"mu", "", "radius of the patch divided by the radius R of the body",
      [](const CatalogueEntry& of) -> Json { return si::patch_ratio(of.experiment, own_law(of)); }},
     {"slip", "m/s", "slip of the typical start",
      [](const CatalogueEntry& of) -> Json { return si::slip_at_start(of.experiment); }},

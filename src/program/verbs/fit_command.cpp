@@ -114,7 +114,7 @@ class FitCommand final : public Verb {
               "never the patch of a disc or ring)",
               parse_free);
     app.add_flag("--robust", robust_, "give outliers less weight (Huber's loss)");
-    app.add_flag("--plan", plan_, "predict the errors of a film with --fps and --noise; takes no FILE");
+    app.add_flag("--plan", plan_, "predict the error bars of a film with --fps and --noise; takes no FILE");
     fps_.add(app, "--fps", "N", "pictures per second, for --plan and for a column frame", parse_rate);
     figure_.add(app);
     output_.add(app);

@@ -25,9 +25,10 @@ constexpr Field<LawReport> law_fields[]{
     {"law", "", "name of the law of friction", [](const LawReport& r) -> Json { return r.law.name(); }},
 };
 constexpr ColumnField<LawReport> law_columns[]{
-    {"k", "", "ratio v/(mu abs(u))", [](const LawReport& r) { return &r.k; }},
-    {"phi", "", "force divided by f N", [](const LawReport& r) { return &r.phi; }},
-    {"psi", "", "moment divided by f N times patch radius", [](const LawReport& r) { return &r.psi; }},
+    {"k", "", "ratio of slip v to the speed mu abs(u) at the rim of the patch",
+     [](const LawReport& r) { return &r.k; }},
+    {"phi", "", "force divided by friction f times load N", [](const LawReport& r) { return &r.phi; }},
+    {"psi", "", "moment divided by (f N times patch radius)", [](const LawReport& r) { return &r.psi; }},
 };
 
 std::vector<FieldText> law_texts() { return joined({texts_of(law_fields), texts_of(law_columns)}); }
@@ -37,7 +38,8 @@ class LawCommand final : public Verb {
   void add_options(CLI::App& app) override {
     law_.add(app);
     app.option_defaults()->group("Ratios");
-    CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "ratios k = v/(mu |u|), 0 to inf", parse_ratios);
+    CLI::Option* k = k_.add(app, "--k", "K1,K2,...",
+                            "ratios k of slip v to the speed mu |u| at the rim of the patch, 0 to inf", parse_ratios);
     batch_.add(app, "--batch", "FILE", "CSV with a column k, in place of --k; - is standard input")->excludes(k);
     app.add_flag("--surface", surface_, "draw the limit surface: force against moment, for several laws");
     figure_.add(app);

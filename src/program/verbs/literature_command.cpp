@@ -21,7 +21,7 @@ constexpr Field<Published> number_fields[]{
     {"name", "", "the number's name", [](const Published& n) -> Json { return n.name; }},
     {"source", "", "authors, journal and year", [](const Published& n) -> Json { return n.source; }},
     {"link", "", "DOI or repository", [](const Published& n) -> Json { return n.link; }},
-    {"read", "", "part that was read: abstract, code, textbooks, or a citation",
+    {"read", "", "part of the source that was read: abstract, code, textbooks, or a citation",
      [](const Published& n) -> Json { return n.read; }},
     {"published", "", "the number as published", [](const Published& n) -> Json { return n.published; }},
     {"computed", "", "the number as computed here", [](const Published& n) -> Json { return n.computed; }},

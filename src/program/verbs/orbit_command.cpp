@@ -37,10 +37,11 @@ constexpr Field<OrbitReport> orbit_fields[]{
     {"law", "", "name of the law of friction",
      [](const OrbitReport& r) -> Json { return r.start.system.law().name(); }},
     {"route", "", "name of the route", [](const OrbitReport& r) -> Json { return name(r.route); }},
-    {"mu", "", "patch radius divided by R", [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
+    {"mu", "", "radius of the patch divided by the radius R of the body",
+     [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
     {"u0", "speed", "R omega_z at the start", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
     {"v0", "speed", "sliding speed at the start", [](const OrbitReport& r) -> Json { return r.start.state.v; }},
-    {"ball", "", "body, as in stop",
+    {"ball", "", "values of the body and of its patch",
      [](const OrbitReport& r) {
        return r.start.experiment ? members_of_ball(*r.start.experiment, r.start.system.law()) : Json();
      }},
@@ -58,7 +59,8 @@ constexpr ColumnField<OrbitReport> orbit_columns[]{
     {"v", "speed", "sliding speed", [](const OrbitReport& r) { return &r.motion.v; }},
     {"ln_v", "", "logarithm of v, which does not underflow", [](const OrbitReport& r) { return &r.motion.ln_v; }},
     {"k", "", "v/(mu abs(u))", [](const OrbitReport& r) { return &r.motion.k; }},
-    {"beta", "1/speed", "regularised time (2.8), 0 at the start", [](const OrbitReport& r) { return &r.motion.beta; }},
+    {"beta", "1/speed", "regularised time beta ('contensou help theory'), 0 at the start",
+     [](const OrbitReport& r) { return &r.motion.beta; }},
     {"u_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.u_estimate); }},
     {"v_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.v_estimate); }},
     {"ln_v_estimate", "speed",

@@ -54,14 +54,15 @@ constexpr Field<StatementRow> statement_fields[]{
     {"statement", "", "the statement in words", [](const StatementRow& row) -> Json { return row.statement.says; }},
     {"printed", "", "value of the statement as printed",
      [](const StatementRow& row) -> Json { return or_infinity(row.found.printed); }},
-    {"computed", "", "value found without the statement",
+    {"computed", "", "value computed independently of the statement",
      [](const StatementRow& row) -> Json { return or_infinity(row.found.computed); }},
     {"verdict", "", "result of the comparison in words, such as holds",
      [](const StatementRow& row) -> Json { return word(row.found.verdict); }},
     {"recorded", "", "expected verdict; if verdict differs, the status is 1",
      [](const StatementRow& row) -> Json { return word(row.statement.recorded); }},
     {"correction", "", "correction of an erratum", [](const StatementRow& row) -> Json { return row.correction; }},
-    {"at", "", "place of the comparison, such as a k", [](const StatementRow& row) -> Json { return row.where; }},
+    {"at", "", "argument of the comparison, such as a ratio k",
+     [](const StatementRow& row) -> Json { return row.where; }},
 };
 
 /// All statements in the order of the paper.
@@ -198,7 +199,7 @@ class PaperCommand final : public Verb {
 };
 
 const RegisteredVerb<PaperCommand> paper_verb(Purpose::check, "paper",
-                                              "Recompute every equation of the paper, and draw its figures",
+                                              "Recompute every equation of Zhuravlev's paper, and draw its figures",
                                               "contensou paper --out figures", {{"", paper_texts}});
 
 }  // namespace

@@ -93,7 +93,8 @@ std::vector<FieldText> portrait_fields() {
       {"`law`, `mu`", "", "law of friction, patch radius divided by R; columns with several --mu or --law"},
       {"JSON `body` {`chi`, `gamma`}, `view`", "", "inertia, as in stop; name of the view"},
       {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane that is shown"},
-      {"JSON `drive`", "", "force along the slip divided by f N, with --drive, rolling friction or a slope"},
+      {"JSON `drive`", "",
+       "constant force along the slip divided by friction f times load N, with --drive, rolling friction or a slope"},
       {"JSON `ball`, `seconds_per_tau`", "; s/speed", "name of the ball; seconds in one unit of tau"},
       {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV", "lists of the states of each orbit"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "states with the same stop time"},
@@ -113,7 +114,7 @@ std::vector<FieldText> system_portrait_fields() {
       {"JSON `centre` [U, V]", "", "centre of the scaling; null without one"},
       {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane that is shown"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues` [[re, im], [re, im]]}]", "",
-       "points at rest, without a scaling"},
+       "points at which the field is 0; only without a scaling"},
       {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "", "lists of the states of each orbit"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "states with the same time left"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
@@ -136,7 +137,7 @@ class PortraitCommand final : public Verb {
     app.option_defaults()->group("Output");
     app.add_flag("--facts", facts_,
                  "print a table in place of the picture: "
-                 "the regime, the singular points and how orbits enter the origin");
+                 "the limit of k at the stop, the singular points and how orbits enter the origin");
     output_.add(app);
   }
 
@@ -313,7 +314,7 @@ class PortraitCommand final : public Verb {
                                                  {"regularised", Style::Field::regularised},
                                                  {"", Style::Field::motion}})))
         ->expected(0, 1);
-    add("--axes", "on|off", "invariant axes and invariant ray, which are the nullclines (default on)",
+    add("--axes", "on|off", "orbits that are straight lines: the axes and the invariant ray (default on)",
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
     add("--colour,--color", "BY", "colour of orbits: time (default, the time left) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));

@@ -21,7 +21,8 @@ namespace contensou::program {
 namespace {
 
 /// Columns of the tables of --batch, without and with --ball.
-constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed", "patch radius divided by R, R omega_z and slip"};
+constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed",
+                                    "radius of the patch divided by R, R omega_z and slip"};
 constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "start of a ball, with --ball"};
 
 std::vector<FieldText> stop_batch_texts() {

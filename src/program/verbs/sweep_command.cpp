@@ -272,7 +272,8 @@ class SweepCommand final : public Verb {
       };
     };
     app.option_defaults()->group("Start");
-    mu_.add(app, "--mu", "M|MIN:MAX:N", "patch radius divided by R, 0 < M <= 1, or N values", read(""));
+    mu_.add(app, "--mu", "M|MIN:MAX:N",
+            "radius of the patch divided by the radius R of the body, 0 < M <= 1, or N values", read(""));
     u0_.add(app, "--u0", "MIN:MAX:N", "N values of the spin R omega_z, from MIN to MAX", read(""));
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed, MIN >= 0", read(""));
     app.add_flag("--log", log_, "values at equal ratios, not at equal steps; MIN > 0");

@@ -27,7 +27,7 @@ SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, con
 /// Demands on a ball that begins to roll, when its slip falls below rolling_slip.
 struct RollingGoal {
   double place;     ///< distance of that place from the start, m, > 0
-  double speed;     ///< speed of the final rolling, m/s, >= 0; 0: the ball stays there
+  double speed;     ///< speed of the final rolling, m/s, >= 0; 0: the ball stops there there
   double spin = 0;  ///< spin about the vertical at the start, rad/s
 };
 
