@@ -38,8 +38,8 @@ std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, Vector
 std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vector2d& sides) {
   constexpr double across = 160;
   const Vector2d extent = piece.high - piece.low;
-  const int columns = std::max(1, static_cast<int>(std::lround(across * extent[0] / sides[0])));
-  const int rows = std::max(1, static_cast<int>(std::lround(across * extent[1] / sides[1])));
+  const int columns = std::max(2, static_cast<int>(std::lround(across * extent[0] / sides[0])));
+  const int rows = std::max(2, static_cast<int>(std::lround(across * extent[1] / sides[1])));
   // Not evenly from end to end: axes and lines of round numbers would run along sides of squares.
   const auto part = [](int i, int count) { return i == 0 ? 0 : i == count ? 1 : (i - 0.363) / count; };
   const auto corner = [&](int i, int j) {
@@ -49,7 +49,16 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) values.push_back(piece.value(corner(i, j)));
   }
-  const auto value = [&](int i, int j) { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
+  const auto value = [&](int i, int j) -> double& { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
+  // Rounding decides the sign on a border where V is 0: there it becomes the opposite of the sign inside.
+  constexpr double rounding = 1e-12;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) {
+      const double inside = value(std::clamp(i, 1, columns - 1), std::clamp(j, 1, rows - 1));
+      double& here = value(i, j);
+      if (std::abs(here) < rounding * std::abs(inside)) here = -rounding * inside;
+    }
+  }
 
   // Sides of squares, by their first corner and their direction, with the zero on them and the sides it is joined to.
   using Side = std::pair<std::pair<int, int>, bool>;
