@@ -28,10 +28,11 @@ struct PortraitStyle {
   enum class Field { none, motion, regularised } field = Field::none;  ///< directions of nothing, of (2.6), of (2.7)
   bool invariant = true;       ///< draw the axes and the ray, which are the nullclines
   bool colour_by_time = true;  ///< colour orbits by the time left, unless two laws are compared
-  bool asked = true;           ///< draw the highlighted orbit and those through points; false if the caller draws them
-  bool estimate = false;       ///< draw the approximation for small mu beside each motion (view time)
-  bool screen = false;         ///< light on dark for a projector; false: dark on light for paper
-  AskedSize size = {};         ///< an empty side follows from the view
+  bool asked = true;      ///< true: draw the highlighted orbit and the orbits through the requested points; false: the
+                          ///< caller draws these orbits
+  bool estimate = false;  ///< draw the approximation for small mu beside each motion (view time)
+  bool screen = false;    ///< light on dark for a projector; false: dark on light for paper
+  AskedSize size = {};    ///< an empty side follows from the view
 };
 
 /// Returns the name of the law, and of the law compared with it, for a title.

@@ -14,8 +14,8 @@
 
 namespace contensou::portraits {
 
-/// The plane of any planar system as data, without a drawing. Its isochrones have one time to the centre or to
-/// infinity.
+/// The plane of any planar system as data, without a drawing. An isochrone joins states with the same time to the
+/// centre of the scaling, or to infinity.
 struct PlanarPortrait : Portrait {
   std::string name;  ///< name of the system
   reduction::PlanarReduction plane;

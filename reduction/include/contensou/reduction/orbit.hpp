@@ -172,7 +172,7 @@ class Orbit {
   ReducedSystem system_;
   SimilaritySolution::Curve curve_;  ///< null on the axes
   double u0_, v0_;
-  bool creeps_ = false;  ///< the start is so near v = 0 that the drive gives it v_ at once
+  bool creeps_ = false;  ///< true: the start is so near v = 0 that the drive raises the sliding speed to v_ immediately
   int exponent_;         ///< speeds are divided by 2^exponent_, so that their products neither overflow nor underflow
   double w_, v_;         ///< mu |u0| and v0, scaled; if creeps_, v once creeping has begun
   double pivoting_;      ///< P of README (R18), scaled

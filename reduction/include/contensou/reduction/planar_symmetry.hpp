@@ -44,8 +44,8 @@ struct PlanarSymmetries {
 
   Verdict verdict = Verdict::none;
 
-  /// A basis of the generators, with the largest entry 1. The first is `scaling`, if there is one, as accurate as the
-  /// field. The others are accurate to about `level`.
+  /// A basis of the generators. The largest entry of each is 1. If there is a scaling, it comes first and is as
+  /// accurate as the field. The others are accurate to about `level`.
   std::vector<Generator> generators = {};
 
   /// Singular values of the determining equations (README (R41)), increasing, relative to the largest.

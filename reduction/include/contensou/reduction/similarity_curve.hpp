@@ -18,13 +18,14 @@ class SimilarityCurve {
   /// Returns ln w along the curve, up to a constant; grows with xi (README (R2)).
   virtual double ln_w(double xi) const = 0;
 
-  /// Returns m, the coefficient of the time left, P + m S (README (R4)); 1/(1 - rho) in the limit of pure sliding.
+  /// Returns m, where the time left is P + m S (README (R4)), with the stop times P of pure pivoting and S of pure
+  /// sliding; 1/(1 - rho) in the limit of pure sliding.
   virtual double sliding_coefficient(double xi) const = 0;
 
   /// Returns n, the coefficient of the slip length left, v (v/(2 (1 - rho)) + n w) (README (R13), (R50)).
   virtual double slip_length_coefficient(double xi) const = 0;
 
-  /// Returns o, the coefficient of the angle left (the integral of w ds), w (w/(2 r Psi(0)) + o v) (README (R31)).
+  /// Returns o, where the angle left, the integral of w ds, is w (w/(2 r Psi(0)) + o v) (README (R31)).
   virtual double angle_coefficient(double xi) const = 0;
 
   /// Returns b, the coefficient of the regularised time, b/(w + v) up to its scale and a constant (README (R7)).

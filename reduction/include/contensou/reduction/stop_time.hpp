@@ -10,7 +10,7 @@ namespace contensou::reduction {
 /// The methods for a stop time. They share no code except the law, so that their results can be compared.
 enum class Route {
   closed,       ///< closed form of the law (closed_solution)
-  quadrature,   ///< quadratures of the separated equation and of the time
+  quadrature,   ///< integrals over k for the orbit and for the time (README (R2), (R3))
   regularised,  ///< steps in beta through (2.7) and (2.8)
   direct,       ///< steps in tau through (2.6)
 };

@@ -121,7 +121,7 @@ struct Turns {
 struct OtherMotion {
   std::size_t track;            ///< the track whose start differs
   double friction, slip, spin;  ///< SI units; slip and spin are those at the start of the track
-  double chi2_more;             ///< difference of the sums of squares
+  double chi2_more;             ///< sum of squares of this motion minus that of the estimate
 };
 
 /// Rolling friction that was not free, but would fit the data far better, from one step of a fit without it.

@@ -19,7 +19,8 @@ enum class Cone {
 
 std::string_view name(Cone cone);
 
-/// Share of the slip or spin at the start at which FadeTimes count it as ended; an engine's never ends completely.
+/// Share of its value at the start to which slip or spin has fallen when FadeTimes count it as ended. In an engine it
+/// never becomes exactly 0.
 inline constexpr double faded = 1e-3;
 
 /// Times and lengths until slip and spin end.

@@ -48,7 +48,7 @@ struct SpinDeceleration {
 /// The patch is the whole face of a body that lies flat.
 struct WholeFace {};
 
-/// The source of the patch radius. The radius so follows changes of R, mass, friction or gravity.
+/// The source of the patch radius. The radius is computed anew from it when R, mass, friction or gravity change.
 using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, WholeFace>;
 
 /// The patch where ball and plane touch, and its friction.

@@ -107,7 +107,7 @@ struct Dimension {
 };
 const std::vector<Dimension>& dimensions();
 
-/// Returns the dimension of a unit's symbol; null for that of a pure number.
+/// Returns the dimension to which a unit's symbol belongs; null for the empty symbol of a pure number.
 const Dimension* find_dimension(std::string_view symbol);
 
 /// Returns the units as text, such as "m, cm, mm, in, ft or yd".
