@@ -35,7 +35,7 @@ Experiment ball_on(double slope, const Start& start, double u_r = 0, const char*
   return experiment;
 }
 
-Motion motion_of(const Experiment& experiment) { return Motion::reduced(experiment, hertz()); }
+Motion motion_on(const Experiment& experiment) { return Motion::reduced(experiment, hertz()); }
 
 /// x, y, vx, vy, wx, wy, wz of a rigid ball.
 using Rigid = std::array<double, 7>;
@@ -94,7 +94,7 @@ TEST_CASE("a ball without spin on a slope, in closed form", "[formula][slope]") 
   for (double slope : {-2.0, -0.1, 2.0, 5.0}) {
     for (double u_r : {0.0, 0.01}) {
       const Experiment experiment = ball_on(slope, SlipAndSpin{1, 0}, u_r);
-      const Motion motion = motion_of(experiment);
+      const Motion motion = motion_on(experiment);
       INFO("slope " << slope << ", u_r " << u_r);
       CHECK(motion.is_reduced() == (slope < 0));
       const double f = experiment.contact.friction, g = experiment.environment.gravity, alpha = radians(slope);
@@ -123,8 +123,8 @@ TEST_CASE("slip and spin end as a drive of 2 tan(angle)/(7 f) has it", "[formula
   CHECK(system.drive() == Approx(2 * std::tan(radians(3)) / (7 * experiment.contact.friction)).epsilon(1e-15));
   const double tau = reduction::Flow(system).stop_time(reduced_start(experiment)).tau;
   const double t = 2 * tau / (3 * std::numbers::pi * experiment.contact.friction * 9.80665 * std::cos(radians(3)));
-  CHECK(motion_of(experiment).stop_time() == Approx(t).epsilon(1e-14));
-  CHECK(motion_of(experiment).creep_ratio().value() ==
+  CHECK(motion_on(experiment).stop_time() == Approx(t).epsilon(1e-14));
+  CHECK(motion_on(experiment).creep_ratio().value() ==
         Approx(reduction::Flow(system).terminal().rays.at(0).k).epsilon(1e-14));
   // A puck has chi = 1; its pull is not shared with a rolling motion.
   const Experiment puck = ball_on(-2, SlipAndSpin{5, 100}, 0, "puck");
@@ -143,7 +143,7 @@ TEST_CASE("a ball on a slope against Newton's and Euler's equations in steps", "
                                                              {2, Velocities{{-1, 0}, {0, -20, 60}}, 0}};
   for (const auto& [slope, start, u_r] : cases) {
     const Experiment experiment = ball_on(slope, start, u_r);
-    const Motion motion = motion_of(experiment);
+    const Motion motion = motion_on(experiment);
     for (double t : {0.02, 0.15, 0.4}) {
       INFO("slope " << slope << ", u_r " << u_r << ", slip " << slip_at_start(experiment) << ", t " << t);
       check_rigid(motion.at(t), stepped(experiment, hertz(), t, 20'000), 1e-7);
@@ -206,7 +206,7 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
 TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[reference][slope]") {
   const double R = find_ball("pool")->experiment.ball.radius;
   const Experiment experiment = ball_on(-6, Velocities{{0, 0.5}, {-0.5 / R, 0, 0}}, 0.19);
-  const Motion motion = motion_of(experiment);
+  const Motion motion = motion_on(experiment);
   CHECK_FALSE(motion.is_reduced());
   // It needs |tan(angle)/chi + u_r V/|V|| = f.
   const double share = std::tan(radians(6)) / 3.5, rolls = motion.slip_time(0) / 10;
@@ -224,25 +224,25 @@ TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[re
   CHECK(motion.rest()->place.y() == Approx(0.0706613).margin(1e-6));
   CHECK(motion.slip_length() == Approx(0.0029546).margin(2e-6));
   // One that needs too much from the start, and as much friction as is enough everywhere.
-  const Motion at_once = motion_of(ball_on(-6, Velocities{{0.3, 0.5}, {-0.5 / R, 0.3 / R, 0}}, 0.19));
+  const Motion at_once = motion_on(ball_on(-6, Velocities{{0.3, 0.5}, {-0.5 / R, 0.3 / R, 0}}, 0.19));
   CHECK(at_once.rest()->t == Approx(0.5130047).margin(2e-6));
   CHECK((at_once.rest()->place - Vector2d(0.0951515, 0.0948541)).norm() < 1e-6);
   CHECK(at_once.slip_length() == Approx(0.0337911).margin(1e-6));
   Experiment held = experiment;
   held.contact.friction = 0.19 + std::tan(radians(6)) / 3.5 + 1e-9;
-  CHECK(motion_of(held).slip_length() == 0);
+  CHECK(motion_on(held).slip_length() == 0);
   held.contact.friction -= 2e-6;
-  CHECK(motion_of(held).slip_length() > 0);
+  CHECK(motion_on(held).slip_length() > 0);
   // Straight down it slides from the start.
   const Experiment down = ball_on(-6, Velocities{{0.5, 0}, {0, 0.5 / R, 0}}, 0.19);
-  CHECK(motion_of(down).at(0.01).slip > 0);
+  CHECK(motion_on(down).at(0.01).slip > 0);
 }
 
 TEST_CASE("energy on a slope: what gravity gives is in the balance", "[formula][slope]") {
   for (double slope : {-3.0, 3.0}) {
     for (const Start& start : {Start(SlipAndSpin{1, 100}), Start(Velocities{{1, 0.5}, {0, 3, 80}})}) {
       const Experiment experiment = ball_on(slope, start, 0.01);
-      const Motion motion = motion_of(experiment);
+      const Motion motion = motion_on(experiment);
       const double first = motion.at(0).energy, gained = motion.energy_balance().gained;
       const double kept = motion.at(motion.last_time()).energy;
       const double spun = energy_loss(experiment).pivoting;
@@ -262,7 +262,7 @@ TEST_CASE("as the slope vanishes, the motion on the level", "[limit][slope]") {
   for (const Start& start : {Start(SlipAndSpin{1, 100}), Start(Velocities{{1, 0}, {30, -60, 50}})}) {
     const Motion level = Motion::reduced(ball_on(0, start), hertz());
     for (double slope : {-1e-7, 1e-7}) {
-      const Motion almost = motion_of(ball_on(slope, start));
+      const Motion almost = motion_on(ball_on(slope, start));
       CHECK(almost.stop_time() == Approx(level.stop_time()).epsilon(1e-6));
       for (double t : {0.05, 0.3, 2.0}) {
         CHECK((almost.at(t).position - level.at(t).position).norm() < 1e-6);
@@ -325,9 +325,9 @@ TEST_CASE("the textbook's ball on a slope is one without spin, and spins by itse
 TEST_CASE("what slides on too steep a slope never stops, and that is said", "[errors][slope]") {
   const double f = find_ball("pool")->experiment.contact.friction;
   const double steepest = std::atan(3.5 * f) * (180 / std::numbers::pi);
-  CHECK_NOTHROW(motion_of(ball_on(-0.999 * steepest, SlipAndSpin{1, 100})));
+  CHECK_NOTHROW(motion_on(ball_on(-0.999 * steepest, SlipAndSpin{1, 100})));
   for (double slope : {1.001 * steepest, -1.001 * steepest, 89.0}) {
-    CHECK_THROWS_WITH(motion_of(ball_on(slope, SlipAndSpin{1, 100})), Contains("never stops sliding"));
+    CHECK_THROWS_WITH(motion_on(ball_on(slope, SlipAndSpin{1, 100})), Contains("never stops sliding"));
     CHECK_THROWS_WITH(Motion::in_steps(ball_on(slope, SlipAndSpin{1, 100}), hertz()), Contains("never stops sliding"));
   }
   CHECK_THROWS_WITH(reduced_system(ball_on(2, SlipAndSpin{1, 100}), hertz()), Contains("must slide straight down"));
@@ -335,9 +335,9 @@ TEST_CASE("what slides on too steep a slope never stops, and that is said", "[er
                     Contains("must slide straight down"));
   CHECK_THROWS_WITH(reduced_system(ball_on(-2, Velocities{{1, 0}, {0, -3, 9}}), hertz()),
                     Contains("roll the way it slides"));
-  CHECK_THROWS_WITH(motion_of(ball_on(90, SlipAndSpin{1, 100})), Contains("above -90 and below 90"));
-  CHECK_THROWS_WITH(motion_of(ball_on(-2, SlipAndSpin{1, 100}, 0.01, "puck")), Contains("never rolls"));
+  CHECK_THROWS_WITH(motion_on(ball_on(90, SlipAndSpin{1, 100})), Contains("above -90 and below 90"));
+  CHECK_THROWS_WITH(motion_on(ball_on(-2, SlipAndSpin{1, 100}, 0.01, "puck")), Contains("never rolls"));
   Experiment loaded = ball_on(-2, SlipAndSpin{1, 100});
   loaded.environment.load = 3;
-  CHECK_THROWS_WITH(motion_of(loaded), Contains("a load and a slope exclude each other"));
+  CHECK_THROWS_WITH(motion_on(loaded), Contains("a load and a slope exclude each other"));
 }
