@@ -48,7 +48,7 @@ void BodyOptions::add_mu(CLI::App& app) {
     return parse_number(parts.front());
   };
   mu_.add(app, "--mu", takes_several_mu_ ? "M,..." : "M",
-          std::string("radius of the patch divided by the radius R of the body, 0 < M <= 1 (disc, ring: 1)") +
+          std::string("patch radius divided by body radius, 0 < M <= 1 (disc, ring: 1)") +
               (takes_several_mu_ ? "; several values give portraits side by side" : ""),
           read);
 }
@@ -60,8 +60,7 @@ void BodyOptions::add_body(CLI::App& app) {
 
 void BodyOptions::add_drive(CLI::App& app) {
   app.option_defaults()->group("Start");
-  drive_.add(app, "--drive", "RHO",
-             "drive: constant force along the slip, divided by friction f times load N, 0 <= RHO < 1",
+  drive_.add(app, "--drive", "RHO", "drive: force along the slip divided by friction times load, 0 <= RHO < 1",
              [](const std::string& typed) {
                const double drive = parse_number(typed);
                if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
