@@ -1,12 +1,9 @@
 #include "contensou/reduction/elliptic_law.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
-
-#include "contensou/reduction/tangent.hpp"
 
 namespace contensou::reduction {
 
@@ -30,13 +27,6 @@ Resistance EllipticLaw::operator()(Slip slip) const {
   const double rim = moment_ * inverse_k;
   const double root = std::sqrt(1 + rim * rim);
   return {1 / root, moment_ * (rim / root)};
-}
-
-Tangent tangent(const EllipticLaw& law, Slip slip) {
-  const double larger = std::max(slip.sliding, slip.pivoting);
-  const double rim = law.moment() * (slip.pivoting / larger);
-  const double size = std::hypot(slip.sliding / larger, rim);
-  return Tangent::of_potential(law(slip), slip, law.moment() / size * (law.moment() / size) / size);
 }
 
 double EllipticLaw::moment_deficit(Slip slip) const {

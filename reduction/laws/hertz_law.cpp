@@ -6,7 +6,6 @@
 //   k >= 1:  Phi = (3/(16 k)) [k^2 (4 - k^2) theta* + (k^2 + 2) sqrt(k^2 - 1)]              (1.3)
 //            Psi = (3/64) [(8 - 8 k^2 + 3 k^4) theta* + 3 (2 - k^2) sqrt(k^2 - 1)]          (1.5)
 //          = 2F1(-1/2, 1/2; 5/2; k^-2)  and  2F1(1/2, 1/2; 7/2; k^-2)/(5 k)
-//            Phi' = (3/16) [(4 - 3 k^2) theta* + (3 - 2/k^2) sqrt(k^2 - 1)] = 2F1(1/2, 3/2; 7/2; k^-2)/(5 k^3)
 #include "contensou/reduction/hertz_law.hpp"
 
 #include <algorithm>
@@ -14,8 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-
-#include "contensou/reduction/tangent.hpp"
 
 namespace contensou::reduction {
 
@@ -41,7 +38,6 @@ constexpr std::array<double, series_terms> gauss_coefficients(long double a, lon
 
 constexpr auto force_series = gauss_coefficients(-0.5, 0.5, 2.5);
 constexpr auto moment_series = gauss_coefficients(0.5, 0.5, 3.5);
-constexpr auto curvature_series = gauss_coefficients(0.5, 1.5, 3.5);
 
 /// Returns the number of terms of a series that are not negligible at x.
 std::size_t terms_at(double x) {
@@ -75,27 +71,7 @@ Resistance inside(double k) {
   return {3 * pi / 32 * k * (4 - s), 3 * pi / 128 * (8 * (1 - s) + 3 * s * s)};
 }
 
-/// Returns Phi' for k <= 1 and k^3 Phi' for k > 1.
-double curvature(Slip slip) {
-  if (slip.sliding <= slip.pivoting) {
-    const double k = slip.sliding / slip.pivoting;
-    return 3 * pi / 32 * (4 - 3 * k * k);
-  }
-  if (slip.sliding < 8 * slip.pivoting) {  // below k = 8 the cancellation, k^4 eps, is acceptable
-    const double k = slip.sliding / slip.pivoting;
-    const double s = k * k;
-    const double root = std::sqrt((k - 1) * (k + 1));
-    return 3.0 / 16 * k * ((4 - 3 * s) * s * std::atan2(1, root) + (3 * s - 2) * root);
-  }
-  const double x = (slip.pivoting / slip.sliding) * (slip.pivoting / slip.sliding);
-  double sum = 0;
-  for (std::size_t n = 9; n-- > 0;) sum = sum * x + curvature_series[n];  // the terms left out are below 64^-9
-  return sum / 5;
-}
-
 }  // namespace
-
-Tangent tangent(const HertzLaw& law, Slip slip) { return Tangent::of_potential(law(slip), slip, curvature(slip)); }
 
 Resistance HertzLaw::operator()(Slip slip) const {
   require_slip("HertzLaw", slip);

@@ -1,17 +1,19 @@
 #include "contensou/reduction/tangent.hpp"
 
+#include <algorithm>
+
 #include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/pressure_law.hpp"
 
 namespace contensou::reduction {
 
-namespace {
-
-/// Returns the tangent by second-order differences in the ratio of the smaller speed to the larger, one-sided beside 0.
-Tangent by_differences(const Law& law, Slip slip) {
+/// Takes second-order differences in the ratio of the smaller speed to the larger, one-sided beside 0.
+kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& slip) const {
   constexpr double step = 6e-6;  // rounding and the third derivative give about the same error
-  const bool pivots = slip.sliding <= slip.pivoting;
-  const double ratio = pivots ? slip.sliding / slip.pivoting : slip.pivoting / slip.sliding;
+  const bool pivots = slip.p <= slip.r;
+  const double ratio = pivots ? slip.p : slip.r;
   const auto at = [&](double x) { return law(pivots ? Slip{x, 1} : Slip{1, x}); };
   const bool beside_0 = ratio < step;
   const Resistance here = at(ratio);
@@ -19,28 +21,35 @@ Tangent by_differences(const Law& law, Slip slip) {
   const Resistance third = at(beside_0 ? ratio + 2 * step : ratio - step);
   const auto slope = [&](double Resistance::*part) {
     const double change = beside_0 ? 4 * next.*part - 3 * here.*part - third.*part : next.*part - third.*part;
-    return change / (2 * step);
+    return change / (2 * step) * (pivots ? 1 : -1);
   };
-  const double sign = pivots ? 1 : -1;
-  return {here, sign * slope(&Resistance::force), -sign * slope(&Resistance::moment)};
+  const double force_slope = slope(&Resistance::force), moment_slope = -slope(&Resistance::moment);
+  constexpr double least = 1e-300;  // below, a quotient is its limit
+  return {slip.p > least ? here.force / slip.p : force_slope, slip.r > least ? here.moment / slip.r : moment_slope,
+          force_slope, moment_slope};
 }
 
-}  // namespace
-
-Tangent Tangent::of_potential(Resistance resistance, Slip slip, double curvature) {
-  if (slip.sliding <= slip.pivoting) return {resistance, curvature, curvature * (slip.sliding / slip.pivoting)};
-  return {resistance, curvature * (slip.pivoting / slip.sliding), curvature};
+SlopedLaw with_slopes(const Law& law) {
+  if (law.as<HertzLaw>() != nullptr) return kernel::Exact{};
+  if (const auto* pressure = law.as<PressureLaw>(); pressure != nullptr && pressure->p() == 0) return kernel::Uniform{};
+  if (const auto* elliptic = law.as<EllipticLaw>()) return kernel::Elliptic{elliptic->moment()};
+  if (law.as<PadeLaw>() != nullptr) return kernel::Pade{};
+  return ByDifferences{law};
 }
 
-std::function<Tangent(Slip)> tangent_of(const Law& law) {
-  const auto closed = [](const auto& of_type) { return [of_type](Slip slip) { return tangent(of_type, slip); }; };
-  if (const auto* hertz = law.as<HertzLaw>()) return closed(*hertz);
-  if (const auto* elliptic = law.as<EllipticLaw>()) return closed(*elliptic);
-  return [law](Slip slip) { return by_differences(law, slip); };
+std::function<kernel::Friction<double>(Slip)> tangent_of(const Law& law) {
+  const auto function = [](const auto& sloped) -> std::function<kernel::Friction<double>(Slip)> {
+    return [sloped](Slip slip) {
+      require_slip("tangent_of", slip);
+      const double larger = std::max(slip.sliding, slip.pivoting);
+      const double p = slip.sliding / larger, r = slip.pivoting / larger, smaller = std::min(p, r);
+      const double gap = (1 - smaller) * (1 + smaller);
+      return sloped(kernel::Slip<double>{p, p, r, gap, gap});
+    };
+  };
+  return std::visit(function, with_slopes(law));
 }
 
-double tangent_error(const Law& law) {
-  return law.as<HertzLaw>() != nullptr || law.as<EllipticLaw>() != nullptr ? 0 : 1e-9;
-}
+double tangent_error(const Law& law) { return std::holds_alternative<ByDifferences>(with_slopes(law)) ? 1e-9 : 0; }
 
 }  // namespace contensou::reduction

@@ -189,10 +189,10 @@ RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& 
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&, tangent = tangent_of(law)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
-    const auto [resistance, force_slope, moment_slope] = tangent(slip_of_ratio(k));
+    const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(k));
     // All terms are multiplied by max(k, 1/k). The slopes of a tangent are by k for k <= 1, and by 1/k for k > 1.
     const double larger = std::max(k, 1 / k);
-    const double moment_falls = moment_slope / resistance.moment;
+    const double moment_falls = moment_slope / (moment_by_r * std::min(1.0, 1 / k));
     return {larger * difference, force_slope + force * moment_falls, moment_falls};
   };
   return {equation, sign_of(chart), edges_of(law, r, chart, drive), 1, {}, tangent_error(law)};
@@ -203,11 +203,11 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&, tangent = tangent_of(law)](double at) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(at);
-    const auto [resistance, force_slope, moment_slope] = tangent(slip_of_ratio(at));
+    const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(at));
     // The slopes of a tangent are by k for k <= 1, and by 1/k for k > 1.
     const double times = at < 1 ? at * at : 1;
     const double slides = times * force_slope / force;
-    return {difference, r * (times * moment_slope + resistance.moment * slides), slides};
+    return {difference, r * (times * moment_slope + moment_by_r * std::min(1.0, 1 / at) * slides), slides};
   };
   const double sign = sign_of(chart);
   std::vector<double> edges = edges_of(law, r, chart, drive);

@@ -44,7 +44,7 @@ def scales_of(case):
 try:
     shutil.copytree(TOP / "src/site/cases", CASES, ignore=shutil.ignore_patterns("__pycache__"))
     (WORK / "contensou").mkdir()
-    shutil.copy(TOP / "src/si/include/contensou/wrench_kernel.h", WORK / "contensou")
+    shutil.copy(TOP / "reduction/include/contensou/wrench_kernel.h", WORK / "contensou")
     subprocess.run([COMPILER, "-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic", "-MMD", "-MF", "headers",
                     "-I", WORK, TOP / "tests/consumer/stepper.cpp", "-o", "stepper"], cwd=WORK, check=True)
     headers = re.findall(r"[\w+]+\.(?:h|hpp)\b|Eigen", (WORK / "headers").read_text())

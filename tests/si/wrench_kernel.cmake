@@ -12,7 +12,7 @@ function(compile include result)
   set(${result} "${output}" PARENT_SCOPE)
 endfunction()
 
-set(include ${ROOT}/src/si/include)
+set(include ${ROOT}/reduction/include)
 file(READ ${include}/contensou/wrench_kernel.h header)
 string(REGEX MATCHALL "#include[^\n]*" includes "${header}")
 if(NOT includes STREQUAL "#include <cmath>")

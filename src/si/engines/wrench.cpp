@@ -3,40 +3,17 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/elliptic_law.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/tangent.hpp"
 #include "contensou/wrench.h"
 
 namespace contensou::si {
 
 namespace {
-
-/// A law that is not in the kernel, with the slopes of its tangent.
-struct OtherLaw {
-  std::function<reduction::Tangent(reduction::Slip)> tangent;
-
-  kernel::Friction<double> operator()(const kernel::Slip<double>& at) const {
-    const auto [resistance, force_slope, moment_slope] = tangent({at.p, at.r});
-    constexpr double least = 1e-300;  // below, a quotient is its limit
-    return {at.p > least ? resistance.force / at.p : force_slope,
-            at.r > least ? resistance.moment / at.r : moment_slope, force_slope, moment_slope};
-  }
-};
-
-template <class L>
-auto wrench_of(L law) {
-  return [law = std::move(law)](double vx, double vy, double w, double limit, double radius, double creep) {
-    return kernel::wrench_slopes<L>(vx, vy, w, limit, radius, creep, law);
-  };
-}
 
 /// Returns a description of a wrong number; null if there is none.
 const char* fault_of(const Eigen::Vector3d& motion, double load, const Patch& patch) {
@@ -51,13 +28,13 @@ const char* fault_of(const Eigen::Vector3d& motion, double load, const Patch& pa
 
 }  // namespace
 
-PatchFriction::PatchFriction(const reduction::Law& law) : wrench_(wrench_of(OtherLaw{reduction::tangent_of(law)})) {
-  const auto* pressure = law.as<reduction::PressureLaw>();
-  const auto* elliptic = law.as<reduction::EllipticLaw>();
-  if (law.as<reduction::HertzLaw>() != nullptr) wrench_ = wrench_of(kernel::Exact{});
-  if (pressure != nullptr && pressure->p() == 0) wrench_ = wrench_of(kernel::Uniform{});
-  if (elliptic != nullptr) wrench_ = wrench_of(kernel::Elliptic{elliptic->moment()});
-  if (law.as<reduction::PadeLaw>() != nullptr) wrench_ = wrench_of(kernel::Pade{});
+PatchFriction::PatchFriction(const reduction::Law& law) {
+  const auto take = [this]<class Sloped>(const Sloped& sloped) {
+    wrench_ = [sloped](double vx, double vy, double w, double limit, double radius, double creep) {
+      return kernel::wrench_slopes<Sloped>(vx, vy, w, limit, radius, creep, sloped);
+    };
+  };
+  std::visit(take, reduction::with_slopes(law));
 }
 
 const char* PatchFriction::evaluate(const Eigen::Vector3d& motion, double load, const Patch& patch,

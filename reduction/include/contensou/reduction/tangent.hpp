@@ -1,36 +1,30 @@
 #pragma once
 
 #include <functional>
+#include <variant>
 
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/wrench_kernel.h"
 
 namespace contensou::reduction {
 
-struct HertzLaw;
-class EllipticLaw;
+/// A law with slopes by central differences, within 1e-9 for a smooth law and finite at kinks.
+struct ByDifferences {
+  Law law;
 
-/// A resistance and its derivatives by both speeds, for implicit steps in time. Because a law is of degree 0, one slope
-/// describes each part. With m, the larger of the speeds v and w,
-///   dPhi = force_slope (w dv - v dw)/m^2,    dPsi = -moment_slope (w dv - v dw)/m^2
-/// For a law with a dissipation potential v force_slope = w moment_slope, README (R36).
-struct Tangent {
-  Resistance resistance;
-  double force_slope;   ///< Phi' for k <= 1; for k > 1 the derivative of -Phi by 1/k
-  double moment_slope;  ///< -Psi' for k <= 1; for k > 1 the derivative of Psi by 1/k
-
-  /// Returns the tangent of a law with a potential.
-  /// @param curvature  Phi' for k <= 1; for k > 1 the derivative of Psi by 1/k
-  static Tangent of_potential(Resistance resistance, Slip slip, double curvature);
+  /// @throws std::domain_error  as the law
+  kernel::Friction<double> operator()(const kernel::Slip<double>& at) const;
 };
 
-/// Returns the tangent in closed form, with slopes to 1e-11.
-/// @throws std::domain_error  as the law
-Tangent tangent(const HertzLaw& law, Slip slip);
-Tangent tangent(const EllipticLaw& law, Slip slip);
+/// A law that returns its slopes. Those of contensou/wrench_kernel.h are in closed form, to 4 eps.
+using SlopedLaw = std::variant<ByDifferences, kernel::Exact, kernel::Uniform, kernel::Elliptic, kernel::Pade>;
 
-/// Returns the tangent of a law as a function: in closed form if its type has one, else by central differences.
-/// Differences are within 1e-9 for a smooth law and finite at kinks. Calls allocate or throw only if the law does.
-std::function<Tangent(Slip)> tangent_of(const Law& law);
+/// Returns the law of the kernel, or ByDifferences for a law that is not in it.
+SlopedLaw with_slopes(const Law& law);
+
+/// Returns the friction of a law with its slopes, for implicit steps in time. For a law with a dissipation potential
+/// p force_slope = r moment_slope, README (R36). Calls allocate or throw only if the law does.
+std::function<kernel::Friction<double>(Slip)> tangent_of(const Law& law);
 
 /// Returns a bound of the error of tangent_of's slopes: 0 for rounding alone, else the error of differences.
 double tangent_error(const Law& law);
