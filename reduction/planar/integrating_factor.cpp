@@ -49,7 +49,10 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
 
   double factor(const Vector2d& x) const override { return at(x).first; }
   std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override;
-  PlanarOrbit orbit(const Vector2d& from) const override { return followed(from, usual_parts); }
+  PlanarOrbit orbit(const Vector2d& from) const override {
+    constexpr int parts = 32000;
+    return followed(from, parts);
+  }
   PlanarOrbit part_of_orbit(const Vector2d& from) const override {
     constexpr int parts = 150;
     return followed(from, parts);
@@ -216,10 +219,6 @@ PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_par
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
   return PlanarOrbit(follow(smooth, fitted, found(), from, most_parts));
-}
-
-PlanarOrbit FactorReduction::orbit(const Vector2d& start, int most_parts) const {
-  return solved_->followed(start, most_parts);
 }
 
 }  // namespace contensou::reduction

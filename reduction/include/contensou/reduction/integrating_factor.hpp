@@ -58,8 +58,8 @@ struct FactorFormula {
 class FactorReduction {
  public:
   /// Looks for V in a box of 30 % about the start, or about (1.25 u, 0.8 v) if the start (u, v) is an equilibrium. It
-  /// tries form after form and takes the first that holds. If the field has a
-  /// denominator D and V has no form, V D follows, which is a factor of D f.
+  /// tries form after form and takes the first that holds. If the field has a denominator D and V has no form, V D
+  /// follows, which is a factor of D f.
   /// @throws std::domain_error  unless the start is finite and the field has a value there
   FactorReduction(SmoothField field, const Eigen::Vector2d& start);
 
@@ -77,17 +77,11 @@ class FactorReduction {
   /// is below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
   FactorFormula formula() const;
 
-  /// Returns the solved system. V is 1 at the start unless the start lies on V = 0. V and H have values
-  /// in the box of the start, H only where V does not vanish in between. V of an affine generator has values
-  /// everywhere.
+  /// Returns the solved system. V is 1 at the start unless the start lies on V = 0. V and H have values in the box of
+  /// the start, H only where V does not vanish in between. V of an affine generator has values everywhere. Orbits go
+  /// on beyond the box, for which V is fitted anew.
   /// @throws std::domain_error  if no factor was found
   PlanarReduction reduction() const;
-
-  /// Returns the orbit of another start, or of this one. V is fitted anew from box to box.
-  /// @param most_parts  number of parts after which the end is left open
-  /// @throws std::domain_error  if none was found; unless the start is finite and the field has a value there
-  PlanarOrbit orbit(const Eigen::Vector2d& start, int most_parts = usual_parts) const;
-  static constexpr int usual_parts = 32000;
 
  private:
   struct Solved;
