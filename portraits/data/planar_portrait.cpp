@@ -77,8 +77,6 @@ class PlanarTracer {
       ways_ = {{plane, forth}, {plane.reversed(), forth.reversed()}};
       return;
     }
-    highest_ = -infinity;
-    lowest_ = infinity;
     constexpr int pieces = 100;
     for (int i = 0; i < 4 * pieces; ++i) {
       const double s = static_cast<double>(i % pieces) / pieces;
@@ -298,7 +296,7 @@ class PlanarTracer {
   Window window_;
   Panel panel_;
   std::vector<Vector2d> border_;
-  double highest_, lowest_;  ///< visible range of p
+  double highest_ = -infinity, lowest_ = infinity;  ///< visible range of p
   std::vector<Course> courses_;
   double growth_ = 0;      ///< change of p in a counter-clockwise turn
   double sense_ = 1;       ///< direction of the motion

@@ -3,13 +3,13 @@
     python3 wrench_kernel.py            prints the coefficients and the largest errors
     python3 wrench_kernel.py HEADER     ends with 1 if HEADER has other coefficients, or if an error is too large
 
-With k = v/(radius |w|), k <= 1: g = Phi/k, h = Psi, c = Phi'; k >= 1: g = Phi, h = k Psi, c = k^3 Phi'. Each is a 2F1 of
-z = min(k, 1/k)^2 (reduction/laws/hertz_law.cpp, pressure_law.hpp). With y = 1 - z, contiguous 2F1 give
+The functions are g = Phi/k, h = Psi, c = Phi' for k = v/(radius |w|) <= 1, and g = Phi, h = k Psi, c = k^3 Phi' for k >= 1.
+They are 2F1 of z = min(k, 1/k)^2 (reduction/laws/hertz_law.cpp, pressure_law.hpp). With y = 1 - z, contiguous 2F1 give
 
     exact    k >= 1: h = (g - y c)/4. For k < 1 all three are polynomials.
     uniform  k >= 1: h = (g - y c)/3. For k < 1, with g and c of 1/k: g, ((1 + y) g - z y c)/3, g - z c.
 
-So two functions of each pressure are enough: g and c, or g and h. Their singular points are y = 0, at which k = 1, and z = infinity.
+Two functions of each pressure are enough: g and c, or g and h. Their singular points are y = 0, at which k = 1, and z = infinity.
 
     exact    g and c are analytic in q = sqrt(y) except on q <= -1. A Moebius map takes the points 0, 1, -1, infinity of q
              to -x1, x1, -1, 1. Interpolation in Chebyshev points between -x1 and x1 then converges like (x1/2)^n.
