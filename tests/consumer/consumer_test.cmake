@@ -89,7 +89,7 @@ else()
 endif()
 
 # The header of the wrench needs neither CMake nor Eigen nor C++20.
-set(include ${ROOT}/src/si/include)
+set(include ${ROOT}/reduction/include)
 if(EXISTS ${WORK}/installed/include)
   set(include ${WORK}/installed/include)
 endif()
