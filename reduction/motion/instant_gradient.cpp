@@ -1,4 +1,5 @@
-// README (R61): a start moved along itself scales the motion; a start moved along the field delays it.
+// README (R61): if the start moves along itself, the motion is scaled; if it moves along the field, the motion is
+// delayed.
 #include "contensou/reduction/instant_gradient.hpp"
 
 #include <algorithm>
