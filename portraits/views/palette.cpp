@@ -21,7 +21,7 @@ std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count
   return result;
 }
 
-/// Returns the number of bands of an interval whose steps are 1, 2 or 5 times a power of ten in the unit of the bar.
+/// Returns the number of bands of an interval so that a band is 1, 2 or 5 times a power of ten, in the unit of the bar.
 std::size_t bands_per(double interval, double unit) {
   for (std::size_t count : {3, 4, 5, 2}) {
     constexpr double same = 1e-6;
@@ -61,7 +61,8 @@ Colour viridis(double fraction, double white) {
 Palette palette(bool screen) {
   std::vector<Colour> times;
   constexpr int steps = 64;
-  // Times next to the stop are darkest on paper and lightest on a dark screen. All contrast 3:1 with the ground.
+  // Times next to the stop are darkest on paper and lightest on a dark screen. All colours contrast 3:1 with the
+  // background.
   for (int i = 0; i <= steps; ++i) {
     const double fraction = static_cast<double>(i) / steps;
     times.push_back(viridis(screen ? 1 - 0.6 * fraction : 0.55 * fraction));
