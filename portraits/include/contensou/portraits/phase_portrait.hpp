@@ -77,10 +77,10 @@ struct Isochrone {
 
 /// The curves that are common to the portraits of all systems.
 struct Portrait {
-  Window window;                      ///< visible part of the plane
-  std::vector<PortraitOrbit> orbits;  ///< for (2.6), from the border of the half-plane window to the origin
-  std::vector<Isochrone> isochrones;  ///< isochrones in the window
-  double isochrone_step;              ///< all isochrones are multiples of this step; 0 if there is no such step
+  Window window;                         ///< visible part of the plane
+  std::vector<PortraitOrbit> orbits;     ///< for (2.6), from the border of the half-plane window to the origin
+  std::vector<Isochrone> isochrones;     ///< isochrones in the window
+  double isochrone_step;                 ///< all isochrones are multiples of this step; 0 if there is no such step
   std::vector<PortraitOrbit> highlight;  ///< visible parts of one start's orbit, one for (2.6); empty: not requested
   std::vector<PortraitOrbit> through;    ///< orbits through the requested points, from the border
   std::vector<reduction::State> points;  ///< the requested points
