@@ -12,7 +12,8 @@
 
 namespace contensou::python {
 
-/// A signal during a call of a field. It is no std::exception, which the library would take for a point without value.
+/// A signal during a call of a field. It is not a std::exception, because the library treats these as points without
+/// value.
 struct Interrupted {
   py::error_already_set error;
 };
