@@ -106,7 +106,7 @@ Output OutputOptions::read(std::size_t place) const {
   const std::string path = file_.given() ? file_.text() : kind.path;
   if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
   const std::string format = read_format(kind, path);
-  const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // run files are not rounded
+  const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // not run files
   const bool is_picture = portraits::find_picture_format(format) && is_one_of(kind.formats, "svg");
   if (digits_.given() && !((format == "text" || (format == "tex" && !is_picture)) && has_rounded_text)) {
     digits_.reject(
