@@ -15,7 +15,7 @@
 
 namespace kernel = contensou::kernel;
 
-/// All load on the rim of a ring. The law is the mean over the points of the rim.
+/// A ring whose whole load is on its rim. The law is the mean over points of the rim.
 struct Rim {
   template <class T>
   kernel::Friction<T> operator()(const kernel::Slip<T>& at) const {
