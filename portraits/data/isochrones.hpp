@@ -16,9 +16,9 @@ struct IsochroneTimes {
   double step;
 };
 
-/// Returns the requested times, sorted. Without requested times it returns multiples of a round time up to `last`.
-/// Their number is near the requested number, as nearly as round times allow, or near the usual number, by the roundest
-/// steps.
+/// Returns the requested times, sorted. Without requested times it returns multiples of a round step up to `last`. A
+/// requested number of times is met as nearly as round steps allow; otherwise steps are the roundest for about `usual`
+/// times.
 IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int usual = usual_isochrones);
 
 /// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along each, the direction v/u

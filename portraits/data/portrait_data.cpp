@@ -64,7 +64,7 @@ void add_curves(Json& json, const Portrait& portrait, const PhasePortrait* of) {
 /// The curves of a portrait as rows of CSV.
 struct Table {
   const PhasePortrait* of = nullptr;
-  double seconds_per_tau = 0;  ///< > 0: with a column t
+  double seconds_per_tau = 0;  ///< if > 0, the table has a column t in seconds
   std::string lead = {};       ///< first cells of each row
   std::string rows = {};
 

@@ -96,7 +96,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   const double U = portrait.window.u();
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
   const std::vector<double> rays = ray_log_ratios(portrait);
-  constexpr double shrinks = 20;  // u falls to this fraction
+  constexpr double shrinks = 20;  // u falls by this factor
   const int per_side = drawing.crowd(12);
   constexpr double reach = 3;
   Panel panel;

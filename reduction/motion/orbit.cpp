@@ -221,8 +221,9 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
 }
 
 double Orbit::beta(double xi, const Progress& now) const {
-  // Next to a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. At a law's kink x ln|x| the
-  // distance from the ray is squared while w is halved. So xi is too inaccurate at distances below sqrt(eps).
+  // Next to a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. If the law has a term x ln|x|
+  // there, the distance from the ray is squared while w is halved. So xi is too inaccurate at distances below
+  // sqrt(eps).
   constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
@@ -356,7 +357,7 @@ double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double star
   const double ln_fraction = std::isnormal(fraction) ? std::log(fraction) : std::log(speed) - std::log(start);
   if (from != xi0_ && fallen(from).*ln_speed <= ln_fraction) return 0;
   const double xi = coordinate_of_fall(ln_speed, ln_fraction, from);
-  // Both speeds follow from the known one and from k.
+  // Both speeds follow from the speed that is known and from k.
   Progress now = fallen(xi);
   const double correction = ln_fraction - now.*ln_speed;
   now.ln_w += correction;

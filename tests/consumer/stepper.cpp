@@ -1,4 +1,5 @@
-// Steps a reference motion with contensou/wrench_kernel.h alone: explicit steps of 0.1 ms. Each line is 5 ms later.
+// Integrates a reference motion with contensou/wrench_kernel.h alone, in explicit steps of 0.1 ms; prints every 50th
+// step.
 //   stepper CASE.toml SECONDS [elliptic]     prints t, vx, vy, wx, wy, wz; with the elliptic cone in place of the law
 #include <contensou/wrench_kernel.h>
 

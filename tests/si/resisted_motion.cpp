@@ -95,7 +95,8 @@ TEST_CASE("without steps and in steps: one motion", "[route]") {
   }
 }
 
-// Reference of the rest: an integration in Python without common code, over ln|W| while the ball rolls slowly.
+// Reference for the rest: an integration in Python without common code, whose variable is ln|W| while the ball rolls
+// slowly.
 TEST_CASE("a ball that slides across its roll: rest and stop to the accuracy of the steps", "[reference][route]") {
   struct Row {
     Velocities start;

@@ -406,7 +406,7 @@ class Parser {
   std::size_t at_;
   int depth_ = 0;
   bool in_bars_ = false;                  ///< true: the innermost open bracket is a bar of |x|
-  std::vector<unsigned char> variables_;  ///< variables of each value on the stack, as Step::left
+  std::vector<unsigned char> variables_;  ///< variables on which each value on the stack depends; bits as in Step::left
 };
 
 using Steps = std::vector<Step>;

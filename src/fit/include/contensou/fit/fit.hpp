@@ -112,7 +112,7 @@ struct Combination {
 /// Possible errors of an angle by whole turns.
 struct Turns {
   /// Spin, rad/s, at which a mark turns by half a turn between two pictures. Above it, turns are found by trial.
-  /// Infinite if the film shows no angle, or also the spin.
+  /// Infinite if the film shows no angle, or if it shows the spin.
   double half_turn_spin = INFINITY;
   std::vector<double> other_spins = {};  ///< spins at the start that fit the data equally well
 };
