@@ -25,8 +25,7 @@ IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int 
 /// turns from u > 0 to u < 0.
 ///
 /// Because tau*(c u, c v) = c tau*(u, v), one isochrone is computed as a function of the direction v/u, and the others
-/// are scaled copies. Points are so close that straight lines join them well. Ends lie on the border to the last
-/// digits.
+/// are scaled copies. Points are so close that straight lines join them well. Ends lie exactly on the border.
 /// @param logarithmic  true for logarithmic axes; then the window is one of positive u and v
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Window& window, const std::vector<double>& times,
                                   bool logarithmic = false);

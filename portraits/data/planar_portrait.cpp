@@ -102,8 +102,7 @@ class PlanarTracer {
                     [this](const Vector2d& at) { return time_left(at); });
   }
 
-  /// Returns the number of the sector that contains a point, 0 if there are no sectors; empty if the field has no
-  /// value.
+  /// Returns the number of the sector that contains a point, 0 without sectors; empty if the field has no value.
   std::optional<std::size_t> sector(const Vector2d& x) const {
     if (!has_value(x)) return std::nullopt;
     if (!plane_.scaling()) return 0;

@@ -60,8 +60,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     }
   }
 
-  // Maps a side of a square (its first corner and its direction) to the zero on it and the sides that a line joins to
-  // it.
+  // Maps a side of a square (its first corner and its direction) to the zero on it and the sides joined to it.
   using Side = std::pair<std::pair<int, int>, bool>;
   struct Crossing {
     Vector2d at;
@@ -86,8 +85,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
            {Side{{i, j}, false}, Side{{i + 1, j}, true}, Side{{i, j + 1}, false}, Side{{i, j}, true}}) {
         if (crossings.contains(side)) crossed.push_back(side);
       }
-      // Sides are ordered counter-clockwise. Of four crossings, opposite ones belong together: two curves cross each
-      // other.
+      // Sides are ordered counter-clockwise. Of four crossings, opposite ones lie on one curve.
       const std::size_t lines = crossed.size() / 2;
       for (std::size_t k = 0; k < lines; ++k) {
         crossings[crossed[k]].joined.push_back(crossed[k + lines]);

@@ -130,8 +130,7 @@ std::string enhanced(const Text& text, double size) {
 }
 
 /// Returns a gnuplot string in single quotes. In such a string nothing is executed and only the quote is special.
-/// Control characters, which would end the line, become spaces. Bytes that are not UTF-8 become U+FFFD, by nlohmann's
-/// writer.
+/// Control characters, which would end the line, become spaces. Bytes that are not UTF-8 become U+FFFD.
 std::string quoted(const std::string& text) {
   using nlohmann::json;
   const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
@@ -164,8 +163,7 @@ std::string line_style(const Stroke& stroke) {
                                                     : " dt 1");
 }
 
-/// gnuplot's numbers of a shape and of its filled form; 0: none. The filled form is drawn first, in the background
-/// colour.
+/// gnuplot's numbers of a shape and of its filled form; 0: none. The filled form is drawn first, as background.
 struct PointType {
   int outline, ground;
 };
@@ -429,8 +427,7 @@ std::string finished_svg(std::string svg, const Figure& figure) {
   return svg;
 }
 
-/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. Offsets in the file do not
-/// change.
+/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. Offsets do not change.
 std::string without_date(std::string bytes, std::string_view before, std::string_view date) {
   const std::size_t at = bytes.find(before);
   if (at != std::string::npos && at + before.size() + date.size() <= bytes.size()) {

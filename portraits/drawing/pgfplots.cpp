@@ -143,8 +143,7 @@ class Writer {
         axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
-  /// The coordinates of an axis, in a unit that TeX's fixed point can represent. On a logarithmic axis they are
-  /// exponents.
+  /// The coordinates of an axis, in a unit that TeX's fixed point can represent. On logarithmic axes: exponents.
   struct Coordinates {
     Axis axis;
     double origin = 0, unit = 1;  ///< origin and unit of the axis, in data

@@ -61,8 +61,7 @@ Colour viridis(double fraction, double white) {
 Palette palette(bool screen) {
   std::vector<Colour> times;
   constexpr int steps = 64;
-  // Times next to the stop are darkest on paper and lightest on a dark screen. All colours contrast 3:1 with the
-  // background.
+  // Times next to the stop are darkest on paper and lightest on a dark screen. All contrast 3:1 with the ground.
   for (int i = 0; i <= steps; ++i) {
     const double fraction = static_cast<double>(i) / steps;
     times.push_back(viridis(screen ? 1 - 0.6 * fraction : 0.55 * fraction));

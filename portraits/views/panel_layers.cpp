@@ -67,8 +67,7 @@ bool PanelLayers::add_orbits(std::vector<TimedLine> orbits, bool coloured, const
 }
 
 void PanelLayers::add_coloured(const std::vector<TimedLine>& orbits) {
-  // A line is divided into parts, one for each band that the orbit crosses. Each band is a layer, the last times on
-  // top.
+  // A line is divided into parts, one for each band that the orbit crosses. The last times are on top.
   const TimeBands& bands = look_.bands;
   std::map<std::size_t, std::vector<Polyline>, std::greater<>> layers;
   std::map<std::size_t, Arrows, std::greater<>> heads;

@@ -40,8 +40,7 @@ inline constexpr double upstream_of_copies = 14;
 /// Returns ln k of the invariant rays, increasing.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
-/// Returns the interpolated state of an orbit at a ln k; if the orbit does not reach it, the last state before the
-/// stop.
+/// Returns the interpolated state of an orbit at a ln k; if it is not reached, the last state before the stop.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
 /// A panel and its map between states and points.

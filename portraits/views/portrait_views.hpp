@@ -24,8 +24,7 @@ std::vector<MappedPanel> time_view(const Drawing& drawing);
 std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
-/// Calls `add` for each motion of a view of motions: for each law the motions from start_ratios, and the requested
-/// ones.
+/// Calls `add` for each motion of a view of motions: from start_ratios for each law, and the requested ones.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
                                                                   Stroke stroke, const Text& legend)>& add);
 

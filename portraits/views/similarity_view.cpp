@@ -1,5 +1,4 @@
-// Canonical coordinates. The symmetry (u, v) -> (c u, c v) shifts p = ln v alone, so orbits are translates of one
-// curve.
+// Canonical coordinates. The symmetry (u, v) -> (c u, c v) shifts p = ln v alone, so orbits are translates.
 #include <algorithm>
 #include <cmath>
 #include <utility>

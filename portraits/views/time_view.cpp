@@ -1,5 +1,4 @@
-// u, v and k against the fraction of the stop time that has passed. By the scaling, curves depend on k at the start
-// only.
+// u, v and k against the fraction of the stop time that has passed. Curves depend on k at the start only.
 #include <algorithm>
 #include <cmath>
 #include <limits>

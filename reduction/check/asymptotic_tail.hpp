@@ -7,8 +7,7 @@
 
 namespace contensou::reduction {
 
-/// The state of a stepper: logarithms of the two speeds, scaled time and regularised time since the start, in its
-/// units.
+/// The state of a stepper: logarithms of the two speeds, scaled and regularised time since the start, in its units.
 struct LogState {
   double ln_w;
   double ln_v;

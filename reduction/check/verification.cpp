@@ -207,8 +207,7 @@ class Examination {
     const auto [lower, upper] = system_.stop_time_bounds(start_);
     add("two-sided bound of the stop time", worse(lower / stop - 1, worse(stop / upper - 1, 0)), rounding);
 
-    // The law's bounds follow from this inequality: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 for laws with m >=
-    // 1.
+    // The law's bounds follow from: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 for laws with m >= 1.
     const double sign = system_.law().sliding_bounds()->min >= 1 ? 1 : -1;
     double worst = 0;
     for (int i = -200; i <= 200; ++i) {

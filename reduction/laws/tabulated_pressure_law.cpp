@@ -59,8 +59,7 @@ class FunctionTable {
   }
 
   Values operator()(double y) const {
-    // The exponent and the first bits of the mantissa give the panel's number. The other bits give the place in it, -1
-    // to 1.
+    // The exponent and the first bits of the mantissa give the panel's number. The other bits give the place in it.
     constexpr int fraction_bits = 52;
     constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
     constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);
@@ -283,8 +282,7 @@ void require_table(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   if (!(pressure.maxCoeff() > 0)) throw std::domain_error("TabulatedPressureLaw: the pressure is 0 in every row");
 }
 
-/// Returns the rho of the sharpest bends: steps of the pressure, and changes of its slope in s larger than its mean
-/// slope.
+/// Returns the rho of the sharpest bends: steps of the pressure, and changes of its slope in s above the mean slope.
 std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   constexpr std::size_t most = 32;
   struct Bend {

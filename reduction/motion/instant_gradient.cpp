@@ -1,5 +1,4 @@
-// README (R61): if the start moves along itself, the motion is scaled; if it moves along the field, the motion is
-// delayed.
+// README (R61): if the start moves along itself, the motion is scaled; along the field, it is delayed.
 #include "contensou/reduction/instant_gradient.hpp"
 
 #include <algorithm>

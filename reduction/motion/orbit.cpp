@@ -222,8 +222,7 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
 
 double Orbit::beta(double xi, const Progress& now) const {
   // Next to a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. If the law has a term x ln|x|
-  // there, the distance from the ray is squared while w is halved. So xi is too inaccurate at distances below
-  // sqrt(eps).
+  // there, the distance from the ray is squared while w is halved. So xi is inaccurate at distances below sqrt(eps).
   constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
@@ -260,8 +259,7 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
-/// Computes the speeds from the time left. Next to a ray they fall while k hardly changes, so xi does not determine
-/// them.
+/// Computes the speeds from the time left. Next to a ray they fall while k hardly changes, so xi does not suffice.
 OrbitPoint Orbit::point_with_left(double tau, double xi, double left) const {
   return point(tau, xi, progress(xi, left));
 }
@@ -421,8 +419,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   for (std::size_t i = 1; i < panels.size(); ++i) {
     const double left = panels[i - 1], width = panels[i] - left;
     if (width == 0) continue;
-    // Next to a kink the curve contains roots of the distance; the substitution 3 s^2 - 2 s^3 turns them into whole
-    // powers.
+    // Next to a kink the curve contains roots of the distance; 3 s^2 - 2 s^3 in place of s makes whole powers.
     const bool bends = std::ranges::any_of(kinks, [&](double kink) { return kink == left || kink == panels[i]; });
     const auto along = [&](double s) {
       return bends ? integrand(left + width * s * s * (3 - 2 * s)) * 6 * s * (1 - s) : integrand(left + width * s);

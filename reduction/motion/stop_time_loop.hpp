@@ -5,8 +5,7 @@
 
 namespace contensou::reduction {
 
-/// The data of StopTimeTable's loops. Stop times are tau* = pivoting |u0| + v0 M(k0), with the function M as
-/// polynomials.
+/// The data of StopTimeTable's loops. Stop times are tau* = pivoting |u0| + v0 M(k0), with polynomials for M.
 ///
 /// Let v_mu = v0/mu and D = |u0| + v_mu. A start lies on one of four branches. They meet at k0 = v_mu/|u0| = 1/2, 1 and
 /// 2. On each branch the coordinate
@@ -34,8 +33,7 @@ struct StopTimePanels {
   double pivoting = 0;            ///< P/|u0|
   const Panel* panels = nullptr;  ///< branches times per_branch; the coefficients of an unused panel are NaN
 
-  /// Returns the stop time of a start for which the polynomial has no usable value, and NaN for a start that is no
-  /// state.
+  /// Returns the stop time of a start for which the polynomial has no usable value, and NaN for an invalid start.
   std::function<double(double u0, double v0)> otherwise;
 };
 

@@ -2,8 +2,7 @@
 
 #include <Eigen/Core>
 
-/// Linear algebra of matrices of any size. Eigen's templates are compiled in one source only, because they take
-/// seconds.
+/// Linear algebra of matrices of any size. Only one source compiles Eigen's templates, which takes seconds.
 namespace contensou::reduction {
 
 /// The singular value decomposition U diag(values) V^T of a matrix, with thin U and V.

@@ -1,5 +1,4 @@
-// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. The equation of F has the same form in y, with c' = a + b + 1 - c in
-// place of c:
+// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. The equation of F has the same form in y, with a + b + 1 - c for c:
 //   x (1 - x) F'' + [c - (a + b + 1) x] F' - a b F = 0
 // Taylor coefficients f_n about a point x, starting with f_0 = F, f_1 = F':
 //   x (1 - x) (n + 1)(n + 2) f_(n+2) = (n + a)(n + b) f_n - (n + 1) [n (1 - 2 x) + c - (a + b + 1) x] f_(n+1)

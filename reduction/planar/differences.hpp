@@ -18,8 +18,7 @@ struct Slope {
 };
 
 /// Returns df/dx_i by central differences over halved steps, extrapolated to 0 (C. Ridders, Adv. Eng. Softw. 4 (1982)
-/// 75). The result is the entry of the table that differs least from its neighbours. Empty if the field has no value
-/// there.
+/// 75). The result is the entry of the table that differs least from its neighbours. Empty without a value there.
 ///
 /// @param field  function of a point that returns an std::optional<Eigen::Vector2d>
 template <class Field>

@@ -104,8 +104,7 @@ class Polynomial {
     return value;
   }
 
-  /// Divides by a polynomial if no remainder is left. The last term of the divisor, in the order of u, then v, is not
-  /// 0.
+  /// Divides by a polynomial if no remainder is left. The divisor's last term, by u, then v, is not 0.
   bool divide(const Polynomial& by) {
     const auto [m, n] = by.last();
     Polynomial rest = *this, quotient;

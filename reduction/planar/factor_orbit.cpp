@@ -249,8 +249,7 @@ class Follower {
     const Vector2d way = rounding * here.f;
     if (!(way.norm() < short_way * size_)) return false;
     if (!value_of(field_, x_ + way)) return true;
-    // The field has a pole if it changes by its own size within rounding, though the orbit may be smooth: v' = -v tan
-    // u.
+    // The field has a pole if it changes by its own size within rounding, though an orbit may be smooth: v' = -v tan u.
     if (here.slopes.norm() * way.norm() > here.f.norm()) return true;
     // If the speed grows over a longer way, the orbit may go to infinity as a logarithm.
     const Vector2d direction = here.f.normalized();

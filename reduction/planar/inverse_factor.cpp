@@ -189,8 +189,7 @@ std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
   const auto centre = jet_of(field, box.centre);
   if (!centre || centre->f.isZero(0)) return std::nullopt;
   FieldSamples samples{box, *centre};
-  // The points are a low-discrepancy sequence (M. Roberts' R2), denser at the edges like the zeros of Chebyshev's
-  // polynomials.
+  // The points are a low-discrepancy sequence (M. Roberts' R2), denser at the edges, as Chebyshev's points are.
   constexpr double plastic = 1.32471795724474602596;
   const auto fold = [](double x) { return std::cos(std::numbers::pi * (x - std::floor(x))); };
   int left_out = 0;

@@ -95,8 +95,7 @@ ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, 
 }
 
 /// Makes the end of orbits undecided that join a ray in finite time, if the field does not determine their
-/// continuation: orbits leave the ray to the other side as well, or the field on the ray is not the limit of its
-/// values.
+/// continuation: orbits leave it to the other side as well, or the field on the ray is not the limit of its values.
 void ScalingSolution::leave_branching_open() {
   constexpr double close = 1e-6;
   for (Direction& end : directions.dividing) {

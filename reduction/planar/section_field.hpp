@@ -9,8 +9,7 @@
 
 namespace contensou::reduction {
 
-/// The field f on the closed curve x_0 + S n(q) (the section). The scaling moves this curve over the plane (README
-/// (R42)).
+/// The field f on the closed curve x_0 + S n(q) (the section). The scaling moves it over the plane (README (R42)).
 class SectionField {
  public:
   /// The rates p' = R and q' = T of the canonical coordinates in the time sigma.

@@ -13,8 +13,7 @@
 
 namespace contensou::reduction {
 
-/// Thrown for a direction at which T has the other sign within a sector, or at which T of a turn is 0 within its
-/// errors.
+/// Thrown for a direction at which T has the other sign within a sector, or T of a turn is 0 within its errors.
 struct MissedRay {
   Eigen::Vector2d n;
   bool crossed;  ///< true: T has the other sign

@@ -191,8 +191,7 @@ RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& 
   const auto equation = [&, tangent = tangent_of(law)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
     const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(k));
-    // All terms are multiplied by max(k, 1/k). The slopes of a tangent are derivatives by k for k <= 1, by 1/k for k >
-    // 1.
+    // All terms are multiplied by max(k, 1/k). Slopes of a tangent are derivatives by k for k <= 1, else by 1/k.
     const double larger = std::max(k, 1 / k);
     const double moment_falls = moment_slope / (moment_by_r * std::min(1.0, 1 / k));
     return {larger * difference, force_slope + force * moment_falls, moment_falls};

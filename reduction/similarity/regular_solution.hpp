@@ -83,8 +83,7 @@ class RegularSolution {
 /// the products of m, n and o with k/(1 + k).
 bool reaches_rest(const TerminalChart& chart, double drive);
 
-/// Solves the equation of m with any right side: the one of m itself, or of a derivative of m by r or rho, README
-/// (R58).
+/// Solves the equation of m with any right side: that of m, or of a derivative of m by r or rho, README (R58).
 /// @param source   right side at k; if to_rest is true, the right side of the product
 /// @param to_rest  true to solve for the product of m, or of its derivative, with k/(1 + k)
 RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,

@@ -15,8 +15,7 @@ inline double net_force(const Law& law, Slip slip, double sliding, double drive)
   return by_deficit(law, drive) ? (1 - drive) - law.force_deficit(slip) : sliding - drive;
 }
 
-/// D = Phi - rho - r k Psi of README (R2) and (R49), as a difference slows - speeds of two accurate numbers. k falls
-/// for D > 0.
+/// D = Phi - rho - r k Psi of README (R2) and (R49), as a difference of two accurate numbers. k falls for D > 0.
 struct Balance {
   double slows;            ///< Phi, or 1 - rho if by_deficit
   double speeds;           ///< rho + r k Psi, or (1 - Phi) + r k Psi if by_deficit

@@ -104,8 +104,7 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const double pivoting = pivoting_limit(start.u);
   const auto [min, max] = *law_.sliding_bounds();
   const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding may be infinite
-  // The bounds are widened by the rounding of these sums and of the stop time, so that they always contain the stop
-  // time.
+  // The bounds are widened by the rounding of these sums and of the stop time, so that they always contain it.
   const double rounding = 2 * rounding_of_stop_time(r_) / (1 - drive_);
   const double lower = std::max({pivoting, (pivoting + min_sliding) / (1 - min * drive_), sliding / (1 - drive_)});
   const double upper = max * drive_ < 1 ? (pivoting + max * sliding) / (1 - max * drive_) : infinity;

@@ -18,8 +18,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// An |E| below this has no reliable sign: a law is accurate to some eps, and k would take practically for ever to
-/// pass.
+/// An |E| below this has no reliable sign: a law is accurate to some eps, and k takes nearly for ever to pass.
 constexpr double without_sign = TerminalRatios::tolerance;
 
 /// Largest |ln k|; beyond, the law equals its limit.

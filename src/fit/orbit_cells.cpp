@@ -49,8 +49,7 @@ struct OrbitCells::Basis {
     }
   }
 
-  /// Returns the estimated error of the polynomial through these values, the sum of its last two Chebyshev
-  /// coefficients.
+  /// Returns the estimated error of the polynomial through these values: its last two Chebyshev coefficients.
   double error(const Values& of) const { return (last_coefficients * of.matrix()).cwiseAbs().sum(); }
 
   static const Basis& only() {
@@ -102,8 +101,7 @@ double OrbitCells::greatest_drive(const reduction::Law& law, double mu, reductio
 }
 
 OrbitCells::Forces OrbitCells::forces(double k) const {
-  // If the ray is nearer to the start than k = 0, a start without slip lies beyond it, at k < 0; the force is reversed
-  // there.
+  // If the ray is nearer to the start than k = 0, a start without slip lies beyond it, at k < 0; with reversed force.
   const auto [size, moment] = law_(reduction::slip_of_ratio(std::abs(k)));
   const double B = inertia_.gamma * mu_ * mu_ * moment;
   return {inertia_.chi * (std::copysign(size, k) - drive_) - B * k, B};

@@ -43,8 +43,7 @@ double usual_time(const std::vector<Step>& steps) {
   return median(std::move(times));
 }
 
-/// Returns the rate, rad/s, at which the angle grows in the first steps of usual length, with at most half a turn in
-/// each.
+/// Returns the rate, rad/s, at which the angle grows in the first steps of usual length, at most half a turn each.
 double slow_rate(const std::vector<Step>& steps, double usual) {
   constexpr int most = 10;
   std::complex<double> sum = 0;

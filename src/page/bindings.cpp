@@ -274,8 +274,7 @@ class Plane {
       states.push_back({scale * direction.u, scale * direction.v});
     };
     add({.u = 1, .v = 0});
-    // Directions are equidistant as angles in coordinates in which both speeds take the same time to stop. Small k are
-    // added.
+    // Directions are equidistant as angles in coordinates in which both speeds take the same time to stop. Add small k.
     for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
     const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
     constexpr int pieces = 96;
@@ -452,8 +451,7 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// Returns the data of the plane for a ball. Its drive includes slope and rolling friction; `without` is the reason if
-/// not.
+/// Returns the data of the plane for a ball. Its drive includes slope and rolling friction; else `without` says why.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));

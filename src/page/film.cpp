@@ -1,5 +1,4 @@
-// A film that a reader gives to the page. The page finds friction and patch of the chosen ball, as `contensou fit`
-// does.
+// A film that a reader gives to the page. The page finds friction and patch of the ball, like `contensou fit`.
 #include <string>
 #include <utility>
 #include <vector>

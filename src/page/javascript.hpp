@@ -98,8 +98,7 @@ void set_fields(val& object, const char* key, const Value& value, const Rest&...
   set_fields(object, rest...);
 }
 
-/// Returns an object from keys and values that alternate. Values are texts, strings, numbers, columns or JavaScript
-/// values.
+/// Returns an object from keys and values that alternate. Values are texts, strings, numbers, columns or vals.
 template <class... KeysAndValues>
 val object(const KeysAndValues&... keys_and_values) {
   val result = val::object();

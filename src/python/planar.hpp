@@ -12,8 +12,7 @@
 
 namespace contensou::python {
 
-/// A signal during a call of a field. It is not a std::exception, because the library treats these as points without
-/// value.
+/// A signal during a call of a field. It is not a std::exception, which would mean a point without value.
 struct Interrupted {
   py::error_already_set error;
 };

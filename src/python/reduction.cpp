@@ -128,8 +128,7 @@ py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, cons
   return result;
 }
 
-/// Computes stop times like stop_times, with a mu for each start. Law and body are those of the flow; its mu is not
-/// used.
+/// Computes stop times like stop_times, with a mu for each start. Law and body are the flow's; its mu is not used.
 void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, const Numbers& v,
                        py::array_t<double>& out) {
   const auto count = static_cast<std::size_t>(out.size());

@@ -1,5 +1,4 @@
-// Integrates a reference motion with contensou/wrench_kernel.h alone, in explicit steps of 0.1 ms; prints every 50th
-// step.
+// Integrates a reference motion with contensou/wrench_kernel.h alone, in explicit steps of 0.1 ms; prints each 50th.
 //   stepper CASE.toml SECONDS [elliptic]     prints t, vx, vy, wx, wy, wz; with the elliptic cone in place of the law
 #include <contensou/wrench_kernel.h>
 

@@ -75,8 +75,7 @@ TEST_CASE("of a ball with rolling friction the intervals hold the truth as often
                                 << held[place] << " of " << trials_with_rolling_friction << ", bias " << bias[place]);
       CHECK(held[place] >=
             (0.95 - 3 * std::sqrt(0.95 * 0.05 / trials_with_rolling_friction)) * trials_with_rolling_friction);
-      // The rolling of the second film is at a limit: the ball starts without rolling, and a smaller value is
-      // impossible.
+      // The rolling of the second film is at a limit: the ball starts without rolling, and no value is smaller.
       if (seen.size() == 2) CHECK(std::abs(bias[place]) < 3 / std::sqrt(trials_with_rolling_friction) + 0.1);
     }
   }
@@ -153,8 +152,7 @@ TEST_CASE("films that decide little: intervals hold the truth, or are open", "[i
   const auto least = [](int of, double share = 0.95) {
     return CONTENSOU_FULL_TESTS ? share - 2 * std::sqrt(share * (1 - share) / std::max(of, 1)) : 0.66;
   };
-  // Chance also decides in which films one combination alone is reported: for the angle alone in 620 of 1000, correct
-  // in 574.
+  // Chance also decides in which films one combination alone is reported: for the angle in 620 of 1000, correct in 574.
   constexpr double share_of_only = 0.926;
   constexpr double most = CONTENSOU_FULL_TESTS ? 0.98 : 1;
   constexpr Parameter numbers[]{Parameter::friction, Parameter::patch_radius, Parameter::slip, Parameter::spin};

@@ -1,5 +1,4 @@
-// A run file must give an experiment or a readable error message. An experiment that is written and read back must be
-// the same.
+// A run file must give an experiment or a readable error message. An experiment written and read back is the same.
 #include "contensou/si/run_file.hpp"
 #include "finding.hpp"
 

@@ -170,8 +170,7 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
     REQUIRE(panels.size() == 4);
     CHECK(panels[0].lines[0].lines[0].size() == i + 1);
     CHECK_THAT(panels[1].title.words(), Catch::Contains("slowed 20 times"));
-    // Marks of the uncoupled model first, then of this ball: the current position, and the point at which it began to
-    // roll.
+    // Marks of the uncoupled model first, then of this ball: the current position, and the beginning of rolling.
     REQUIRE(panels[0].marks.size() == 4);
     CHECK(panels[0].marks[2].points[0].x == Approx(ball.t[static_cast<Eigen::Index>(i)]));
     CHECK(panels[0].marks[3].points.size() == (i >= 46 ? 1 : 0));

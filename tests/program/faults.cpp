@@ -134,8 +134,7 @@ class Bench {
     });
   }
 
-  /// Requires that each file is the old one or the new one (after success all are new), and that there is no other
-  /// file.
+  /// Requires that each file is the old one or the new one (after success all are new), and no other file exists.
   void require_old_or_new(const Run& ended) const {
     INFO(writer_.words << ", status " << ended.status << ", signal " << ended.signal << "\n" << ended.err);
     std::vector<std::string> before = before_;

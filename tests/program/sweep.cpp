@@ -20,8 +20,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// A NumPy file, read according to the description of its format: magic, version, length of dictionary, dictionary,
-/// data.
+/// A NumPy file, read by the description of its format: magic, version, length of dictionary, dictionary, data.
 struct NumpyFile {
   explicit NumpyFile(const std::string& bytes) {
     REQUIRE(bytes.starts_with(std::string("\x93NUMPY\x01\x00", 8)));

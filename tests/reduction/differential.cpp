@@ -40,8 +40,7 @@ class Questions {
     return {law, std::sqrt(r * chi / gamma), {.chi = chi, .gamma = gamma}};
   }
 
-  /// Returns a system with a drive of any size, also next to 1 and next to the border beyond which k grows without
-  /// bound.
+  /// Returns a system with a drive of any size, also next to 1 and next to the border above which k has no bound.
   ReducedSystem driven_system() {
     const ReducedSystem free = system();
     const double border = 1 - free.r() / terminal_ratios(free.law(), free.r()).high;

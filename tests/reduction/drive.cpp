@@ -264,8 +264,7 @@ TEST_CASE("every statement holds with a drive", "[drive][verification]") {
   }
 }
 
-// References by 128-bit arithmetic (Runge-Kutta-Fehlberg 7(8) from the ray's tangent). r is small, so k follows the
-// ray.
+// References by 128-bit arithmetic (Runge-Kutta-Fehlberg 7(8) from the ray's tangent). For small r k follows the ray.
 TEST_CASE("stop times of motions that ride the ray have the accuracy that they state", "[drive][reference]") {
   struct Row {
     double moment;  ///< C of the elliptic law; 0: the Pade law

@@ -124,8 +124,7 @@ TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
   }
 }
 
-// Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its value 2 at k = 0. So one ray repels and one
-// attracts.
+// Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its value 2 at k = 0. One ray repels, one attracts.
 TEST_CASE("a law with several rays has a curve on each side of each", "[similarity_solution]") {
   const Law law = OcticLaw{};
   CHECK(quadrature_solution(law, 1.99, terminal_ratios(law, 1.99)).curves().size() == 1);

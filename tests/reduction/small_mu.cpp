@@ -201,8 +201,7 @@ TEST_CASE("the motion for small mu is of the orders 4 in u and 2 in ln v at any 
       const MotionErrors whole = motion_errors(system, start), whole_of_half = motion_errors(half, half_start);
       CHECK(std::log2(whole.u / whole_of_half.u) == Approx(4).margin(0.05));
       CHECK(std::log2(whole.ln_v / whole_of_half.ln_v) == Approx(2).margin(0.05));
-      // Up to three times the time of the layer. At k0 = 10 the first error of ln v is small, so the next order
-      // matters.
+      // Up to three times the time of the layer. At k0 = 10 the first error of ln v is small, and the next matters.
       const MotionErrors layer = motion_errors(system, start, system.sliding_limit(start.v), 60);
       const MotionErrors layer_of_half = motion_errors(half, half_start, half.sliding_limit(half_start.v), 60);
       CHECK(std::log2(layer.u / layer_of_half.u) == Approx(4).margin(0.06));

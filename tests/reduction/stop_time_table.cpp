@@ -33,8 +33,7 @@ struct Starts {
   std::vector<double> u0, v0;
 };
 
-/// Returns starts with k of all sizes, and at every distance from k = 1 and from another k, as a table distinguishes
-/// them.
+/// Returns starts with k of all sizes, and at every distance from k = 1 and from another k, which a table separates.
 Starts random_starts(double mu, std::size_t count, double other_k = 1) {
   std::mt19937_64 generator(17);
   std::uniform_real_distribution<double> ln_k(-45, 45), ln_u(-3, 3);
@@ -120,8 +119,7 @@ TEST_CASE("tables of balls are stop_time, and proved", "[stop_time_table][route]
 }
 
 TEST_CASE("tables are stop_time wherever the invariant ray lies", "[stop_time_table][route]") {
-  // Errors of up to 28 % were found if the ray lay at k = 1 or at the edge of a panel, for all starts or on the ray
-  // alone.
+  // Errors of up to 28 % were found if the ray lay at k = 1 or at the edge of a panel, on the ray or everywhere.
   WorstCase found("rays at the edges of panels, as they were found");
   const auto body = [](double r) { return Inertia{1, r}; };
   compare(found, {PressureLaw::ring(), 1, body(1)}, 1, 300);

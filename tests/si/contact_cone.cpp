@@ -67,8 +67,7 @@ TEST_CASE("under a cone acts what dissipates most", "[route]") {
     double slip, spin;
   };
   for (const Cone cone : {Cone::elliptic, Cone::box, Cone::pyramid}) {
-    // Starts with more slip than (c/f) omega, with less, with so little that all of it is frozen, and with hardly any
-    // spin.
+    // Starts with more slip than (c/f) omega, with less, with so little that it is frozen, and with hardly any spin.
     for (const auto& [slip, spin] : {Start{0.5, 30}, Start{0.05, -30}, Start{1e-4, 20}, Start{0.3, 0.05}}) {
       const Experiment experiment = gel(slip, spin);
       const FadeTimes found = by_search(experiment, cone, arm);

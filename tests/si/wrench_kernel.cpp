@@ -1,5 +1,4 @@
-// The laws of wrench_kernel.h are compared with integrals in long double, their slopes with differences; bounds are
-// tested.
+// The laws of wrench_kernel.h are compared with integrals in long double, their slopes with differences.
 #include "contensou/wrench_kernel.h"
 
 #include <algorithm>

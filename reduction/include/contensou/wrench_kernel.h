@@ -136,8 +136,7 @@ struct Elliptic {
   }
 };
 
-/// The Pade law of V. F. Zhuravlev, 1998 (Zh98), an approximation of Exact: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 +
-/// 15 pi k).
+/// The Pade law of V. F. Zhuravlev, 1998 (Zh98), near to Exact: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
 struct Pade {
   template <class T>
   CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {

@@ -23,8 +23,7 @@ namespace formula_parts {
 
 using Pair = std::array<double, 2>;
 
-/// A function of one number, of two, or of any number of numbers, which combines two at a time. Null slopes stand for
-/// 0.
+/// A function of one number, of two, or of more, combined two at a time. Null slopes stand for 0.
 struct Function {
   std::string_view name;
   double (*one)(double) = nullptr;
@@ -91,8 +90,7 @@ const Function* function_of(std::string_view name) {
   return found == std::end(functions) ? nullptr : found;
 }
 
-/// A step either puts a number or a variable on a stack, or replaces the last values on the stack by a function of
-/// them.
+/// A step either puts a number or a variable on a stack, or replaces the last values there by a function of them.
 enum class Kind : unsigned char { number, variable, one, two, add, subtract, multiply, divide, choose };
 
 struct Step {
@@ -211,8 +209,7 @@ void require_ascii(const std::string& text) {
   const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (at == text.end()) return;
   const auto place = static_cast<std::size_t>(at - text.begin());
-  // In UTF-8 the first byte begins with as many ones as there are bytes; the others begin with 10. A single byte is
-  // Latin-1.
+  // In UTF-8 the first byte begins with as many ones as there are bytes; the others begin with 10. Else it is Latin-1.
   std::size_t size = 1;
   while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
   const std::string letter = text.substr(place, size);

@@ -42,8 +42,7 @@ std::string_view effect(const InvariantRay& ray) {
                               : "repels";
 }
 
-/// Returns the index of the end that the largest sector of starts reaches. Sectors are measured by the angle of (mu
-/// |u|, v).
+/// Returns the index of the end that the largest sector of starts reaches. Their size is the angle of (mu |u|, v).
 std::size_t usual_end(const TerminalRatios& ratios) {
   const auto sector = [](const TerminalRatio& end) { return std::atan(end.to) - std::atan(end.from); };
   return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());

@@ -8,8 +8,7 @@
 
 namespace contensou::answers {
 
-/// Returns the answer of `terminal`: the limits of k at the stop, and the invariant rays. CSV has one row for each
-/// limit.
+/// Returns the answer of `terminal`: the limits of k at the stop, and the invariant rays. CSV has a row for each limit.
 Answer terminal_answer(const reduction::ReducedSystem& system);
 
 /// Returns the answer of `portrait --facts`: the limits of k, the singular points with eigenvalues and kinds, and the

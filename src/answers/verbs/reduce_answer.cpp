@@ -147,8 +147,7 @@ ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved)
   return {std::move(answer), solved || !found.generators.empty()};
 }
 
-/// Returns the orbit of the start in the strip, and the starts of its copies, each of which is the same curve with
-/// another p.
+/// Returns the orbit of the start in the strip, and the starts of its copies, each the same curve with another p.
 Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
   constexpr std::size_t most = 100;
   const portraits::ReducedOrbits from = portraits::reduced_orbits(plane, start);
@@ -456,8 +455,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
   const reduction::PlanarField field = reduction::planar_field(system);
-  // The samples lie about k = 1, where both speeds change, for every start. By the scaling that is found, all are
-  // alike.
+  // The samples lie about k = 1, where both speeds change, for every start. By the scaling all are alike.
   const PlanarSymmetries found = reduction::find_symmetries(field, Vector2d(1 / system.mu(), 1));
   if (!found.scaling) {
     // The constructor of the law has tested that the law is homogeneous. So here only rounding can hide the scaling.

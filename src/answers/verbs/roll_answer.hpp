@@ -45,8 +45,7 @@ struct Roll {
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 
 /// Returns the motion as text on one screen: a sentence, then time and place of the end of slip, the rolling after it,
-/// the lost energy, and the same under the uncoupled model. If the motion is integrated, the text also states the error
-/// of the stop.
+/// the lost energy, and the same under the uncoupled model. If the motion is integrated, the error of the stop follows.
 std::string roll_text(const Roll& roll, const Digits& digits);
 
 /// Returns the fields of the answer of `roll`.

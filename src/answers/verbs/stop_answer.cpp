@@ -107,8 +107,7 @@ double sliding_only(const GivenStart& start) {
   return tau_of(si::without_spin(*start.experiment), system.law());
 }
 
-/// Returns time and place at which a moving ball comes to rest, with rolling friction or on a slope; empty if it never
-/// does.
+/// Returns time and place of the rest of a moving ball, with rolling friction or on a slope; empty if it never does.
 std::optional<si::Event> rest_of(const GivenStart& start) {
   return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }

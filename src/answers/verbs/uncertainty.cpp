@@ -142,8 +142,7 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-/// Solutions of one system for many mu. They are computed at equal steps of ln mu, and interpolated linearly in
-/// between.
+/// Solutions of one system for many mu. They are computed at equal steps of ln mu, with linear interpolation.
 class FlowsOfMu {
  public:
   /// @param step  step of ln mu, >= 0; an eighth of its standard deviation leaves an error of 1e-3 standard deviations;

@@ -14,8 +14,7 @@ namespace {
 /// A lock that delays the end of the program. `paper` holds it for all its files, and again for each file.
 std::recursive_mutex wait;
 
-/// Removes the unfinished file; the system calls it in a thread of its own. The system's own handler then ends the
-/// program.
+/// Removes the unfinished file; the system calls it in its own thread. Then the system ends the program.
 BOOL WINAPI end_program(DWORD) {
   const std::lock_guard lock(wait);
   if (const char* message = remove_unfinished()) {

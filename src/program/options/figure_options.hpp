@@ -29,8 +29,7 @@ class FigureOptions {
   /// Returns the value of --size; empty without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }
 
-  /// Returns the figure with the title, font and resolution that the options set. By default its height fits its
-  /// content.
+  /// Returns the figure with the title, font and resolution that the options set. By default the height fits.
   /// @param format  format in which the figure is written
   /// @throws BadInput  for --dpi with a format other than png; for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;

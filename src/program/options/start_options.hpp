@@ -37,8 +37,7 @@ class BodyOptions {
   /// Returns the body; a homogeneous ball if none was given.
   Body body() const { return body_.value_or({}); }
 
-  /// Returns the system of the body under a law. Its mu is the value of --mu, or the one that the body itself
-  /// determines.
+  /// Returns the system of the body under a law. Its mu is the value of --mu, or of the body itself.
   /// @param ways  options that set mu, for a message
   /// @throws BadInput  if mu is not given, or impossible for the body
   reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
@@ -136,8 +135,7 @@ class StartOptions {
   /// Prints on standard error which effects on a real ball of this kind the model leaves out.
   void tell_left_out() const;
 
-  /// Returns the ball of --ball, which must be able to roll. Throws as read_ball, and BadInput for a body that lies
-  /// flat.
+  /// Returns the ball of --ball, which must roll. Throws as read_ball, and BadInput for a body that lies flat.
   /// @param way_out  advice for a user who gives such a body, for the message
   si::Experiment read_rolling_ball(const reduction::Law& law, const std::string& way_out,
                                    const si::Description& between = {}) const;

@@ -17,8 +17,7 @@ struct BatchRequest {
   std::vector<std::string> inputs;   ///< columns that are read; all others are copied
   std::vector<std::string> results;  ///< columns that are added
 
-  /// Computes the results of a row from its inputs. `line` is the number of lines before the row. Several threads call
-  /// it.
+  /// Computes the results of a row from its inputs. `line` is the number of lines before the row. Threads call it.
   /// @throws std::domain_error   for a bad row
   /// @throws std::runtime_error  for a row that cannot be computed
   std::function<void(std::span<const double> inputs, std::span<double> results, long line)> compute;
@@ -29,8 +28,7 @@ struct BatchRequest {
 };
 
 /// Computes a table of any length; only a few blocks of it are in memory. Rows are written in order, as soon as they
-/// are done. The bytes do not depend on the number of threads. The number of infinite results is printed on standard
-/// error.
+/// are done. The bytes do not depend on the number of threads. Standard error gets the number of infinite results.
 ///
 /// @param output  file for the table; the caller finishes it
 /// @return        status of the worst row that has no result; `done` if all rows have results

@@ -1,5 +1,4 @@
-// Notation: V and omega are the velocities of centre and ball, c the velocity of the contact point, e = c/v, n across
-// e.
+// Notation: V and omega are the velocities of centre and ball, c that of the contact point, e = c/v, n across e.
 #include <Eigen/Geometry>
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -20,8 +19,7 @@ using zh98::pi;
 
 double cross(Vector2d a, Vector2d b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Returns the moment of inertia of a homogeneous ball divided by m R^2: 2/3 r^2, averaged with 3 r^2 dr (mass, radius
-/// 1).
+/// Returns the moment of inertia of a homogeneous ball divided by m R^2: 2/3 r^2, averaged with 3 r^2 dr.
 double moment_of_inertia() {
   return boost::math::quadrature::gauss<double, 7>::integrate([](double r) { return 2 * r * r * r * r; }, 0, 1);
 }

@@ -44,8 +44,7 @@ double ends_of_puck() {
   return first_below(steps.u) / first_below(steps.v);
 }
 
-/// Returns the sliding distance of a ring with v = u, divided by the sliding distance of a ring with the same v and u =
-/// 0.
+/// Returns the sliding distance of a ring with v = u, divided by the distance with the same v and u = 0.
 double way_of_ring() {
   const reduction::ReducedSystem ring = flat("ring", 1);
   const reduction::Flow flow(ring);
@@ -66,8 +65,7 @@ struct Bowled {
   double friction = ball.contact.friction * ball.environment.gravity;
 };
 
-/// Returns the speed at which a ball begins to roll, divided by its speed v at the start. It starts with backspin (5/2)
-/// v/R.
+/// Returns the speed at which a ball begins to roll, divided by v at the start. It starts with backspin (5/2) v/R.
 double speed_of_draw() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const double speed = 1;

@@ -72,8 +72,7 @@ double load() {
   return 2 * pi * integral([](double c) { return c * pressure(std::sqrt((1 - c) * (1 + c))); }, 0, 1);
 }
 
-/// Returns the friction across the slip, over the disc. The midpoint rule of the whole circle does not use the
-/// symmetry.
+/// Returns the friction across the slip, over the disc. The midpoint rule uses no symmetry.
 double force_across(double k) {
   constexpr int points = 64;
   const auto of_circle = [&](double rho) {

@@ -40,8 +40,7 @@ class StopTimes {
   /// Prepares stop times by the best route, for `mus` values of mu with `starts` starts each.
   StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, long starts, long mus);
 
-  /// Switches to a ball with rolling friction. Its motions consist of several orbits, so each start is computed by
-  /// itself.
+  /// Switches to a ball with rolling friction. Its motions consist of several orbits, so each start is computed alone.
   /// @throws BadInput  if a route was given
   void resist(const si::Experiment& ball);
 

@@ -41,8 +41,7 @@ struct Range {
   long count = 1;
   bool in_ratios = false;
 
-  /// Returns the number at a place from 0 to count - 1. It is rounded only once if long double has more digits than
-  /// double.
+  /// Returns the number at a place from 0 to count - 1. It is rounded only once if long double is longer.
   double operator[](long place) const {
     const long last = count - 1;
     if (place == 0) return min;
@@ -216,8 +215,7 @@ class Sweep {
   double done_ = 0;
 };
 
-/// Writes the stop times of all starts; only a few blocks of them are in memory. The bytes do not depend on the number
-/// of threads.
+/// Writes the stop times of all starts; only a few blocks of them are in memory. The bytes do not depend on `threads`.
 ///   npy  NumPy's format 1.0: float64, shape (v0, u0), or (mu, v0, u0) if mu is a range
 ///
 /// @param output  file for the result; the caller finishes it

@@ -13,8 +13,7 @@
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
-// Let F = f N Phi and M = c N Psi. The motion under a cone is the one of (2.6) for a patch of radius c/f with Psi(0) =
-// 1:
+// Let F = f N Phi and M = c N Psi. The motion under a cone is that of (2.6) for a patch of radius c/f with Psi(0) = 1:
 //
 //     dv/ds = -Phi,   dw/ds = -r Psi,   w = mu |u|,   mu = c/(f R),   r = gamma mu^2/chi,   k = v/w = f v/(c |omega|),
 //

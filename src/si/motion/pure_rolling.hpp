@@ -23,8 +23,7 @@ class PureRolling {
   /// Returns the time until the ball rests for good, s; infinity if it never does.
   double rest_time() const;
 
-  /// Returns the time, s, from which on rolling needs too much friction, |share + a V/|V|| > most (R56); infinity if
-  /// never.
+  /// Returns the time, s, until rolling needs too much friction, |share + a V/|V|| > most (R56); infinity if never.
   /// @param most   largest friction, f N/m, m/s^2
   /// @param share  part of the pull that friction balances, A/(chi - 1), m/s^2
   double slides_after(double most, double share) const;

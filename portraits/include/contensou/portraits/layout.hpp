@@ -133,8 +133,7 @@ int panel_columns(double width_mm, int panels);
 PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked,
                  int max_columns = std::numeric_limits<int>::max());
 
-/// Returns a figure of one panel to scale without the empty space above and below the panel; any other figure
-/// unchanged.
+/// Returns a figure of one panel to scale without empty space above and below it; any other figure unchanged.
 /// @throws std::domain_error  as lay_out
 Figure trimmed(Figure figure);
 

@@ -131,8 +131,7 @@ struct PortraitRequest {
   /// would show a comb of vertical lines. Such lines appear if orbits enter the origin along v = 0 and v falls faster
   /// than |u|^12; for the ball, mu < 0.48.
   bool linear = false;
-  /// True: compute only the data that the view draws. If the view does not show the window, orbits and isochrones are
-  /// left out.
+  /// True: compute only the data that the view draws. Views without the window get no orbits and isochrones.
   bool drawn_only = false;
   double time_unit = 1;  ///< tau of a time unit; isochrones are at round multiples of it
 };

@@ -42,8 +42,7 @@ void require_monotone(const Law& law);
 /// @throws std::domain_error  for a flow with a drive; unless two demands are given, finite and not negative
 double least_time(const Flow& flow, const Aim& aim);
 
-/// Finds the one start with u, v >= 0 that fulfils the two demands, by a root in ln k and a scale factor; README (R59),
-/// (R60).
+/// Finds the one start with u, v >= 0 that fulfils the two demands, by a root in ln k and a scale factor (R59), (R60).
 /// @return empty if no start does: if and only if the stop time demanded is below least_time
 /// @throws std::domain_error  unless two demands are given, finite and >= 0; with a drive; as require_monotone
 /// @throws TooFarApart        if the best start misses a demand by more than 1e-6, relative

@@ -64,8 +64,7 @@ class Flow {
   /// Returns the invariant rays and the limits of k = v/(mu |u|) at the stop.
   const TerminalRatios& terminal() const;
 
-  /// Returns the curves. Every orbit is a scaled copy of one of them, except orbits on invariant half-lines
-  /// (PhasePlane).
+  /// Returns the curves. Every orbit is a scaled copy of one of them, except on half-lines of PhasePlane.
   const SimilaritySolution& solution() const;
 
   /// Returns true if solution() was found by quadrature.
@@ -105,8 +104,7 @@ class Flow {
 
   /// Computes the stop times of starts (u0[i], v0[i]).
   /// Starts fewer than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
-  /// once and tests each polynomial against the solution (reduction/numerics.md, Table). A start that stop_time rejects
-  /// becomes NaN.
+  /// once and tests each polynomial against the solution (reduction/numerics.md, Table). A rejected start becomes NaN.
   ///
   /// @param u0, v0   speeds of the starts, of any size; u0 of either sign, v0 >= 0
   /// @param tau      stop times, one for each start; may be the array u0 or v0 itself, but must not overlap them

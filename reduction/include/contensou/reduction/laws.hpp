@@ -8,8 +8,7 @@
 
 namespace contensou::reduction {
 
-/// Returns the two laws of V. F. Zhuravlev, 1998 (Zh98): the exact law, (1.3) and (1.5), and the Pade law, (1.4) and
-/// (1.6).
+/// Returns the two laws of V. F. Zhuravlev, 1998 (Zh98): exact, (1.3) and (1.5), and Pade, (1.4) and (1.6).
 const std::vector<Law>& paper_laws();
 
 /// Returns the names of all named laws; the two laws of the paper come first.

@@ -97,8 +97,7 @@ class Orbit {
   /// Accuracy  1e-10 of the integral of the absolute value.
   double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;
 
-  /// Returns true if the start lies on an axis, u = 0 or v = 0, on which k stays constant. With a drive k changes on v
-  /// = 0.
+  /// Returns true if the start lies on an axis, u = 0 or v = 0, and k stays constant. With a drive k changes on v = 0.
   bool on_axis() const { return u0_ == 0 || (v0_ == 0 && system_.drive() == 0); }
 
   /// Returns ln k at the start; +infinity for u0 = 0; for v0 = 0 -infinity, or with a drive least_log_ratio.
@@ -162,8 +161,7 @@ class Orbit {
   double tau_of(double scaled) const;
   double scaled_of(double tau) const;
 
-  /// A number that is computed at its first use. Threads that need it at the same time all compute it, to the same
-  /// value.
+  /// A number that is computed at its first use. Threads that need it at once all compute the same value.
   struct OnDemand {
     OnDemand() = default;
     OnDemand(const OnDemand& other) : value(other.value.load()) {}

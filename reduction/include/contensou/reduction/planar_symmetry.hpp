@@ -12,8 +12,7 @@
 
 namespace contensou::reduction {
 
-/// The right side f of x' = f(x) in the plane. At a point without a value it throws or returns numbers that are not
-/// finite.
+/// The right side f of x' = f(x) in the plane. At a point without a value it throws or is not finite.
 using PlanarField = std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>;
 
 /// The generator X = c t d/dt + (A x + b) . d/dx of a one-parameter group that acts on time and plane.
@@ -64,8 +63,7 @@ struct PlanarSymmetries {
   /// A positive.
   std::optional<Generator> scaling = {};
 
-  /// Largest error |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling, with x relative to the centre and s = ln
-  /// 2.
+  /// Largest error |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling, x relative to the centre, s = ln 2.
   double residual = infinity;
 
   int points = 0;  ///< number of points at which the equations were sampled

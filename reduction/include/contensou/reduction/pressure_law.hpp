@@ -32,8 +32,7 @@ class PressureLaw {
   static PressureLaw ring();
   static PressureLaw paraboloid();
 
-  /// Returns "uniform", "punch", "ring", "paraboloid", or "pressure:P" with the shortest P that reads back to the same
-  /// double.
+  /// Returns "uniform", "punch", "ring", "paraboloid", or "pressure:P" with the shortest P that reads back as p.
   const std::string& name() const { return name_; }
 
   /// Returns the exponent p; -1 for the ring.

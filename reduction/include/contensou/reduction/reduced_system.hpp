@@ -66,8 +66,7 @@ class ReducedSystem {
   /// for every law.
   double regularising_weight(State state) const;
 
-  /// Returns d(u, v)/dbeta, the field times the weight: the paper's regularised equations (2.7) for the Pade law; 0 at
-  /// u = v = 0.
+  /// Returns d(u, v)/dbeta, the field times the weight: the regularised equations (2.7) if the law is Pade; 0 at rest.
   /// @throws std::domain_error  for v < 0
   Rate regularised_field(State state) const;
 

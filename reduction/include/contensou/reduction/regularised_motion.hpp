@@ -6,8 +6,7 @@
 namespace contensou::reduction {
 
 /// Integrates the regularised equations (2.7) with the time map (2.8) in beta, in the variables (ln u, ln v, tau), by
-/// the method of Dormand and Prince 5(4) with dense output. ReducedSystem::regularising_weight is the weight for every
-/// law.
+/// the method of Dormand and Prince 5(4) with dense output. ReducedSystem::regularising_weight is the weight.
 ///
 /// In (u, v) the equations are as stiff as (2.6), the equations in time; in logarithms they are not. Steps end at k =
 /// 1, where the exact law has only two derivatives. The stop lies at beta = infinity. Below k = 1e-17, or when the time

@@ -46,8 +46,7 @@ class TerminalChart {
   /// Returns ln k.
   double log_ratio(double xi) const;
 
-  /// Returns d ln k/d xi: positive from above, negative from below. At k* and k_far it is 0, unless that end is 0 or
-  /// infinity.
+  /// Returns d ln k/d xi: positive from above, negative from below. At an end it is 0, unless the end is 0 or infinity.
   double log_ratio_rate(double xi) const;
 
   /// Difference xi - ln k* (from below xi + ln k*) at which exp(xi) is negligible compared with k* (1/k*).

@@ -23,8 +23,7 @@ struct EngineContact {
 /// @throws std::domain_error  as patch_radius_of
 EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
 
-/// A number of an engine in SI units: a factor, multiplied by those of f, a and Psi(0) that are set, and by a power of
-/// R.
+/// A number of an engine in SI units: a factor, times those of f, a and Psi(0) that are set, times a power of R.
 struct EngineNumber {
   double factor = 1;
   bool f = false, a = false, psi = false;

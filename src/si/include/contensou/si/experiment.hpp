@@ -104,8 +104,7 @@ struct GivenQuantity {
   std::vector<double> values;
 };
 
-/// Returns the values by which an experiment is given, in the order of quantities(). Defaults are left out, except
-/// gravity.
+/// Returns the values by which an experiment is given, in the order of quantities(). Only gravity may be a default.
 std::vector<GivenQuantity> given_by(Experiment experiment);
 
 /// Returns the source of a patch in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or
@@ -115,8 +114,7 @@ std::string origin_of(const PatchSource& patch);
 /// Returns the name of the law of an experiment: the law of the contact if given, else the law of the body's pressure.
 std::string law_of(const Experiment& experiment);
 
-/// Returns the member of an experiment that stores a quantity; null if the quantity is one of several ways to give a
-/// value.
+/// Returns the member of an experiment that stores a quantity; null for one of several ways to give a value.
 double* member_of(Experiment& experiment, const Quantity& quantity);
 
 /// Returns the radius of the contact patch in m, from its source.

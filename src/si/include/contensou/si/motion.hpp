@@ -136,8 +136,7 @@ class Motion {
   /// @throws std::domain_error  if the speed is negative or not a number
   double slip_time(double speed) const;
 
-  /// Returns the time at which the spin, of either sign, has fallen to a speed, s; 0 if the spin never exceeds this
-  /// speed.
+  /// Returns the time at which the spin, of either sign, has fallen to a speed, s; 0 if it never exceeds it.
   /// @param speed  spin, rad/s, >= 0
   /// @throws std::domain_error  if the speed is negative or not a number
   double spin_time(double speed) const;

@@ -27,8 +27,7 @@ struct MotionColumns {
 };
 
 /// Default slip, m/s, below which a ball counts as rolling. No eye or camera distinguishes a slip of 1 mm/s from
-/// rolling. A threshold of 0 is useless: the friction of a pivoting patch is viscous, so the slip ends only together
-/// with the spin.
+/// rolling. A threshold of 0 is useless: the friction of a pivoting patch is viscous, so the slip ends with the spin.
 inline constexpr double rolling_slip = 1e-3;
 
 /// Returns the kinetic energy in J; for a homogeneous ball m V^2/2 + (m R^2/5) omega^2.
@@ -46,8 +45,7 @@ EnergyLoss energy_loss(const Experiment& experiment);
 /// friction law. The axes are those of the start (for SlipAndSpin x points along the initial slip).
 ///
 /// Let x point along the slip v. R omega_y + (1 - 1/chi) v is a first integral; for a homogeneous ball it is 7 R
-/// omega_y + 5 v. The velocity of the centre along the slip therefore falls by v0/chi, for a homogeneous ball by 2
-/// v0/7.
+/// omega_y + 5 v. The velocity of the centre along the slip therefore falls by v0/chi, for this ball by 2 v0/7.
 Velocities final_motion(const Experiment& experiment);
 
 /// Returns the state of a motion at a time, computed from slip, slip length and spin about the vertical.
