@@ -450,7 +450,7 @@ class Follower {
   Vector2d scale_;                      ///< scale of the orbit's coordinates
   Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x
   double fraction_ = 1;                 ///< fraction of the largest box
-  double stretch_ = 0.25;               ///< stretch of the last panel's box
+  double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
   Vector2d anchor_, forward_, passed_;  ///< returns are looked for across the line through the anchor
   double extent_ = 0, along_ = 0;
   int fits_ = 0;

@@ -45,7 +45,7 @@ TEST_CASE("a ball without spin: slip v/(1 - u_r/f), then it slows down evenly", 
   CHECK(motion.slip_length() == Approx(slides / 2).epsilon(1e-13));
 }
 
-// Reference: an integration in Python of slip, rolling and spin in the plane of the motion. It shares no code.
+// Reference: an integration in Python of slip, rolling and spin in the plane of the motion. It is separate code.
 TEST_CASE("a pool ball with spin creeps, and turns no more before it rests", "[reference]") {
   const Motion motion = motion_of(pool(SlipAndSpin{1, 100}, 0.01));
   CHECK(motion.is_reduced());
