@@ -7,7 +7,7 @@
 
 namespace contensou::tests {
 
-/// One row of a table of tests/reference.
+/// One row of a table in tests/reference.
 class ReferenceRow {
  public:
   ReferenceRow(std::shared_ptr<const std::vector<std::string>> columns, std::vector<std::string> cells);
@@ -17,13 +17,13 @@ class ReferenceRow {
   /// @throws std::out_of_range  if the table has no such column
   const std::string& text(std::string_view column) const;
 
-  /// An input: the double that COLUMN_hex spells, or else the double nearest to the decimal.
+  /// Returns an input: the double in COLUMN_hex if this exists, else the double nearest to the decimal number.
   double input(std::string_view column) const;
 
-  /// A result of many digits, rounded to long double; infinity where it exceeds that.
+  /// Returns a result of many digits, rounded to long double; infinity if it is too large.
   long double result(std::string_view column) const;
 
-  /// The inputs as they stand in the table, for a message.
+  /// Returns the inputs as text for a message.
   std::string where() const;
 
  private:
@@ -31,7 +31,7 @@ class ReferenceRow {
   std::vector<std::string> cells_;
 };
 
-/// The rows of tests/reference/NAME.csv; tests/reference/README.md says what the columns are.
+/// Returns the rows of tests/reference/NAME.csv; tests/reference/README.md describes the columns.
 /// @throws std::runtime_error  if the file is missing, has no rows, or a row has the wrong number of cells
 std::vector<ReferenceRow> reference_table(const std::string& name);
 

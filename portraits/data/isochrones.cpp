@@ -13,8 +13,8 @@ namespace {
 
 using reduction::State;
 
-/// Directions v/u as a number that grows from u > 0 to u < 0. On logarithmic axes it is ln(v/u). Else it is an angle,
-/// from 0 to 2 quarter turns, on the ellipse that the rectangle's sides span.
+/// Represents directions v/u by a number that grows from u > 0 to u < 0. On logarithmic axes it is ln(v/u). Otherwise
+/// it is an angle in quarter turns, from 0 to 2, on the ellipse whose half axes are the sides of the rectangle.
 class Directions {
  public:
   Directions(const reduction::Flow& flow, const Window& window, bool logarithmic)
@@ -36,7 +36,7 @@ class Directions {
 
   const std::vector<double>& all() const { return all_; }
 
-  /// Returns the state in a direction whose stop time is 1.
+  /// Returns the state that lies in a direction and has the stop time 1.
   State unit(double direction) const {
     State ray{std::exp(-direction / 2), std::exp(direction / 2)};
     if (!logarithmic_) {
@@ -89,7 +89,7 @@ std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Window& win
   std::vector<Isochrone> result;
   for (double tau : times) {
     const auto scaled = [tau](State unit) { return State{tau * unit.u, tau * unit.v}; };
-    // Returns the last state inside, between a direction outside and one inside.
+    // Returns the last state inside the window between a direction outside and a direction inside.
     const auto border = [&](double outside, double within) {
       const auto is_inside = [&](double direction) { return window.contains(scaled(directions.unit(direction))); };
       return scaled(directions.unit(reduction::last_where(is_inside, within, outside)));

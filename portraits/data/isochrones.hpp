@@ -7,24 +7,25 @@
 
 namespace contensou::portraits {
 
-/// Usual number of isochrones.
+/// Usual number of isochrones, the lines of all states with one stop time.
 inline constexpr int usual_isochrones = 7;
 
-/// The times of isochrones, increasing, and the step of which they are all multiples; 0 if there is none.
+/// The times of isochrones, increasing. All are multiples of the step; it is 0 if there is no such step.
 struct IsochroneTimes {
   std::vector<double> times;
   double step;
 };
 
-/// Returns the requested times sorted, else multiples of a round time up to `last`: about the requested number, as
-/// nearly as round times allow. Without a number it returns about the usual number, by the roundest steps.
+/// Returns the requested times, sorted. Without requested times it returns multiples of a round step up to `last`. A
+/// requested number of times is met as nearly as round steps allow; otherwise steps are the roundest for about `usual`
+/// times.
 IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int usual = usual_isochrones);
 
-/// Returns the parts of isochrones in the window of the half-plane, by increasing time. Along each, v/u turns from u >
-/// 0 to u < 0.
+/// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along each, the direction v/u
+/// turns from u > 0 to u < 0.
 ///
-/// By tau*(c u, c v) = c tau*(u, v) one isochrone is computed, as a function of the direction v/u, and the others are
-/// its copies. Points are close enough for straight lines between them, and end on the border to the last digits.
+/// Because tau*(c u, c v) = c tau*(u, v), one isochrone is computed as a function of the direction v/u, and the others
+/// are scaled copies. Points are so close that straight lines join them well. Ends lie exactly on the border.
 /// @param logarithmic  true for logarithmic axes; then the window is one of positive u and v
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Window& window, const std::vector<double>& times,
                                   bool logarithmic = false);

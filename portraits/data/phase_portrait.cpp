@@ -35,21 +35,21 @@ State default_sides(const ReducedSystem& system, View view, const std::vector<St
   for (const State& state : shown) far = {std::max(far.u, std::abs(state.u)), std::max(far.v, state.v)};
   constexpr double margin = 1.2;
   if (view == View::patch || view == View::log || view == View::blowup) {
-    // Both axes are speeds at the patch; in the blow-up's chart one is u.
+    // Both axes of the view patch are speeds at the patch. In the view blowup, one axis is u.
     const double side = margin * std::max(system.mu() * far.u, far.v);
     if (side > 0) return {view == View::blowup && far.u > 0 ? margin * far.u : side / system.mu(), side};
     return {1, system.mu()};
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
-  // Sliding and pivoting take the same time along the two borders, so that neither is squeezed against an axis. Above a
-  // large k the window ends, because balls there slide as if they did not spin.
+  // On the two borders, sliding and pivoting take the same time, so that neither is squeezed against an axis. The
+  // window does not reach above a large k, because balls there slide as if they did not spin.
   constexpr double large = 20;
   const double sliding = system.sliding_limit(1) / (1 - system.drive());
   return {1, round_down(std::min(system.pivoting_limit(1) / sliding, large * system.mu()))};
 }
 
-/// Returns two flags: the axis of v may be bent; on a linear axis the plane would be a comb of verticals.
+/// Returns two flags: the axis of v may be bent; a linear axis would show a comb of vertical lines.
 std::pair<bool, bool> bends(const reduction::PhasePlane& plane) {
   constexpr double comb = 12;
   const auto& [direction, k, order] = plane.tangents.front();
@@ -76,12 +76,12 @@ Instant instant(const OrbitPoint& point, double left, double mu, double ln_k_sto
   return instant({point.u, point.v, point.ln_v, left}, mu, ln_k_stop);
 }
 
-/// Returns the visible change of ln k; beyond |ln k| = 20 orbits hug an axis.
+/// Returns the visible change of ln k. Beyond |ln k| = 20 orbits cannot be distinguished from an axis.
 double turn(const Instant& a, const Instant& b) {
   return std::abs(std::clamp(a.ln_k, -20.0, 20.0) - std::clamp(b.ln_k, -20.0, 20.0));
 }
 
-/// Returns the last number from `from` on in the direction of a step before a condition fails for good.
+/// Starting at `from`, in the direction of a step, returns the last number for which a condition holds.
 template <class Holds>
 double last_along(Holds holds, double from, double step) {
   for (; holds(from + step); step *= 1.5) from += step;
@@ -126,7 +126,7 @@ class OrbitTracer {
       if (scale_.linear()) {
         result.push_back(orbit({seed.u, speed(seed)}));
       } else {
-        // Scale the one curve, because v may be too small for a double.
+        // Use copies of one curve, because v may be too small for a double.
         constexpr double above = 9;
         if (!curve) curve = contensou::portraits::orbit_through(flow_, 0, ln_w(0), above);
         result.push_back(copied(*curve, seed));
@@ -147,7 +147,7 @@ class OrbitTracer {
 
   double ln_k(const Seed& at) const { return at.ln_v - std::log(system_.mu() * at.u); }
 
-  /// Returns ln w of the similarity curve itself, of which the orbit is a scaled copy.
+  /// Returns ln w of the similarity curve itself. The orbit is a scaled copy of this curve.
   double ln_w(double ln_k) const {
     const reduction::SimilarityCurve& curve = *flow_.solution().through(ln_k);
     return curve.ln_w(curve.chart().coordinate(ln_k));
@@ -158,8 +158,8 @@ class OrbitTracer {
     struct Step {
       double place, across;
     };
-    // Places 0 to 1 are the upper border, 1 to 2 the right one, downwards. With a drive orbits also begin on the lower
-    // border, 2 to 3, because it is no orbit then.
+    // Places from 0 to 1 lie on the upper border, from 1 to 2 on the right border, downwards. With a drive the lower
+    // border is no orbit, and orbits also begin there, at places from 2 to 3.
     const auto on_border = [this](double place) {
       if (place < 1) return Seed{place * U_, std::log(V_)};
       return place < 2 ? Seed{U_, scale_.ln_v(2 - place)} : Seed{(3 - place) * U_, -infinity};
@@ -169,7 +169,7 @@ class OrbitTracer {
     const int all_steps = (system_.drive() > 0 ? 3 : 2) * steps;
     for (int i = 0; i < all_steps; ++i) {
       const Seed at = on_border((i + 0.5) / steps);
-      // Rates divided by speeds depend on k alone, and below this ln k they are constant.
+      // Below this ln k rates divided by speeds are constant, because they depend on k alone.
       constexpr double lowest = -20;
       const double k = std::exp(std::max(ln_k(at), lowest));
       const auto rate = system_.field({1 / system_.mu(), k});
@@ -194,8 +194,8 @@ class OrbitTracer {
     return result;
   }
 
-  /// Returns a start on the border in a sector between two invariant half-lines that may be too narrow for the steps of
-  /// seeds: halfway between two rays, or at half or twice the ratio k of the ray next to an axis.
+  /// Returns a start on the border for a sector between two invariant half-lines that may be too narrow for the steps
+  /// of seeds. The start lies halfway between two rays, or at half or twice the k of the ray next to an axis.
   Seed amid(const reduction::TerminalChart& sector) const {
     const auto [low, high] = std::minmax({sector.log_terminal_ratio(), sector.log_far_ratio()});
     const double half = std::log(2);
@@ -205,7 +205,7 @@ class OrbitTracer {
     return {std::min(std::exp(ln_top - ln_k) / system_.mu(), U_), ln_top};
   }
 
-  /// Returns the orbit from a start, as scaled rows of an orbit on the same curve.
+  /// Returns the orbit from a start. It consists of the scaled rows of another orbit on the same similarity curve.
   PortraitOrbit copied(const PortraitOrbit& curve, const Seed& start) const {
     const double ln_k_start = ln_k(start);
     const double factor = system_.mu() * start.u * std::exp(-ln_w(ln_k_start));
@@ -235,7 +235,7 @@ class OrbitTracer {
     return std::log(flow_.terminal().end_of(start.u == 0 ? infinity : start.v / (system_.mu() * std::abs(start.u))).k);
   }
 
-  /// Computes the orbit, first by xi while k visibly changes, then by equal steps of the logarithm of the time left.
+  /// Computes the orbit: first in steps of xi while k visibly changes, then in equal steps of ln (time left).
   Track exact(State start) const {
     const Orbit orbit = flow_.orbit(start);
     const auto distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
@@ -271,7 +271,7 @@ class OrbitTracer {
     return std::max({u, v, turn(a, b) / 0.4, folds});
   }
 
-  /// Returns the state at which the orbit through a point enters the window: the scaled curve, followed backwards.
+  /// Returns the state at which the orbit through a point enters the window, by following the scaled curve backwards.
   State entry(State point) const {
     const double mu = system_.mu();
     const double ln_k = std::log(point.v / (mu * std::abs(point.u)));
@@ -343,7 +343,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
   if (!request.drawn_only || shows_window(view)) {
     portrait.isochrones = isochrones(flow, window, times.times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
-    constexpr double most = 4;  // at most this factor more orbits in a part of a window
+    constexpr double most = 4;  // a part of a window has at most this factor more orbits
     const double denser = std::clamp(window.u() / window.sides()[0], 1.0, most);
     portrait.orbits =
         tracer.orbits(request.orbits.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));
@@ -362,9 +362,9 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
   return portrait;
 }
 
-/// Returns the stop times of the isochrones of each plane: the requested ones, else multiples of a round time up to the
-/// last. Without a requested number, the steps are the roundest. If the last times of compared planes differ much, each
-/// has a number of times of one series 1, 2, 5, 10, below its own last.
+/// Returns the stop times of the isochrones of each plane: the requested times, else multiples of a round time up to
+/// the last time. Without a requested number, the steps are the roundest. If the last times of compared planes differ
+/// much, all times are from one series 1, 2, 5, 10, and each plane has a number of them below its own last time.
 /// @param lasts  last stop times of the planes
 std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const PortraitRequest& request) {
   constexpr double near = 0.95, alike = 3, of_decade = 3;
@@ -395,7 +395,7 @@ std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const 
   if (request.highlight) shown.push_back(*request.highlight);
   for (const Flow& flow : flows) sides.push_back(default_sides(flow.system(), view, shown));
   const auto largest = [&](double State::*side) { return std::ranges::max(sides, {}, side).*side; };
-  // Without points to show, v is the smallest, so that no plane is filled with mere sliding.
+  // Without points to show, take the smallest v of all planes, so that no plane is filled with mere sliding.
   const bool rims = view == View::patch;
   const double u = largest(&State::u);
   const double v = shown.empty() && !rims ? std::ranges::min(sides, {}, &State::v).v : largest(&State::v);
@@ -434,7 +434,7 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
           : here;
   const double last = last_along([&](double xi) { return ln_size(xi) > size - downstream; }, here, -1);
   Track track{at(first)};
-  // Take u if it does not underflow, because ln v - ln k has lost its digits where orbits hug the axis.
+  // Use u if it does not underflow, because ln v - ln k has lost its digits for orbits next to the axis.
   const auto its_ln_size = [mu = flow.system().mu()](const Instant& it) {
     return (it.u > 0 ? std::log(mu * it.u) : it.ln_v - it.ln_k) + std::max(it.ln_k, 0.0);
   };

@@ -31,7 +31,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// The directions q of a sector, or of a full turn without sectors, as a function of x. x grows in the direction of the
+/// Maps a number x to the directions q of a sector, or of a full turn without sectors. x grows in the direction of the
 /// motion, and directions are dense towards both ends.
 struct Course {
   std::function<double(double x)> q;
@@ -39,7 +39,7 @@ struct Course {
 };
 
 Course course_of(const PlanarSector& sector) {
-  // Angles nearer to a ray cannot be distinguished. A border is known to some digits only.
+  // A ray is distinguished from smaller angles than a border, which is accurate to some digits only.
   const auto nearest = [](bool ray) { return ray ? 25.0 : 12.0; };
   const auto q = [=, length = sector.to - sector.from](double x) {
     return x < 0 ? sector.from + length / (1 + std::exp(-x)) : sector.to - length / (1 + std::exp(x));
@@ -59,7 +59,7 @@ std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
     if (line.size() < 2) continue;
     PortraitOrbit part = columns(line, infinity);
     for (Eigen::Index i = 0; i < part.rows(); ++i) {
-      // A chord may break the order in the last digits.
+      // A chord may change the order of times in the last digits.
       part.tau_left[i] = std::min(time_left({part.u[i], part.v[i]}), i > 0 ? part.tau_left[i - 1] : infinity);
     }
     parts.push_back(std::move(part));
@@ -67,7 +67,7 @@ std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
   return parts;
 }
 
-/// Traces orbits: by a scaling along the directions q, else forwards and backwards in time.
+/// Traces orbits: with a scaling along the directions q, otherwise forwards and backwards in time.
 class PlanarTracer {
  public:
   PlanarTracer(const PlanarReduction& plane, const Window& window)
@@ -95,14 +95,14 @@ class PlanarTracer {
     if (plane.turn() != nullptr) read_turn();
   }
 
-  /// Returns the orbit through a point, or from the point on, in parts that lie in the window.
+  /// Returns the orbit through a point, or from the point on, as the parts that lie in the window.
   std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
     if (plane_.scaling() && x == plane_.centre()) return {};
     return parts_of(plane_.scaling() ? line(x, from_here) : motion(x, from_here), window_,
                     [this](const Vector2d& at) { return time_left(at); });
   }
 
-  /// Returns the number of the sector of a point, 0 without sectors; empty if the field has no value there.
+  /// Returns the number of the sector that contains a point, 0 without sectors; empty if the field has no value.
   std::optional<std::size_t> sector(const Vector2d& x) const {
     if (!has_value(x)) return std::nullopt;
     if (!plane_.scaling()) return 0;
@@ -200,19 +200,19 @@ class PlanarTracer {
   double time_left(const Vector2d& x) const {
     if (!plane_.scaling()) return infinity;
     try {
-      // A picture has one kind of times: to the centre, or to infinity if motions become slower with distance.
+      // A picture shows one kind of times: to the centre, or to infinity if motions become slower with distance.
       const reduction::PlanarOrbit orbit = plane_.orbit(x);
       const PlanarEnd timed = plane_.scaling()->time < 0 ? PlanarEnd::infinity : PlanarEnd::centre;
       return orbit.end() == timed ? orbit.end_time() : infinity;
     } catch (const std::domain_error&) {
-      return infinity;  // the chord leaves the part of the plane where the field has values
+      return infinity;  // the chord leaves the region in which the field has values
     }
   }
-  /// Returns p of the sector's curve.
+  /// Returns p of the sector's curve at q.
   double level(double q) const { return -plane_.first_integral(plane_.point(q, 0)); }
 
   void read_turn() {
-    constexpr double margin = 1e-9;  // L jumps by a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // L jumps by the change of a turn between 2 pi and 0
     growth_ = level(2 * pi - margin) - level(margin);
     const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
     sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
@@ -250,7 +250,7 @@ class PlanarTracer {
 
   bool seen(double p) const { return p > lowest_ && p < highest_; }
 
-  /// Returns R, whose sign is the direction of the motion on a ray.
+  /// Returns R of a ray. Its sign is the direction of the motion on the ray.
   double radial_at(double q) const {
     for (const auto& ray : plane_.rays()) {
       if (std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9) return ray.radial;
@@ -258,7 +258,7 @@ class PlanarTracer {
     return plane_.end(plane_.point(q, 0)) == PlanarEnd::centre ? -1 : 1;
   }
 
-  /// Returns the motion on a ray, from one end of the visible range to the other, or between two p.
+  /// Returns the motion on a ray, between the ends of the visible range or between two values of p.
   Polyline ray(double q, std::optional<double> from, std::optional<double> to) const {
     Polyline line;
     const double radial = radial_at(q);
@@ -271,12 +271,12 @@ class PlanarTracer {
     return line;
   }
 
-  /// A system, and its steps in time.
+  /// A system and its orbits by steps in time.
   struct Way {
     PlanarReduction plane, by_steps;
   };
 
-  /// Returns the orbit through a point, or from the point on, in time.
+  /// Returns the orbit through a point, or from the point on, by steps in time.
   Polyline motion(const Vector2d& x, bool from_here) const {
     Polyline line;
     if (!from_here) line = follow(ways_[1], x);
@@ -300,7 +300,7 @@ class PlanarTracer {
   std::vector<Course> courses_;
   double growth_ = 0;      ///< change of p in a counter-clockwise turn
   double sense_ = 1;       ///< direction of the motion
-  std::vector<Way> ways_;  ///< forwards and backwards, without a scaling
+  std::vector<Way> ways_;  ///< forwards and backwards in time; only without a scaling
 };
 
 /// Appends the orbit from one x to another, with visibly close points.
@@ -349,7 +349,7 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
-/// Follows a motion out of the window and for some of its sides beyond, because it may return.
+/// Follows a motion until it leaves the window, and for some window sides farther, because it may return.
 Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   const auto& [plane, by_steps] = way;
   const Vector2d f = plane.field()(x);
@@ -371,7 +371,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   Vector2d here = x;
   double time = 0, step = near / speed;
   const double last = motion.period().value_or(infinity);
-  // An orbit that tends to a closed one visits the same cells of the picture again and again.
+  // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
   constexpr int cells = 300, turns = 3;
   std::map<std::pair<int, int>, std::pair<int, int>> visits;  // last point in a cell, and number of visits
   for (int i = 0; i < most && time < last; ++i) {
@@ -382,7 +382,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
     } catch (const std::domain_error&) {
       step /= 2;
       if (step > 1e-6 * near / speed) continue;
-      // The reduction ends here, but steps in time may go on.
+      // The reduction ends here, but steps in time may continue the orbit.
       if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
       motion = by_steps.orbit(here);
       time = 0;
@@ -415,8 +415,8 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   return line;
 }
 
-/// Returns orbits that fill the window. Each goes through the middle of the widest gap. Its mirror images follow if
-/// they have as much room, because most systems have such a symmetry.
+/// Returns orbits that fill the window. Each goes through the middle of the widest gap. If its mirror images have as
+/// much room, they are added, too, because most systems have such a symmetry.
 std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
   const Panel panel = panel_of(window);
@@ -467,7 +467,7 @@ Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
-/// Returns the window of a request, and checks both.
+/// Returns the requested window or the default one, and checks the request.
 Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
   if (request.view || request.comparison || request.stepped || request.linear || request.drawn_only ||
       request.time_unit != 1) {
@@ -518,7 +518,7 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   }
   const std::vector<double> times = tracer.times_at_border();
   if (!times.empty()) {
-    // Next to a ray that leads elsewhere, times are unbounded.
+    // Next to a ray that leads away from the centre, times are unbounded.
     const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
     const auto [at, step] = isochrone_times(request, last);
     portrait.isochrones = tracer.isochrones(at);

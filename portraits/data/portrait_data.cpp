@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
-// A portrait `of` (2.6) has curves with ln_v and k; it is null for another system.
+// `of` is the portrait of system (2.6), whose curves have ln_v and k; it is null for another system.
 
 /// Returns true if beta is an axis of the view. The data then contain it for each state of an orbit.
 bool has_beta(const PhasePortrait* of) { return of != nullptr && of->view == View::regularised; }
@@ -33,7 +33,7 @@ Json json_of(const PortraitOrbit& orbit, const PhasePortrait* of) {
   Json json{{"u", list(orbit.u)}, {"v", list(orbit.v)}};
   if (of) {
     json["ln_v"] = list(orbit.ln_v);
-    // The logarithm does not underflow. Eigen's exp never gives less than 5.6e-309.
+    // The logarithm does not underflow, but Eigen's exp does not return numbers below 5.6e-309.
     json["k"] = list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
   }
   if (const Eigen::ArrayXd betas = betas_of(orbit, of); betas.size() > 0) json["beta"] = list(betas);
@@ -64,7 +64,7 @@ void add_curves(Json& json, const Portrait& portrait, const PhasePortrait* of) {
 /// The curves of a portrait as rows of CSV.
 struct Table {
   const PhasePortrait* of = nullptr;
-  double seconds_per_tau = 0;  ///< > 0: with a column t
+  double seconds_per_tau = 0;  ///< if > 0, the table has a column t in seconds
   std::string lead = {};       ///< first cells of each row
   std::string rows = {};
 
@@ -97,7 +97,7 @@ struct Table {
   }
 };
 
-/// Adds the source to the members that say which plane it is.
+/// Adds the source to the members that describe the plane.
 Json origin_of(Json json, const PortraitSource& source) {
   if (!source.version.empty()) json["version"] = source.version;
   if (!source.ball.empty()) json.update({{"ball", source.ball}, {"seconds_per_tau", source.seconds_per_tau}});

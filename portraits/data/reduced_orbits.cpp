@@ -21,7 +21,7 @@ namespace {
       "another start is needed");
 }
 
-/// Orbits of (2.6). ln v is finite where v, and its angle, are too small for a double.
+/// Returns orbits of (2.6). The code uses ln v, which is finite even if v, and the angle, are too small for a double.
 ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start) {
   const double ln_u = std::log(std::abs(start[0])), ln_v = std::log(std::abs(start[1]));
   const double ln_mu = std::log(flow.system().mu()), ln_k = ln_v - ln_mu - ln_u;
@@ -37,7 +37,7 @@ ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start)
     const double x = curve.chart().log_ratio(there);
     return Point{x, integral + curve.ln_w(there) + ln_mu + x};
   };
-  // Points are dense about k = 1. For small mu u falls while ln k falls by thousands.
+  // Points are dense about k = 1. For small mu, u falls while ln k falls by thousands.
   constexpr int upstream = 400, most = 4000;
   for (int i = upstream; i > 0; --i) from.orbit[0].push_back(at(xi + 0.05 * i));
   double there = xi;
@@ -74,7 +74,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
       try {
         points.push_back({angle, constant - level(angle)});
       } catch (const std::domain_error&) {
-        // in a narrow sector no double is so close to its ray
+        // in a narrow sector there may be no double this close to its ray
       }
     }
     if (points.size() < 2) return Polyline();
@@ -88,7 +88,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
   if (plane.rays().empty()) {
     // In a focus the turns are copies of one another.
     constexpr int pieces = 400;
-    constexpr double margin = 1e-9;  // L jumps by a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // L jumps by the change of a turn between 2 pi and 0
     for (int i = 0; i <= pieces; ++i) angles.push_back(margin + (2 * pi - 2 * margin) * i / pieces);
     if (q < 0) from.start.x += 2 * pi;
     const Polyline turn = line(angles, integral);

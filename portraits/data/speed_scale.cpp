@@ -17,7 +17,7 @@ double SpeedScale::slope(double ln_v) const {
 
 double SpeedScale::ln_v(double height) const {
   if (linear()) return std::log(top) + std::log(height);
-  // Newton's method in l = ln x^s from above. The height is convex in l, so each step falls and none falls too far.
+  // Newton's method in l = ln x^s, from above. The height is convex in l, so each step decreases l and none overshoots.
   const double twice = std::log(2 * height);
   double l = std::min(twice, exponent * twice);
   for (int i = 0; i < 60; ++i) {

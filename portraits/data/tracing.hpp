@@ -14,16 +14,16 @@ namespace contensou::portraits {
 /// @throws std::domain_error  if a number is negative, or a point is not finite or lies outside
 void require(const PortraitRequest& request, const Window& window);
 
-/// Returns an empty panel that shows a window.
+/// Returns an empty panel whose axes are those of a window.
 Panel panel_of(const Window& window);
 
-/// Returns a line as columns, with one time left.
+/// Returns a line as columns, with the same time left at every point.
 PortraitOrbit columns(const Polyline& line, double tau_left);
 
-/// Appends the points of a curve at the given places, with further points between until neighbours are near.
+/// Appends the points of a curve at the given places, and points between them until neighbours are near.
 /// @param track     points of the curve up to the place `from`, at least one
 /// @param at        returns the point at a place
-/// @param distance  returns the visible distance of two points; at most 1 is allowed
+/// @param distance  returns the visible distance of two points, in units of the largest allowed distance
 template <class Place, class At, class Distance>
 void refine(std::vector<Place>& track, double from, const std::vector<double>& places, At at, Distance distance) {
   std::vector<std::pair<double, Place>> open;  // the next point is at the back

@@ -10,8 +10,8 @@
 
 namespace contensou::portraits {
 
-/// Places through which a further orbit of a picture may go. Each lies in a sector, which orbits do not leave. The next
-/// orbit goes through the middle of the widest gap. Sectors are compared; a State belongs to each place.
+/// Places through which a further orbit of a picture may go. Each place lies in a sector that no orbit leaves, and has
+/// a State. The next orbit goes through the middle of the widest gap of all sectors.
 template <class Sector, class State>
 class WidestGaps {
  public:
@@ -23,9 +23,9 @@ class WidestGaps {
     double gap = first;     ///< distance to the nearest orbit of its sector, or to the border
   };
 
-  /// @param columns, rows  numbers of places on paper
-  /// @param seed_at        returns the seed at a place, if an orbit may go through it
-  /// @param unit           lengths of (1, 0) and (0, 1)
+  /// @param columns, rows  numbers of places along the two sides of the panel
+  /// @param seed_at        returns the seed at a place; empty if no orbit may go through it
+  /// @param unit           lengths on paper of the vectors (1, 0) and (0, 1)
   template <class SeedAt>
   WidestGaps(int columns, int rows, SeedAt seed_at, Point unit) : unit_(unit) {
     for (int i = 0; i < columns; ++i) {
@@ -37,7 +37,7 @@ class WidestGaps {
       for (const Seed& other : seeds_) {
         if (other.sector != seed.sector) seed.border = std::min(seed.border, 2 * distance(seed.place, other.place));
       }
-      seed.gap += seed.border;  // so that each sector gets an orbit, in its middle
+      seed.gap += seed.border;  // the middle of each sector comes first, so that each gets an orbit
     }
   }
 
@@ -54,7 +54,7 @@ class WidestGaps {
     }
   }
 
-  /// Removes the places with a smaller gap.
+  /// Removes the places whose gap is smaller than a limit.
   void drop_below(double gap) {
     std::erase_if(seeds_, [&](const Seed& seed) { return seed.gap < gap; });
   }

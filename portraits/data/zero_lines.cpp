@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// The place of a zero between two corners of a square; none without one, and at a pole.
+/// Returns the place of a zero between two corners of a square; empty if there is none, and at a pole.
 std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, Vector2d from, Vector2d to, double at_from,
                                      double at_to) {
   if (!(std::abs(at_from) < INFINITY && std::abs(at_to) < INFINITY) || (at_from < 0) == (at_to < 0))
@@ -40,7 +40,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
   const Vector2d extent = piece.high - piece.low;
   const int columns = std::max(2, static_cast<int>(std::lround(across * extent[0] / sides[0])));
   const int rows = std::max(2, static_cast<int>(std::lround(across * extent[1] / sides[1])));
-  // Not evenly from end to end: axes and lines of round numbers would run along sides of squares.
+  // The grid is shifted, because axes and lines of round numbers would otherwise run along sides of squares.
   const auto part = [](int i, int count) { return i == 0 ? 0 : i == count ? 1 : (i - 0.363) / count; };
   const auto corner = [&](int i, int j) {
     return Vector2d(piece.low + Vector2d(part(i, columns), part(j, rows)).cwiseProduct(extent));
@@ -50,7 +50,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     for (int i = 0; i <= columns; ++i) values.push_back(piece.value(corner(i, j)));
   }
   const auto value = [&](int i, int j) -> double& { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
-  // Rounding decides the sign on a border where V is 0: there it becomes the opposite of the sign inside.
+  // On a border at which V is 0, rounding decides the sign. There V gets the sign opposite to that inside.
   constexpr double rounding = 1e-12;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
@@ -60,7 +60,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     }
   }
 
-  // Sides of squares, by their first corner and their direction, with the zero on them and the sides it is joined to.
+  // Maps a side of a square (its first corner and its direction) to the zero on it and the sides joined to it.
   using Side = std::pair<std::pair<int, int>, bool>;
   struct Crossing {
     Vector2d at;
@@ -85,7 +85,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
            {Side{{i, j}, false}, Side{{i + 1, j}, true}, Side{{i, j + 1}, false}, Side{{i, j}, true}}) {
         if (crossings.contains(side)) crossed.push_back(side);
       }
-      // Counter-clockwise; of four crossings two curves cross each other.
+      // Sides are ordered counter-clockwise. Of four crossings, opposite ones lie on one curve.
       const std::size_t lines = crossed.size() / 2;
       for (std::size_t k = 0; k < lines; ++k) {
         crossings[crossed[k]].joined.push_back(crossed[k + lines]);
@@ -105,12 +105,12 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
       std::erase(crossings[next].joined, side);
       side = next;
     }
-    // Rounding draws dots on curves on which V touches 0 without a change of sign.
+    // Rounding produces dots on curves on which V touches 0 without a change of sign. Such short lines are left out.
     const double length = std::abs(line.front().x - line[line.size() / 2].x) / sides[0] +
                           std::abs(line.front().y - line[line.size() / 2].y) / sides[1];
     if (length * across > 1) lines.push_back(std::move(line));
   };
-  // Ends first, and closed curves from any point.
+  // First the lines that have ends; then closed curves, from any point.
   for (const std::size_t ways : {std::size_t{1}, std::size_t{2}}) {
     for (auto& [side, crossing] : crossings) {
       if (crossing.joined.size() == ways) follow(side);

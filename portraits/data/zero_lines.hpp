@@ -9,7 +9,7 @@
 
 namespace contensou::portraits {
 
-/// Returns the curves on which a function changes its sign within its rectangle, by squares of 1/160 of a window.
+/// Returns the curves on which a function changes its sign within its rectangle. Squares are 1/160 of a window.
 /// @param sides  sides of the window
 std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Eigen::Vector2d& sides);
 

@@ -1,5 +1,5 @@
-// All use of gnuplot. gnuplot-iostream writes the data of the script. It could also start gnuplot, but does not report
-// that gnuplot is missing, fails or hangs.
+// All use of gnuplot. gnuplot-iostream writes the data of the script. It is not used to start gnuplot, because it does
+// not report that gnuplot is missing, fails or hangs.
 #include "contensou/portraits/gnuplot.hpp"
 
 #include <algorithm>
@@ -49,16 +49,16 @@ constexpr std::array formats{
 /// Seconds that gnuplot may take. A film takes 10 s, and on a busy machine ten times as long.
 constexpr unsigned time_limit = 300;
 
-/// A terminal of gnuplot and its sizes for length 1 in its unit: points for PDF and EPS, else pixels.
+/// A terminal of gnuplot and its sizes for a length of 1, in its own unit: points for PDF and EPS, else pixels.
 struct Terminal {
   std::string_view name, font;
   double units_per_mm;
-  double letter, line, symbol;  ///< symbol 0: proportional to the letters
+  double letter, line, symbol;  ///< letter and line sizes; symbol 0: proportional to the letters
   double dash;                  ///< 0: proportional to the width of the line
 };
 
-/// Returns the terminal of a format. Cairo's terminals take letter sizes for 96 dpi. PDF and EPS halve letters without
-/// a fontscale; they halve line widths, EPS twice.
+/// Returns the terminal of a format. Cairo's terminals take letter sizes for 96 dpi. Without a fontscale, PDF and EPS
+/// halve letters. Both halve line widths, EPS twice.
 Terminal terminal_of(PictureFormat format, double dpi) {
   constexpr double points = 72 / 25.4;
   switch (format) {
@@ -75,7 +75,7 @@ Terminal terminal_of(PictureFormat format, double dpi) {
   }
 }
 
-/// gnuplot's command for the format, and the size of a point of size 1.
+/// gnuplot's command for the format, and the size of a mark whose point size is 1.
 struct Canvas {
   std::string command;
   double point_mm;
@@ -90,7 +90,7 @@ Canvas canvas(const Figure& figure, double letter, PictureFormat format) {
   const bool vector = format == PictureFormat::pdf || format == PictureFormat::eps;
   const std::string size = vector ? fmt::format("{}cm,{}cm", width / 10, height / 10)
                                   : fmt::format("{:.0f},{:.0f}", width * per_mm, height * per_mm);
-  constexpr double dash = 0.6;  // widths of a line, as in SVG, whose dashes are longer for wider lines
+  constexpr double dash = 0.6;  // in widths of a line, as in SVG, whose dashes are longer for wider lines
   return {
       fmt::format("set terminal {} size {} enhanced rounded background '#{:06x}' font '{},{:.4g}' linewidth {:.4g}{}",
                   terminal.name, size, figure.theme.ground.rgb, figure.font.empty() ? terminal.font : figure.font,
@@ -129,15 +129,15 @@ std::string enhanced(const Text& text, double size) {
   return result + '}';
 }
 
-/// Returns a gnuplot string in single quotes, in which nothing is executed and only the quote is special. Control
-/// characters, which would end the line, become spaces. Bytes that are not UTF-8 become U+FFFD, by nlohmann's writer.
+/// Returns a gnuplot string in single quotes. In such a string nothing is executed and only the quote is special.
+/// Control characters, which would end the line, become spaces. Bytes that are not UTF-8 become U+FFFD.
 std::string quoted(const std::string& text) {
   using nlohmann::json;
   const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
   std::string result = "'";
   char last = 0;
   for (char c : valid) {
-    // Two quotes stand for one. Gnuplot 5.4 does not read two of those in a row.
+    // Two quotes stand for one. Gnuplot 5.4 does not read two such pairs in a row.
     if (c == '\'' && last == c) {
       result += "' . \"'\" . '";
     } else if (c == '\'') {
@@ -163,7 +163,7 @@ std::string line_style(const Stroke& stroke) {
                                                     : " dt 1");
 }
 
-/// gnuplot's numbers of a shape and of its filled form, which is drawn first in the ground's colour; 0: none.
+/// gnuplot's numbers of a shape and of its filled form; 0: none. The filled form is drawn first, as background.
 struct PointType {
   int outline, ground;
 };
@@ -186,7 +186,7 @@ std::vector<Row> rows(const Polyline& line) {
   return result;
 }
 
-/// The inline data of a command, which its plots '-' read.
+/// The inline data that the plots '-' of one command read.
 class Data {
  public:
   Data() {
@@ -250,7 +250,7 @@ class Script {
   }
 
   void axis(const char* which, const Axis& axis, const std::vector<Axis::Tick>& ticks) {
-    // Reset the range first: the range of the last panel may be impossible on this scale.
+    // Reset the range first, because the range of the previous panel may be impossible on this scale.
     put("set {0}range [*:*]\n{3} logscale {0}\nset {0}range [{1:.8g}:{2:.8g}]\n", which, axis.low, axis.high,
         axis.logarithmic ? "set" : "unset");
     std::vector<std::string> places;
@@ -262,7 +262,7 @@ class Script {
       put("set {0}tics nomirror out scale 0.6 ({1})\n", which, fmt::join(places, ", "));
   }
 
-  /// Adds a plot to the command; its data follow the command.
+  /// Adds a plot to the current command. The data of its plots follow the command.
   void plot(const std::string& style) { put("{}'-' {} notitle", std::exchange(separator_, next_plot), style); }
 
   /// Adds a colour map, on its own linear axes, and its scale.
@@ -342,7 +342,7 @@ class Script {
     data.add(places);
   }
 
-  /// Draws texts, the colour bar and samples of the legend in a plot of its own that covers the page, in millimetres.
+  /// Draws texts, the colour bar and the samples of the legend as one more plot, which covers the page, in millimetres.
   void page() {
     put("set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\n"
         "unset border\nunset tics\nunset key\nset xrange [0:{}]\nset yrange [0:{}]\n",
@@ -412,11 +412,11 @@ std::ptrdiff_t count(std::string_view text, std::string_view part) {
   return found;
 }
 
-/// Adds the size of the page in millimetres, and the attribute to keep spaces. Italics divide a text into elements, at
-/// whose ends some SVG viewers drop spaces.
+/// Adds the size of the page in millimetres, and the attribute that keeps spaces. Italics divide a text into elements,
+/// and some SVG viewers drop spaces at the ends of elements.
 std::string finished_svg(std::string svg, const Figure& figure) {
   replace_all(svg, "<text>", "<text xml:space=\"preserve\">");
-  // XML does not allow these, and gnuplot leaves them in texts: the end of CDATA, U+FFFE and U+FFFF.
+  // XML does not allow the end of CDATA, U+FFFE and U+FFFF, but gnuplot leaves them in texts.
   replace_all(svg, "]]>", "]]&gt;");
   replace_all(svg, "\xEF\xBF\xBE", "\xEF\xBF\xBD");
   replace_all(svg, "\xEF\xBF\xBF", "\xEF\xBF\xBD");
@@ -427,7 +427,7 @@ std::string finished_svg(std::string svg, const Figure& figure) {
   return svg;
 }
 
-/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. No offset in the file changes.
+/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. Offsets do not change.
 std::string without_date(std::string bytes, std::string_view before, std::string_view date) {
   const std::size_t at = bytes.find(before);
   if (at != std::string::npos && at + before.size() + date.size() <= bytes.size()) {
@@ -472,7 +472,7 @@ std::string script_of(const Figure& figure, PictureFormat format) {
 std::string drawn(const std::string& commands, PictureFormat format) {
   ProgramRun run;
   try {
-    run = run_program({"gnuplot", "-d"}, commands, time_limit);  // -d: without ~/.gnuplot
+    run = run_program({"gnuplot", "-d"}, commands, time_limit);  // -d: gnuplot ignores ~/.gnuplot
   } catch (const std::system_error& error) {
     throw GnuplotError(fmt::format("what gnuplot reads and writes does not fit: {}", error.code().message()));
   }

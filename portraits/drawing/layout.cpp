@@ -25,7 +25,7 @@ double value(const Axis& axis, double fraction) {
   return axis.low + fraction * (axis.high - axis.low);
 }
 
-/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; false if there is none.
+/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; returns false if none.
 bool clip(Point a, Point b, double& from, double& to) {
   from = 0;
   to = 1;
@@ -44,7 +44,7 @@ bool clip(Point a, Point b, double& from, double& to) {
   return from < to || (from == to && a.x == b.x && a.y == b.y);
 }
 
-/// Returns the distance of two places on paper. std::hypot is slower, to avoid an overflow that is impossible here.
+/// Returns the distance of two places on paper. std::hypot is slower, because it avoids an overflow, impossible here.
 double distance(Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   return std::sqrt(dx * dx + dy * dy);
@@ -106,7 +106,7 @@ Polyline thinned(const Panel& panel, const Polyline& line, double tolerance) {
     std::size_t middle = first;
     for (std::size_t i = first + 1; i < last; ++i) {
       const double off = off_chord(places[first], places[last], places[i]);
-      // Among equal distances take the first, independent of the last digits.
+      // Among distances that are equal up to rounding take the first.
       constexpr double same = 1e-9;
       if (off > max_off * (1 + same)) {
         max_off = off;
@@ -209,13 +209,13 @@ Point panel_size(const PaperSize& figure, int panels) {
 
 namespace {
 
-/// Breaks a text into lines of at most a width, in sizes of letters.
+/// Breaks a text into lines whose width is at most a limit, in letter sizes.
 std::vector<Text> broken(const Text& text, double width) {
   std::vector<Text> lines, words(1);
   for (const Run& run : text.runs()) {
     for (std::size_t begin = 0; begin <= run.words.size();) {
       std::size_t end = std::min(run.words.find(' ', begin), run.words.size());
-      // Several spaces are one place to break.
+      // Several spaces in a row are one place for a break.
       while (end + 1 < run.words.size() && run.words[end + 1] == ' ') ++end;
       words.back() += Text(Run{run.words.substr(begin, end - begin), run.italic, run.level});
       if (end < run.words.size()) words.emplace_back();
@@ -232,10 +232,10 @@ std::vector<Text> broken(const Text& text, double width) {
   return text.empty() ? std::vector<Text>{} : lines;
 }
 
-/// Height of a line of text. Lengths below are in sizes of letters.
+/// Height of a line of text. This and the following lengths are in letter sizes.
 constexpr double line_height = 1.45;
 
-/// Returns the ticks of an axis of a length: as many as leave room between their texts.
+/// Returns the ticks of an axis of a given length: as many as leave room between their texts.
 std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
   const auto room = [&](const Text& text) { return upright ? 1.5 : tick_size * text_width(text) + 1.2; };
   std::vector<Axis::Tick> all = axis.ticks;
@@ -251,7 +251,7 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
     for (double pieces = std::max(2.0, length / (upright ? 3 : 5));; pieces *= 0.75) {
       all.clear();
       const double step = round_step(range, pieces);
-      // Two neighbouring ticks must differ.
+      // The texts of two neighbouring ticks must differ.
       const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(end / step))) + 1, 5, 15);
       for (double at : multiples(axis.low - 1e-6 * step, axis.high + 1e-6 * step, step)) {
         all.push_back({at, number(std::abs(at) < 1e-9 * step ? 0 : at, digits)});
@@ -261,7 +261,7 @@ std::vector<Axis::Tick> ticks(const Axis& axis, double length, bool upright) {
       if (all.size() <= 2 || widest <= length * step / range) return all;
     }
   }
-  // Drop ticks that overlap the one before.
+  // Drop each tick whose text overlaps the text of the previous tick.
   std::vector<Axis::Tick> kept;
   double free = -1e300;
   for (const Axis::Tick& tick : all) {
@@ -279,7 +279,7 @@ double widest(const std::vector<Axis::Tick>& ticks) {
   return width;
 }
 
-/// Places the parts of a figure, with lengths in sizes of letters.
+/// Places the parts of a figure. Lengths are in letter sizes.
 class Compositor {
  public:
   explicit Compositor(const Figure& figure)
@@ -345,7 +345,7 @@ class Compositor {
     const int count = static_cast<int>(figure_.panels.size());
     const int columns = std::min(panel_columns(width * em_, count), figure_.max_columns), rows = count / columns;
     const double strip = width / columns;
-    // Heights come first: the ticks of y axes follow from them, and the margins from the ticks.
+    // Heights come first, because the ticks of y axes follow from heights, and the margins from these ticks.
     double above = 0.5, below = 0.5;
     for (const Panel& panel : figure_.panels) {
       above = std::max(above, 0.7 + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
@@ -431,7 +431,7 @@ class Compositor {
     const double bottom = layout_.panels.back().box.bottom / em_;
     const Box& first = layout_.panels.front().box;
     const double total = (first.bottom + first.height) / em_ - bottom;
-    // The bar stands next to the panels, which may be narrower than their room if they are to scale.
+    // The bar stands next to the panels. Panels to scale may be narrower than their room.
     double left = 0;
     constexpr double gap = 1.6;
     for (const PanelPlace& place : layout_.panels)
@@ -445,7 +445,7 @@ class Compositor {
       y -= line_height;
     }
     const auto count = static_cast<double>(bar.colours.size());
-    constexpr double overlap = 0.04;  // overlap, so that there is no seam
+    constexpr double overlap = 0.04;  // boxes overlap by this share, so that no seam is visible
     for (double i = 0; i < count; ++i) {
       const double from = height * i / count;
       layout_.colours.push_back(mm(left, bottom + from, 1, std::min(height / count + overlap, height - from)));
@@ -474,7 +474,7 @@ Figure trimmed(Figure figure) {
 }
 
 void widen(Figure& figure, std::size_t panel, double times) {
-  // Two rounds, because other numbers at the ticks change the width.
+  // Compute the layout twice, because other numbers at the ticks change the width.
   for (int i = 0; i < 2; ++i) {
     const Box box = lay_out(figure).panels[panel].box;
     Axis &x = figure.panels[panel].x, &y = figure.panels[panel].y;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double points_per_mm = 72.27 / 25.4;
 
-/// Characters beyond Latin letters, each with its mathematics.
+/// Characters that are not Latin letters, each followed by its TeX.
 constexpr std::string_view signs =
     " α\\alpha β\\beta γ\\gamma δ\\delta ε\\varepsilon ζ\\zeta η\\eta θ\\theta ι\\iota κ\\kappa"
     " λ\\lambda μ\\mu ν\\nu ξ\\xi π\\pi ρ\\rho σ\\sigma ς\\varsigma τ\\tau υ\\upsilon φ\\varphi"
@@ -30,7 +30,7 @@ constexpr std::string_view signs =
     " Ω\\Omega ·\\cdot{} ×\\times ∝\\propto ∞\\infty ≤\\le ≥\\ge →\\to −- ±\\pm °{}^\\circ …\\ldots"
     " ′' || << >> ";
 
-/// Returns a character of a text, or of mathematics, as TeX.
+/// Returns a character as TeX, inside mathematics or outside.
 std::string tex_character(std::string_view one, bool mathematics) {
   const auto first = static_cast<unsigned char>(one.front());
   if (one == no_break_space) return "~";
@@ -143,11 +143,11 @@ class Writer {
         axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
-  /// The data of an axis, or on a logarithmic axis their powers of ten, in a unit that TeX's fixed point can represent.
+  /// The coordinates of an axis, in a unit that TeX's fixed point can represent. On logarithmic axes: exponents.
   struct Coordinates {
     Axis axis;
     double origin = 0, unit = 1;  ///< origin and unit of the axis, in data
-    double mm, start;             ///< mm of a unit; place of 0 on the page
+    double mm, start;             ///< mm of a unit on the page; place of 0
     int digits;                   ///< digits behind the point, for hundredths of mm
 
     Coordinates(const Axis& of, double from_mm, double side_mm) : axis(of) {
@@ -174,7 +174,7 @@ class Writer {
     }
   };
 
-  /// Draws a panel: pgfplots draws the axes, TikZ the contents in units of the axes, because that is much faster.
+  /// Draws a panel. pgfplots draws the axes. TikZ draws the contents in units of the axes, which is much faster.
   void panel(std::size_t i) {
     const Panel& panel = figure_.panels[i];
     const Box& box = layout_.panels[i].box;
@@ -215,13 +215,13 @@ class Writer {
         if (!head) continue;
         const Point tail = on_paper(panel, head->at), tip = on_paper(panel, arrow.at);
         const double back_x = (tail.x - tip.x) * box.width, back_y = (tail.y - tip.y) * box.height;
-        // Returns the point some mm on paper behind the tip, and some to its left.
+        // Returns the point at a distance behind the tip and a distance to its left, in units of the head's length.
         const double length = layer.size * head_length * layout_.letter / std::hypot(back_x, back_y);
         const auto corner = [&](double back, double left) {
           return fmt::format("({:.4f}mm,{:.4f}mm)", length * (back * back_x + left * back_y),
                              length * (back * back_y - left * back_x));
         };
-        // This head needs no TikZ library.
+        // This arrow head needs no TikZ library.
         const double half = 0.325, notch = 0.7;
         put("\\fill[{}] {}--+{}--+{}--+{}--cycle;\n", name(layer.colour), at(arrow.at), corner(1, half),
             corner(notch, 0), corner(1, -half));
@@ -244,7 +244,7 @@ class Writer {
 
   const Figure& figure_;
   Layout layout_;
-  std::set<unsigned> used_;  ///< rgb of the colours
+  std::set<unsigned> used_;  ///< rgb values of the colours in use
   std::string tex_;
 };
 

@@ -1,4 +1,4 @@
-// The whole half-plane in one picture: the Poincare disc, also with the origin blown up.
+// The whole half-plane in one picture: the Poincare disc. In the view blowup the origin is blown up to a half-circle.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,7 @@ namespace {
 /// A polar map of the half-plane to a half-disc or half-annulus: rho = hypot(mu u, v), theta = atan(k), outer radius 1.
 struct PolarMap {
   double unit;  ///< unit of rho, a speed
-  double hole;  ///< radius of the half-circle that the origin is blown up to
+  double hole;  ///< radius of the half-circle to which the origin is blown up
 
   double radius(double rho) const {
     if (std::isinf(rho)) return 1;
@@ -65,7 +65,7 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   kind("degenerate", Marks::Shape::square);
 }
 
-/// Adds the directions of motion along the circles of the points at infinity and of the blown-up origin.
+/// Adds the directions of motion along the circle of the points at infinity and the circle of the blown-up origin.
 void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   std::vector<double> angles{0};  // angles of v = 0 and the invariant half-lines, up to u = 0
   for (const reduction::SingularPoint& point : drawing.portrait.plane.points) {
@@ -78,7 +78,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
     const double middle = (angles[i] + angles[i + 1]) / 2;
     const double k = std::tan(middle);
     const auto [force, moment] = system.law()(reduction::slip_of_ratio(k));
-    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // direction of theta
+    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // sign of the motion in theta
     for (double sign : {1.0, -1.0}) {
       for (double rho : {0.0, infinity}) {
         if (rho == 0 && map.hole == 0) continue;
@@ -95,7 +95,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const double mu = portrait.system().mu();
   const PolarMap map{portrait.window.v(), hole};
   Panel panel;
-  // Labels avoid the marks, however small the panel is.
+  // The distance of labels grows with the letters, so that labels avoid the marks in a small panel, too.
   const double letter = drawing.letter / std::min(drawing.panel_mm.x / 2.26, drawing.panel_mm.y / 1.26);
   const double off = std::max(0.075, 0.62 * letter), margin = std::max(0.13, off + 0.5 * letter);
   panel.x = {"", -1 - 0.13, 1 + 0.13, false, {}};
@@ -121,7 +121,7 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   PortraitPanel layers(drawing, std::move(panel), {place, state});
   layers.set_arrows(0.4, 1);
   const auto copies = [&](const PortraitOrbit& curve) {
-    // Orbits cross k = 1 at equal steps of the radius.
+    // Orbits cross the line k = 1 at equal steps of the radius.
     const int count = drawing.crowd(10);
     const Instant at = at_log_ratio(curve, 0);
     const double rho = std::hypot(mu * at.u, at.v);

@@ -21,7 +21,7 @@ constexpr Colour law_guide{0x888888};
 constexpr Colour law_force{0x0b4f8a};
 constexpr Colour law_moment{0xb3003b};
 
-/// Returns the look of a law's curves, distinct in grey: the exact law is solid and heavy, its approximation dashed.
+/// Returns the look of a law's curves. Looks differ in grey, too: the exact law is heavy, the Pade law dashed.
 Stroke stroke_of(const reduction::Law& law, Colour colour) {
   if (law.as<reduction::HertzLaw>()) return {colour, 2.4};
   if (law.as<reduction::PadeLaw>()) return {colour, 1.6, true};

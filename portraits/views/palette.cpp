@@ -21,7 +21,7 @@ std::vector<Colour> spread(const std::vector<Colour>& colours, std::size_t count
   return result;
 }
 
-/// Returns the number of bands of an interval whose steps are 1, 2 or 5 times a power of ten in the unit of the bar.
+/// Returns the number of bands of an interval so that a band is 1, 2 or 5 times a power of ten, in the unit of the bar.
 std::size_t bands_per(double interval, double unit) {
   for (std::size_t count : {3, 4, 5, 2}) {
     constexpr double same = 1e-6;

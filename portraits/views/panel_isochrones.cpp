@@ -12,30 +12,30 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Compares rooms so that the first of equal ones wins, whatever the last digits: portraits have two equal halves.
+/// Compares rooms. Of equal rooms the first wins, independent of rounding, because portraits have two equal halves.
 bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
 
-/// The place for a label of a size with most room. Room is the distance, in half widths or half heights, from the
-/// points that the label avoids. Other labels only need to be far enough away.
+/// The place with most room for a label of a given size. Room is the distance, in half widths or half heights of the
+/// label, from the points that the label avoids. Other labels only need to be far enough away.
 class LabelPlace {
  public:
   LabelPlace(double half_width, double half_height) : half_width_(half_width), half_height_(half_height) {}
 
   /// Tries a place.
   /// @param points  points on paper by increasing x
-  /// @param labels  places of other labels on paper, of about the same size, which need more room
+  /// @param labels  places of other labels on paper, which have about the same size and need more room
   /// @param middle  x of a line to avoid
   void try_at(Point at, const std::vector<Point>& points, const std::vector<Point>& labels, double middle) {
     constexpr double spare = 2.2;
     double room = std::min(max_room, std::abs(middle - at.x) / half_width_);
     for (const Point& other : labels) room = std::min(room, distance(at, other) / spare);
     if (room < 1) return;
-    // A place over the border is the last choice.
+    // A place that touches the border is the last choice.
     constexpr double over = 0.05;
     const double edge = std::min(std::min(at.x, 1 - at.x) / half_width_, std::min(at.y, 1 - at.y) / half_height_);
     room = std::min(room, std::max(edge, over));
     if (!is_more(room, best_)) return;
-    // Search from the nearest point along x in both directions. Points beyond the room left along x have no effect.
+    // Search from the nearest x in both directions. Points whose x is farther away than the room found have no effect.
     const auto here = std::ranges::lower_bound(points, at.x, {}, &Point::x);
     const auto matters = [&](Point other) {
       return is_more(room, best_) && std::abs(other.x - at.x) < room * half_width_;
@@ -53,7 +53,7 @@ class LabelPlace {
   Point where() const { return where_; }
 
  private:
-  static constexpr double max_room = 2;  ///< more room than this has no value
+  static constexpr double max_room = 2;  ///< more room than this is no advantage
 
   double distance(Point a, Point b) const {
     return std::max(std::abs(a.x - b.x) / half_width_, std::abs(a.y - b.y) / half_height_);
@@ -90,7 +90,7 @@ void PanelLayers::add_isochrones(double middle) {
   for (auto piece = pieces.begin(); piece != pieces.end();) {
     const double time = piece->tau_stop;
     const Text text = number(time / look_.caption.time_unit);
-    // First choice: on the right, so that numbers stand above one another; then anywhere; then over a line.
+    // First choice: on the right, so that numbers stand above one another. Then anywhere. Last: on top of a line.
     LabelPlace right(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
                      look_.letter * 0.7 / look_.panel_mm.y);
     LabelPlace anywhere = right;

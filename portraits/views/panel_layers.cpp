@@ -67,7 +67,7 @@ bool PanelLayers::add_orbits(std::vector<TimedLine> orbits, bool coloured, const
 }
 
 void PanelLayers::add_coloured(const std::vector<TimedLine>& orbits) {
-  // Each band that an orbit crosses has a part of the line; each band is a layer, the last times on top.
+  // A line is divided into parts, one for each band that the orbit crosses. The last times are on top.
   const TimeBands& bands = look_.bands;
   std::map<std::size_t, std::vector<Polyline>, std::greater<>> layers;
   std::map<std::size_t, Arrows, std::greater<>> heads;
@@ -137,7 +137,7 @@ void PanelLayers::add_points() {
   }
 }
 
-/// Returns heads at equal times left, halfway between isochrones, and at least one on an orbit.
+/// Returns arrow heads at equal times left, halfway between isochrones; every orbit gets at least one.
 std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orbit) {
   const Polyline& line = orbit.line;
   const std::vector<double>& times = orbit.left;
@@ -155,7 +155,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
     heads_.push_back(at);
     return true;
   };
-  // Record the arrow with the time of the nearest row.
+  // The nearest row gives the time of the arrow.
   const auto add_there = [&](const Arrow& arrow) {
     if (!has_room(arrow)) return;
     const auto nearest =
@@ -163,7 +163,7 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
     result.push_back({arrow, times[static_cast<std::size_t>(nearest - line.begin())]});
   };
   if (look_.style.arrows == Style::time) {
-    // The order is that of the motion, along which the time left decreases.
+    // Times are taken in the order of the motion, in which the time left decreases.
     for (auto time = look_.bands.arrows.rbegin(); time != look_.bands.arrows.rend(); ++time) {
       const auto place = std::ranges::lower_bound(times, *time, std::greater<>());
       if (place == times.begin() || place == times.end()) continue;

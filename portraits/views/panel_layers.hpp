@@ -12,7 +12,7 @@
 
 namespace contensou::portraits {
 
-/// The look of the layers of a panel.
+/// The look of all layers of a panel.
 struct LayerLook {
   Palette palette;
   TimeBands bands;
@@ -22,15 +22,15 @@ struct LayerLook {
 
 LayerLook look_of(const PaperSize& size, int panels, bool screen);
 
-/// The data and options from which the plane of any system is drawn.
+/// The data and options with which the plane of any system is drawn.
 struct CurveDrawing : LayerLook {
   const Portrait& curves;
   const PortraitCaption& caption;
   const PortraitStyle& style;
-  double mu = 1;  ///< mu of (2.6)
+  double mu = 1;  ///< mu of the equations of motion (2.6)
 };
 
-/// Returns true if a place on paper (layout.hpp) is in its panel, at least a margin from the border.
+/// Returns true if a place on paper (layout.hpp) lies in its panel, farther from the border than a margin.
 inline bool inside(Point place, double margin) {
   return place.x >= margin && place.x <= 1 - margin && place.y >= margin && place.y <= 1 - margin;
 }
@@ -41,7 +41,7 @@ struct TimedLine {
   std::vector<double> left;
 };
 
-/// A short step of a motion in the units of the axes, and the speed there.
+/// A short step of a motion, in the units of the axes, and the speed there.
 struct Drift {
   Point from, to;
   double size;
@@ -54,42 +54,42 @@ struct OrbitCopy {
   double sign = 1;
 };
 
-/// A panel to which layers of motions are added, placed by its map: lines in bands of time, arrows, labelled
-/// isochrones, directions.
+/// A panel to which layers of motions are added: lines in bands of time, arrows, labelled isochrones, directions. A map
+/// of the panel places them.
 class PanelLayers {
  public:
   PanelLayers(const CurveDrawing& drawing, Panel axes, PanelMap map)
       : look_(drawing), panel_(std::move(axes)), map_(std::move(map)) {}
 
-  /// Sets the place of an orbit's only arrow, as a fraction of its length on paper, and the least distance of heads, in
-  /// sizes of letters.
+  /// Sets the place of an orbit's only arrow, as a fraction of its length on paper, and the smallest distance between
+  /// arrow heads, in letter sizes.
   void set_arrows(double fraction, double keep_off) {
     arrow_fraction_ = fraction;
     keep_off_ = keep_off;
   }
 
-  /// Adds orbits in the colours of their times. Those that take for ever, and all if they are not coloured, are plain.
-  /// @param legend  legend of orbits that are all plain
-  /// @return  true if one has colours
+  /// Adds orbits in the colours of their times. Orbits of infinite time are plain; if `coloured` is false, all are.
+  /// @param legend  legend of the orbits if all are plain
+  /// @return  true if an orbit has colours
   bool add_orbits(std::vector<TimedLine> orbits, bool coloured, const Text& legend);
   void add_plain(const std::vector<TimedLine>& orbits, Stroke stroke, const Text& legend);
 
   /// Adds isochrones, with labels where orbits leave room.
-  /// @param middle   x on paper of a line that labels avoid
+  /// @param middle  x on paper of a vertical line that labels avoid
   void add_isochrones(double middle);
 
   /// Adds the orbits through the requested points, these points, and the orbit of the start.
   void add_highlights();
 
-  /// Adds needles on a grid, whose length grows with the logarithm of the speed.
+  /// Adds needles on a grid. Their length grows with the logarithm of the speed.
   /// @param at  returns the motion at a point of the axes
   void add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend);
 
-  /// Adds lines, with two heads on each part.
+  /// Adds lines, with two arrow heads on each part.
   void add_invariant(Lines lines);
 
   Panel& panel() { return panel_; }
-  /// @param orbits  PortraitOrbits or copies of some
+  /// @param orbits  PortraitOrbits, or copies of PortraitOrbits
   template <class Orbits>
   std::vector<TimedLine> lines_of(const Orbits& orbits) const {
     std::vector<TimedLine> lines;
@@ -108,7 +108,7 @@ class PanelLayers {
   Panel panel_;
   PanelMap map_;
   bool early_arrows_ = false;  ///< true: one more arrow at the beginning of an orbit
-  bool asked_first_ = false;   ///< true: arrows of requested orbits need no distance from those of others
+  bool asked_first_ = false;   ///< true: arrows of requested orbits need no distance from other arrows
 
  private:
   struct TimedArrow {

@@ -31,7 +31,7 @@ Polyline arc(Point centre, double rx, double ry, double from, double to) {
 /// A drawing to which parts are added.
 class Sketch {
  public:
-  /// @param usual  size whose shape is kept unless both sides are requested
+  /// @param usual  default size; its shape is kept unless both sides are requested
   Sketch(Text title, Text subtitle, const PaperSize& usual, const AskedSize& size) {
     figure_.title = std::move(title);
     figure_.subtitle = std::move(subtitle);
@@ -60,7 +60,7 @@ class Sketch {
     panel_.arrows.push_back({{{from, {from.x - to.x, from.y - to.y}}}, guide});
   }
 
-  /// Returns the figure to scale, of a size, about a middle.
+  /// Returns the figure to scale, with the given middle, width and height.
   Figure framed(Point middle, double width, double height) {
     panel_.x = {"", middle.x - width / 2, middle.x + width / 2, false, {}};
     panel_.y = {"", middle.y - height / 2, middle.y + height / 2, false, {}};

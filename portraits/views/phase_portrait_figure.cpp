@@ -41,7 +41,7 @@ bool have_one_law(std::span<const PhasePortrait> portraits) {
       portraits, [&](const PhasePortrait& other) { return law_names(other) == law_names(portraits.front()); });
 }
 
-/// Returns a title of the properties that all portraits share: the body, and mu or the law.
+/// Returns a title of the properties that all portraits have in common: the body, and mu or the law.
 Text common_title(std::span<const PhasePortrait> portraits) {
   const PhasePortrait& first = portraits.front();
   Text title = body_name(first.system().inertia());
@@ -95,7 +95,7 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   const ViewLayout& layout = layout_of(first.view);
   const int panels = layout.panels_across * static_cast<int>(portraits.size());
   PaperSize usual = usual_size(layout, portraits.size());
-  // Curves one above another over the same axis need less height than planes.
+  // Curves that share an x axis and stand one above another need less height than planes.
   const bool stacked = style.size.width_mm && panel_columns(*style.size.width_mm, panels) < panels;
   if (shows_moments(first.view) && stacked) usual.height_mm *= 0.6;
   const PaperSize size = fitted(usual, panels, style.size);

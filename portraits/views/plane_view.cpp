@@ -1,4 +1,4 @@
-// The views whose axes are the two speeds: plane, patch, log, and the plane beside (u, ln k).
+// The views whose axes are the two speeds: uv, patch, log, and pair (the plane and a panel of (u, ln k)).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,7 +19,7 @@ using Copies = std::vector<OrbitCopy>;
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // below this height the axis is not linear
-  // Smaller powers of ten are no real speeds, and ticks end there.
+  // Ticks end at this power of ten: smaller speeds are not physical.
   constexpr double least_power = -30;
   for (double h : {0.1, 0.2, 0.3, 0.4}) {
     const double decades = scale.ln_v(h) / std::log(10.0);
@@ -35,7 +35,7 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   return ticks;
 }
 
-/// Returns a half-plane panel with the window's sides in units of u and v.
+/// Returns a half-plane panel. Its sides are those of the window, in units of u and v.
 MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
   const Window& window = drawing.portrait.window;
@@ -80,7 +80,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   return std::move(layers).finished();
 }
 
-/// Adds copies that pass evenly spaced u of both signs at a given ln k.
+/// Adds copies of a curve. At the given ln k they pass evenly spaced values of u, of both signs.
 void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double max_u, int count) {
   const double u = at_log_ratio(curve, ln_k).u;
   for (int i = 0; i < count; ++i) {
@@ -96,14 +96,14 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   const double U = portrait.window.u();
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
   const std::vector<double> rays = ray_log_ratios(portrait);
-  constexpr double shrinks = 20;  // u falls to this fraction
+  constexpr double shrinks = 20;  // u falls by this factor
   const int per_side = drawing.crowd(12);
   constexpr double reach = 3;
   Panel panel;
   panel.x = {drawing.speed(math("u = R ω") + sub(math("z"))), right_half ? 0 : -U, U, false, {}};
   panel.y = {"ln " + math("k") + ",   " + math("k = v/(μ|u|)"), 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
-  // Orbits start at the top or around the middle.
+  // Orbits start at the top if they touch v = 0, else around the middle.
   const double top = std::log(portrait.window.v() / (portrait.system().mu() * U));
   const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
@@ -134,7 +134,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
     }
     return result;
   };
-  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // a place for -infinity below the border
+  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is drawn here, below the border
   const PanelMap map{.place =
                          [low](const Instant& at, const Instant&) {
                            return Point{at.u, std::clamp(at.ln_k, low, 1e300)};
@@ -179,7 +179,7 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   const std::vector<double> rays = ray_log_ratios(portrait);
   // The panel surrounds the requested orbits, their beginnings and their crossings of k = 1, with a margin of some
   // powers of e. The margin is larger towards small values of the speed that vanishes first. Scaling is a shift along
-  // the diagonal, so both axes have one scale.
+  // the diagonal, so both axes have the same unit.
   Panel panel;
   panel.to_scale = true;
   std::vector<double> xs, ys;
@@ -201,13 +201,13 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   panel.x.low = left - (spins_last && rays.empty() ? near : deep);
   panel.y.high = top + (spins_last ? near : rim);
   panel.y.low = bottom - (spins_last || !rays.empty() ? deep : near);
-  // The panel has the shape of the page, except left of the beginnings of copies.
+  // The panel has the shape of the page, but it does not extend to the left of the beginnings of copies.
   const double height = panel.y.high - panel.y.low, width = panel.x.high - panel.x.low;
   panel.x.low = std::min(panel.x.low, std::max(panel.x.high - broad * height, panel.y.high - upstream_of_copies));
   panel.y.low = std::min(panel.y.low, panel.y.high - width / broad);
   panel.x.name = "ln(" + math("μ|u|/V") + "),  " + math("V = ") + number(V, 4) + " " + drawing.caption.speed_unit;
   panel.y.name = "ln(" + math("v/V") + ")";
-  // Minus infinity becomes a point far beyond the borders.
+  // A value of -infinity becomes a point far beyond the borders.
   const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
   const PanelMap map{
       .place =
@@ -219,7 +219,7 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
       }};
   PortraitPanel layers(drawing, panel, map);
   const auto copies = [&](const PortraitOrbit& curve) {
-    // Add translates along the diagonal, evenly across the panel.
+    // Add copies, shifted along the diagonal, evenly across the panel.
     const int count = drawing.crowd(14);
     const double w = log_u(at_log_ratio(curve, 0).u);
     const double first = panel.x.low - (spins_last ? 0 : near);

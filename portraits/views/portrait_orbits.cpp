@@ -21,7 +21,7 @@ void PortraitPanel::add_copies(const std::function<std::vector<OrbitCopy>(const 
   const bool has_rays = !drawing_.portrait.plane.terminal.rays.empty();
   add_layers([&](const PhasePortrait& of) {
     if (has_rays || !of.plane.terminal.rays.empty()) return lines_of(filling(of.flow, mirrored));
-    // The curve begins so steep that it passes the whole window.
+    // The curve begins at so large a k that it passes the whole window.
     const double steepest = std::log(of.window.v() / (of.system().mu() * of.window.u())) + 7;
     return lines_of(copies(traced_.emplace_back(orbit_through(of.flow, 0, 0, std::max(upstream_of_copies, steepest)))));
   });

@@ -17,7 +17,7 @@ namespace contensou::portraits {
 struct Drawing : CurveDrawing {
   const PhasePortrait& portrait;
 
-  /// Scales a number of lines meant for a panel 100 mm wide to this panel.
+  /// Converts a number of lines that suits a panel 100 mm wide into a number for this panel.
   int crowd(int count) const {
     return std::max(count / 2, std::min(count, static_cast<int>(count * panel_mm.x / 100)));
   }
@@ -27,23 +27,23 @@ struct Drawing : CurveDrawing {
 
 using Instant = PortraitOrbit::Instant;
 
-/// Return the state at u and ln v, or at both logarithms for u > 0.
+/// Return the state with the given u and ln v, or with the given logarithms of u > 0 and v.
 Instant instant_at(double mu, double u, double ln_v);
 Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
 
-/// Returns the legend of a portrait's orbits if two laws are compared.
+/// Returns the legend of a portrait's orbits, used if two laws are compared.
 Text law_legend(const PhasePortrait& portrait);
 
-/// Distance above k = 1, as a power of e, at which the one curve begins whose copies fill a panel.
+/// Copies of one curve fill a panel. From its beginning to k = 1 its larger speed falls by e to this power.
 inline constexpr double upstream_of_copies = 14;
 
 /// Returns ln k of the invariant rays, increasing.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
-/// Returns the interpolated state of an orbit at a ln k; the last state before the stop if the orbit does not reach it.
+/// Returns the interpolated state of an orbit at a ln k; if it is not reached, the last state before the stop.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
-/// A panel with its map.
+/// A panel and its map between states and points.
 struct MappedPanel {
   Panel panel;
   PanelMap map;
@@ -54,16 +54,16 @@ class PortraitPanel : public PanelLayers {
  public:
   PortraitPanel(const Drawing& drawing, Panel axes, PanelMap map)
       : PanelLayers(drawing, std::move(axes), std::move(map)), drawing_(drawing) {
-    // On a bent axis of v, sliding takes place above the bend, in hardly any time.
+    // On a bent axis of v, sliding takes place above the bend, and takes hardly any time.
     early_arrows_ = !drawing.portrait.scale.linear();
     asked_first_ = true;
   }
 
-  /// Adds the orbits of the portrait, and those of the law that it is compared with.
+  /// Adds the orbits of the portrait, and the orbits of the compared law.
   void add_orbits();
 
-  /// Adds orbits beyond the window. Without invariant rays they are copies of one orbit. With rays orbits fill the
-  /// panel one by one, each through the middle of the widest gap.
+  /// Adds orbits beyond the window. Without invariant rays they are copies of one orbit. With rays they are computed
+  /// one by one, each through the middle of the widest gap, until they fill the panel.
   ///
   /// @param copies    returns copies of a curve that passes k = 1 at v = 1
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half
@@ -71,8 +71,8 @@ class PortraitPanel : public PanelLayers {
   /// Adds isochrones, with labels where orbits leave room. Isochrones of the other law have no labels.
   void add_isochrones();
   /// Adds the axes and the invariant rays.
-  /// @param axes, pivoting  lines of the axes; orbits in the direction of the motion
-  /// @param ray             returns the lines of an invariant ray, by its ln k, likewise
+  /// @param axes, pivoting  lines of the axes; lines that are orbits have the direction of the motion
+  /// @param ray             returns the lines of an invariant ray, given its ln k, in the direction of the motion
   void add_invariant(std::vector<Polyline> axes, const std::vector<Polyline>& pivoting,
                      const std::function<std::vector<Polyline>(double ln_k)>& ray);
   void add_field();
@@ -84,7 +84,7 @@ class PortraitPanel : public PanelLayers {
   std::vector<OrbitCopy> filling(const reduction::Flow& flow, bool mirrored);
 
   const Drawing& drawing_;
-  std::deque<PortraitOrbit> traced_;  ///< orbits to which copies refer
+  std::deque<PortraitOrbit> traced_;  ///< orbits that copies refer to
 };
 
 }  // namespace contensou::portraits

@@ -13,7 +13,7 @@
 
 namespace contensou::portraits {
 
-/// Each of these returns the panels of a view.
+/// Each of these functions returns the panels of one view.
 std::vector<MappedPanel> plane_view(const Drawing& drawing);
 std::vector<MappedPanel> patch_view(const Drawing& drawing);
 std::vector<MappedPanel> log_view(const Drawing& drawing);
@@ -24,14 +24,14 @@ std::vector<MappedPanel> time_view(const Drawing& drawing);
 std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
-/// Calls `add` for each motion of the views of motions: from five start_ratios, for each law, and the requested ones.
+/// Calls `add` for each motion of a view of motions: from start_ratios for each law, and the requested ones.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
                                                                   Stroke stroke, const Text& legend)>& add);
 
-/// Returns ratios by half-decades about the one at which pure sliding and pure pivoting take the same time.
+/// Returns five ratios k, half a decade apart, about the k at which pure sliding and pure pivoting take the same time.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
 
-/// Returns the panel of (u, ln k), which shows how orbits enter the origin, even with a contact of order 10^5.
+/// Returns the panel of (u, ln k). It shows how orbits enter the origin, even with a contact of order 10^5.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
 /// A view with its name for users and its layout on a page.
@@ -43,14 +43,14 @@ struct ViewLayout {
   int panels_across;
   double width_mm;
   double height_mm;
-  /// Returns the shortest and the longest time left for colours in bands of equal ratio, for views that distort the
-  /// plane. Null: the bands are equal.
+  /// Returns the shortest and the longest time left for colours in bands of equal ratio, in views that distort the
+  /// plane. If it is null, the bands are equal.
   std::pair<double, double> (*times)(const PhasePortrait&);
   Text shows;
   bool shows_driven = false;  ///< true if driven_shows replaces `shows` with a drive
 };
 
-/// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V.
+/// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V, with V of the window.
 inline double scaled_stop_time(const PhasePortrait& portrait, double x, double y) {
   const double V = portrait.window.v();
   return portrait.flow.orbit({std::exp(x) * V / portrait.system().mu(), std::exp(y) * V}).stop_time();
@@ -64,7 +64,7 @@ inline std::pair<double, double> far_times(const PhasePortrait& portrait) {
 constexpr std::string_view plane_shows = "every orbit runs to the stop; the axes are orbits, too";
 constexpr std::string_view driven_shows =
     "the drive makes a body creep that only spins: orbits also begin at v = 0; every orbit runs to the stop";
-/// Subtitle if the axis of v has a SpeedScale.
+/// Subtitle for an axis of v with a SpeedScale.
 constexpr std::string_view bent_shows = "slip falls first, at nearly constant spin; then the spin falls until the stop";
 
 /// All views, in the order of lists.

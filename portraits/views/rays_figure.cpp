@@ -25,7 +25,7 @@ constexpr Colour marked_colour{0xb3003b};
 constexpr double ends = 100;  ///< k ranges from 1/ends to ends
 constexpr int pieces = 600;
 
-/// Returns the ratio of point i of a curve. Ratios go beyond the panel, so that no curve ends inside.
+/// Returns k of point i of a curve. The range of k is larger than the panel, so that no curve ends inside it.
 double ratio_at(int i) { return std::pow(ends, 1.5 * (2.0 * i / pieces - 1)); }
 
 /// One r for which curves are drawn.
@@ -35,13 +35,13 @@ struct Drawn {
   Text legend;
 };
 
-/// Returns r of the ray with that k: (Phi - rho)/(k Psi).
+/// Returns the r for which this k is a ray: (Phi - rho)/(k Psi).
 double force_over_moment(const reduction::Law& law, double k, double drive) {
   const auto [force, moment] = law(reduction::slip_of_ratio(k));
   return (force - drive) / (k * moment);
 }
 
-/// Returns the k at which the drive balances the force, Phi = rho: the ray of r = 0.
+/// Returns the k at which the drive balances the force, Phi = rho. It is the ray for r = 0.
 double k_without_moment(const reduction::Law& law, double drive) {
   return reduction::terminal_ratios(law, 1e-12, drive).rays.front().k;
 }
@@ -69,7 +69,7 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   panel.x = {math("r = γμ") + sup("2") + math("/χ"), 0, 1.2 * top, false, {}};
   if (drive == 0 && top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
   panel.y = {math("k*"), 1 / ends, ends, true, {}};
-  // Along an attracting ray r = Phi/(k Psi) grows.
+  // Along the curve of attracting rays, r = Phi/(k Psi) grows with k.
   Lines attracting{{}, {curve_colour, 2.4}, "attracts"}, repelling{{}, {curve_colour, 1.4, true}, "repels"};
   for (std::size_t begin = 0; begin + 1 < points.size();) {
     const bool grows = points[begin + 1].x > points[begin].x;
@@ -91,14 +91,14 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  // Labels stand away from the curve, which leaves r_low at k = 0 and reaches r_high at infinity.
+  // Labels stand away from the curve, which begins at r_low for k = 0 and tends to r_high at infinity.
   panel.labels = {{{high, 1.6 / ends}, math("r") + sub("high"), guide_colour}};
   if (drive == 0) panel.labels.push_back({{low, ends / 1.6}, math("r") + sub("low"), guide_colour});
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
   return panel;
 }
 
-/// Draws D relative to its terms, with heads that show the direction of k.
+/// Draws D = Phi - rho - r k Psi divided by the sum of its terms, with arrow heads that show the direction of k.
 Panel ways(const reduction::Law& law, const std::vector<Drawn>& all, double drive) {
   Panel panel = panel_over_k(math("k") + " falls where " + math("D > 0"));
   panel.y = {math(drive > 0 ? "D/(Φ + ρ + r k Ψ)" : "D/(Φ + r k Ψ)"), -1.05, 1.05, false, {}};
@@ -121,7 +121,7 @@ Panel ways(const reduction::Law& law, const std::vector<Drawn>& all, double driv
   return panel;
 }
 
-/// Draws m between its bounds; a line ends at each ray.
+/// Draws the sliding coefficient m between its bounds. A line ends at each ray.
 Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, double drive) {
   Panel panel = panel_over_k("time left = " + math("P + m S"));
   panel.y = {math("m"), 0, 0, false, {}};
@@ -134,7 +134,7 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, dou
         const double k = ratio_at(i);
         if (flow.solution().through(std::log(k)) != curve) continue;
         line.push_back({k, curve->sliding_coefficient(curve->chart().coordinate(std::log(k)))});
-        // For small k with a drive m is singular.
+        // With a drive m is singular for k -> 0.
         if (drive == 0 || k >= 1) panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);
       }
       lines.lines.push_back(std::move(line));

@@ -27,15 +27,15 @@ Text legend_of_copies() { return "its copies under " + math("X") + ", ln 2 apart
 
 constexpr const char* legend_of_orbit = "orbit of the start";
 
-/// Draws copies divided by their starts, as beads on one line. Later and earlier starts of the same orbit lie on other
-/// lines, because the symmetry does not map them onto each other.
+/// Draws copies divided by their starts, as beads on one line. Later and earlier starts of the same orbit give other
+/// lines, because the symmetry does not map these starts onto each other.
 Panel collapse(const ReducedOrbits& from) {
   Panel panel;
   panel.title = "copies divided by their starts: one line";
   panel.x = {math("u/u") + sub("0"), 0, plane_widths, false, {}};
   panel.y = {math("v/v") + sub("0"), 0, plane_widths, false, {}};
   const Polyline& orbit = from.orbit.front();
-  // The unit is the state of the copy at which the orbit is at `start`.
+  // Divide by the state of the copy that corresponds to `start` on the orbit.
   const auto divided = [&](Point at, Point start, double shift) {
     const Point point = from.in_plane({at.x, at.y + shift}), unit = from.in_plane({start.x, start.y + shift});
     return Point{point.x / unit.x, point.y / unit.y};
@@ -73,7 +73,7 @@ Panel collapse(const ReducedOrbits& from) {
   return panel;
 }
 
-/// Fills both panels, whose axes are given: rays, copies of the orbit of the start, the action of the symmetry.
+/// Fills both panels, whose axes are set, with rays, copies of the orbit of the start, and the action of the symmetry.
 Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& title, const AskedSize& size) {
   const Palette colours = palette(false);
   const auto mapped = [&](Polyline line) {
@@ -114,7 +114,7 @@ Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& tit
     add(from.orbit, shift, {colour_of_copy(shift), 1.5}, shift == copy_shifts.front() ? legend_of_copies() : Text());
   }
   add(from.orbit, 0, {colours.highlight, 3.2}, legend_of_orbit);
-  // Draw the generator, from the start to its double.
+  // Draw the action of the generator as an arrow from the start to twice the start.
   for (Panel* panel : {&plane, &strip}) {
     Polyline way = upright(from.start.x, 0, ln2);
     if (panel == &plane) way = mapped(way);

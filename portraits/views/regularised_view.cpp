@@ -1,4 +1,4 @@
-// u, v and the time against the regularised time beta of (2.7) and (2.8), in which the stop is infinitely far.
+// u, v and the time against the regularised time beta (reduction::ReducedSystem). The stop lies at beta = infinity.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,13 +16,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// Returns 1/beta_1, the sum of |d ln v/dbeta| on the axis u = 0 and |d ln u/dbeta| on v = 0.
+/// Returns 1/beta_1, the sum of |d ln v/dbeta| on the axis u = 0 and |d ln u/dbeta| on the axis v = 0.
 double rate_at(const reduction::ReducedSystem& system, double w, double v) {
   const double chi = system.inertia().chi;
   return 30 * pi * chi * v + 256 / (3 * pi) * chi * system.r() * system.law().pivoting_moment() * w;
 }
 
-/// Returns 1 + beta/beta_1. On the axis v = 0, u is u0 divided by it; on u = 0, v is v0 divided by it.
+/// Returns 1 + beta/beta_1. On the axis v = 0, u is u0 divided by this number; on u = 0, v is v0 divided by it.
 double regularised_time(const reduction::Flow& flow, const Instant& at, const Instant& start) {
   if (at.tau_left == 0) return infinity;
   const double mu = flow.system().mu();
@@ -30,7 +30,7 @@ double regularised_time(const reduction::Flow& flow, const Instant& at, const In
     const auto& curve = *flow.solution().through(it.ln_k);
     return curve.beta_coefficient(curve.chart().coordinate(it.ln_k)) / (mu * std::abs(it.u) + it.v);
   };
-  // (R7)
+  // reduction/README.md (R7)
   const double beta = 3 * pi / (2 * flow.system().inertia().chi) * (b_over_speed(at) - b_over_speed(start));
   return 1 + rate_at(flow.system(), mu * std::abs(start.u), start.v) * std::max(0.0, beta);
 }
@@ -47,8 +47,8 @@ double spin_left(const Instant& at, const Instant& start) { return at.u / start.
 double log_slip_left(const Instant& at, const Instant& start) { return at.ln_v - start.ln_v; }
 double time_passed(const Instant& at, const Instant& start) { return 1 - at.tau_left / start.tau_left; }
 
-/// A motion at equal ratios of 1 + beta/beta_1, from 1 to a limit. The rows of an orbit are chosen for the plane; for a
-/// small patch they leave out decades of beta.
+/// A motion sampled at equal ratios of 1 + beta/beta_1, from 1 to a limit. The rows of a PortraitOrbit suit the plane;
+/// for a small patch they leave out decades of beta.
 struct BetaCourse {
   std::vector<double> places;
   std::vector<Instant> instants;
@@ -75,7 +75,7 @@ BetaCourse beta_course(const reduction::Flow& flow, reduction::State start, doub
 
 std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
-  // The limit is far beyond the beginning of power laws for both speeds, even if one is much smaller at the start.
+  // At the limit both speeds have long been powers of beta, even if one is much smaller at the start.
   const reduction::ReducedSystem& system = portrait.system();
   const std::vector<double> ratios = start_ratios(portrait);
   const double slow = std::max(rate_at(system, 1, ratios.back()) / rate_at(system, 1, 0),
@@ -94,7 +94,7 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
     panels[i].map = map_of(portrait.flow, quantities[i]);
   }
 
-  // Towards the stop u and v are powers of beta. The one that outlives the other is proportional to 1/beta.
+  // Towards the stop u and v are powers of beta. The speed that vanishes last is proportional to 1/beta.
   Lines powers_of_u{{}, {drawing.palette.comparison, 1, true}, "asymptotes"}, powers_of_v = powers_of_u;
   add_courses(drawing, [&](const PhasePortrait& of, const PortraitOrbit& orbit, Stroke stroke, const Text& legend) {
     const auto& terminal = of.plane.terminal;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr Colour path_colour{0x222222};
 constexpr Colour textbook_colour{0x8a8a8a};
-/// Colours that differ in grey, by their lightness. The lines also differ in their marks.
+/// Colours that differ in lightness, and so in grey. The lines also differ in their marks.
 constexpr Colour slip_colour{0x8c0f35};
 constexpr Colour rim_colour{0x2f7fc1};
 constexpr Colour speed_colour{0xe0a030};
@@ -31,7 +31,7 @@ constexpr PaperSize usual{290, 125};
 
 /// A path that bends by less than this fraction of its length is drawn as straight.
 constexpr double straight = 0.01;
-/// Ratio of the two times from which on the time axis is logarithmic.
+/// The time axis is logarithmic if spin time divided by slip time is at least this ratio.
 constexpr double long_spin = 6;
 
 void require_columns(const RollCurve& curve) {
@@ -64,7 +64,7 @@ Point at_time(const RollCurve& curve, double t) {
   return between({curve.x[i], curve.y[i]}, {curve.x[i + 1], curve.y[i + 1]}, fraction);
 }
 
-/// Returns an interval with a margin and a least length about the same middle.
+/// Returns an interval about the same middle, with a margin and at least the given length.
 std::pair<double, double> widened(double low, double high, double min_length) {
   constexpr double margin = 0.08;
   const double middle = (low + high) / 2;
@@ -72,7 +72,7 @@ std::pair<double, double> widened(double low, double high, double min_length) {
   return {middle - half, middle + half};
 }
 
-/// Draws both paths with the points from which the balls roll; the axes are as long as the paths.
+/// Draws both paths, and on each the point from which on the ball rolls. The axes are as long as the paths.
 Panel paths(const RollPicture& picture) {
   constexpr double size = 1.1;
   const double x = picture.ball.x[0], y = picture.ball.y[0];
@@ -92,7 +92,7 @@ Panel paths(const RollPicture& picture) {
                            !is_ball            ? "textbook"
                            : picture.lies_flat ? "this body"
                                                : "this ball"});
-    // The marks of this ball lie on top.
+    // The marks of this ball are drawn last, on top.
     if (curve->rolls > 0) {
       panel.marks.insert(panel.marks.begin(), {{at_time(*curve, curve->rolls)}, stroke.colour, size});
     }
@@ -100,7 +100,7 @@ Panel paths(const RollPicture& picture) {
   return panel;
 }
 
-/// Draws the path from above.
+/// Draws the panel of the path, seen from above.
 Panel path_panel(const RollPicture& picture) {
   Panel panel = paths(picture);
   for (auto [axis, letter] : {std::pair{&panel.x, "x"}, {&panel.y, "y"}}) {
@@ -114,7 +114,7 @@ Panel path_panel(const RollPicture& picture) {
 }
 
 /// Widens the axes of the path, the first panel, to the shape of that panel on the page. The path is to scale unless it
-/// is so flat that most of the panel would be empty. Then one side is stretched a round number of times.
+/// is so flat that most of the panel would be empty. Then one side is stretched by a round factor.
 void fill_panel(Figure& figure) {
   constexpr double flattest = 0.2, wanted = 0.75;
   const Box box = lay_out(figure).panels.front().box;
@@ -127,7 +127,7 @@ void fill_panel(Figure& figure) {
   path.to_scale = times == 1;
 }
 
-/// The direction of the paths, and whether they bend.
+/// The direction of the paths, and whether they are straight.
 struct Course {
   Point along{1, 0};  ///< direction of the farthest point of the path
   double reach = 0;   ///< distance of that point from the start; 0: the ball spins in place
@@ -176,7 +176,7 @@ Panel speed_panel(const RollPicture& picture) {
              last,
              logarithmic,
              {}};
-  // A fast spin is divided by a round number, so that the axis has room for the slip.
+  // A fast spin is divided by a round number, so that the slip remains visible on the axis.
   const double fastest = std::max(picture.ball.slip.maxCoeff(), picture.ball.speed.maxCoeff());
   const double spin_to_slip = fastest > 0 ? picture.ball.rim.maxCoeff() / fastest : 1;
   const double spin_scale = spin_to_slip > 4 ? round_down(spin_to_slip) : 1;
@@ -193,7 +193,7 @@ Panel speed_panel(const RollPicture& picture) {
       }
       top = std::max(top, (curve->*column).maxCoeff() / scale);
       if (!dashed) {
-        // Marks stand at even steps on paper, up to the end of the curve.
+        // Marks stand at equal distances on paper, up to the end of the curve.
         constexpr int count = 8;
         for (double i = 0.5 + 0.15 * static_cast<int>(shape); i < count; ++i) {
           const double t = from_paper(panel, {i / count, 0}).x;
@@ -216,7 +216,7 @@ Panel speed_panel(const RollPicture& picture) {
   return panel;
 }
 
-/// Returns the part of a panel that a film's frame shows. A GIF has no dashes, and one set of colours.
+/// Returns the part of a panel that a frame of the film shows. Dashed lines become solid lines of one colour.
 Panel until(const Panel& whole, std::size_t frame) {
   Panel panel = whole;
   panel.marks.clear();
@@ -227,8 +227,8 @@ Panel until(const Panel& whole, std::size_t frame) {
   return panel;
 }
 
-/// Draws a ball of radius 1 from above, with its state in words beside it. A circle through its former top shows its
-/// turning; half of the circle is thick and has a spot, so that opposite positions differ.
+/// Draws a ball of radius 1 from above, with its state in words beside it. A circle on the ball, through the point that
+/// was its top, shows how it turns. Half of the circle is thick and has a spot, so that opposite positions differ.
 Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eigen::Index frame, Colour colour,
                       const char* name, bool lies_flat) {
   using Eigen::Vector3d;
@@ -315,7 +315,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
                                                                  : "this ball, from above",
                                              picture.lies_flat));
       if (!moves) continue;
-      // Mark the position, and the point from which the ball rolls; this ball's marks lie on top.
+      // Mark the current position, and the point from which on the ball rolls. Marks of this ball are drawn on top.
       Panel& path = frame.panels.front();
       const Polyline& line = path.lines[static_cast<std::size_t>(which)].lines.front();
       Marks rolls{{},

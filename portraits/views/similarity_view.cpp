@@ -1,4 +1,4 @@
-// Canonical coordinates: the symmetry (u, v) -> (c u, c v) moves p = ln v alone, so orbits are translates of one curve.
+// Canonical coordinates. The symmetry (u, v) -> (c u, c v) shifts p = ln v alone, so orbits are translates.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,8 +10,8 @@ namespace contensou::portraits {
 namespace {
 
 constexpr double half_height = 5;  // half height of the panels, in p
-constexpr double step = 0.8;       // distance of translates; more where p changes while k hardly does
-constexpr int max_count = 24;      // most translates of a curve
+constexpr double step = 0.8;       // distance of translates in p; larger if p changes while k hardly does
+constexpr int max_count = 24;      // largest number of translates of a curve
 
 /// Draws one panel: translates of each curve, with the arrow of the symmetry.
 MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<double(double ln_k)>& abscissa,
@@ -30,8 +30,8 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
   PortraitPanel layers(drawing, std::move(axes), map);
   const auto copies = [&](const PortraitOrbit& curve) {
     const Instant at = at_log_ratio(curve, 0);
-    // Translates range from the one that touches the lower border to the one that touches the upper border. Rows
-    // next to an axis are left out, because no number of translates would reach them.
+    // The first translate touches the lower border, the last one the upper border. Rows next to an axis are left out,
+    // because no number of translates would reach them.
     const Axis& x = layers.panel().x;
     const double margin = 0.02 * (x.high - x.low);
     double rise = 0, fall = 0;
@@ -74,7 +74,7 @@ std::vector<MappedPanel> similarity_view(const Drawing& drawing) {
   const double mu = portrait.system().mu();
   const std::vector<double> rays = ray_log_ratios(portrait);
   const auto [low, high] = rays.empty() ? std::pair{0.0, 0.0} : std::pair{rays.front(), rays.back()};
-  // A requested motion begins inside.
+  // A requested motion begins inside the panel.
   const double start =
       !portrait.highlight.empty() && portrait.highlight[0].u[0] != 0 ? portrait.highlight[0].ln_k[0] : 0;
   Panel by_q, by_ratio;

@@ -20,7 +20,7 @@ Axis axis(const Text& name, const Eigen::ArrayXd& values, bool logarithmic) {
   return {name, values[0], values[values.size() - 1], logarithmic, {}};
 }
 
-/// Returns a value of a map interpolated at fractions of both axes.
+/// Returns a value of a map, interpolated at fractions of both axes.
 double between(const Eigen::ArrayXXd& values, double row_share, double column_share) {
   const auto split = [](double fraction, Eigen::Index count) {
     const double place = fraction * static_cast<double>(count - 1);
@@ -40,7 +40,7 @@ ColourMap colours(const StopTimeMap& map, const Text& time) {
   ColourMap image;
   image.columns = columns;
   image.scale = {time, map.tau.minCoeff(), map.tau.maxCoeff(), logarithmic, {}};
-  // Colours are dark next to the stop, as in portraits, but paler, so that lines are visible on them.
+  // Colours are dark for short stop times, as in portraits, but paler, so that lines are visible on them.
   constexpr int steps = 16;
   for (int i = 0; i <= steps; ++i) image.palette.push_back(viridis(static_cast<double>(i) / steps, 0.35));
   for (int i = 0; i < rows; ++i) {
@@ -57,7 +57,7 @@ Lines ray(const StopTimeMap& map) {
   Lines ray{{}, {ray_colour, 1.4, true}, math("k = 1")};
   const double bottom = std::max(v0[0], 0.0), top = v0[v0.size() - 1];
   for (double side : {1.0, -1.0}) {
-    // The part of v = mu |u| on this side of u = 0 and inside the map.
+    // The part of the line v = mu |u| on this side of u = 0 and inside the map.
     const double near = std::max(side > 0 ? u0[0] : -u0[u0.size() - 1], 0.0);
     const double far = side > 0 ? u0[u0.size() - 1] : -u0[0];
     const double from = std::max(near, bottom / map.mu), to = std::min(far, top / map.mu);
@@ -75,7 +75,7 @@ Figure draw(StopTimeMap map, const MapCaption& caption, const AskedSize& size) {
                                         : title_of("When it stops", fmt::format("{:.4g}", map.mu), shortened(map.law));
   figure.subtitle = caption.subtitle;
   figure.size = fitted({175, 130}, 1, size);
-  // From here on values are in the units of the axes.
+  // From here on, values are in the units of the axes.
   map.axes.u0 /= caption.u_unit;
   map.mu *= caption.u_unit;
   map.tau /= caption.time_unit;
@@ -91,7 +91,7 @@ Figure draw(StopTimeMap map, const MapCaption& caption, const AskedSize& size) {
       line.push_back({isochrone.u[i] / caption.u_unit, isochrone.v[i]});
     }
     if (paper_length(panel, line) >= min_labelled) {
-      // Neighbouring labels alternate in height.
+      // Neighbouring labels have different heights.
       const double fraction = panel.labels.size() % 2 == 0 ? 0.46 : 0.54;
       panel.labels.push_back({arrow_along(panel, line, fraction).at,
                               fmt::format("{:.6g}", isochrone.tau_stop / caption.time_unit), isochrone_colour});

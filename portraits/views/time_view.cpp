@@ -1,4 +1,4 @@
-// u, v and k against the fraction of the stop time that has passed: by scaling, only k at the start matters.
+// u, v and k against the fraction of the stop time that has passed. Curves depend on k at the start only.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,14 +14,14 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Returns the map of one quantity, or of its ratio to the start, against the fraction of the stop time.
+/// Returns the map from states to points: a quantity, or its ratio to the start, against the fraction of the stop time.
 PanelMap over_time(double (*quantity)(const Instant& at, const Instant& start)) {
   return {[quantity](const Instant& at, const Instant& start) {
     return Point{1 - at.tau_left / start.tau_left, quantity(at, start)};
   }};
 }
 
-/// Returns ln k, limited, because at rest it is only a limit of the last rows of an orbit.
+/// Returns ln k within limits, because at rest ln k is only the limit of the last rows of an orbit.
 double clamped_ln_k(const Instant& at, const Instant&) {
   constexpr double lowest = -60;
   return at.tau_left == 0 ? std::numeric_limits<double>::quiet_NaN() : std::clamp(at.ln_k, lowest, -lowest);

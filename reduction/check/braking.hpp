@@ -8,8 +8,8 @@
 
 namespace contensou::reduction {
 
-/// The right sides of (R1) times the larger of w and v. A division by `larger` remains, so that no speed that vanishes
-/// is a divisor:
+/// The right sides of (R1), multiplied by the larger of w and v, so that a speed that vanishes is never a divisor. One
+/// division by `larger` remains:
 ///   -d ln w/ds = r of_spin/larger,   -d ln v/ds = of_slip/larger
 struct Braking {
   double larger, of_spin, of_slip;

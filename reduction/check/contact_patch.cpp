@@ -94,7 +94,7 @@ Resistance ContactPatch::over_chords(double k) const {
   if (k <= 1) {
     const double force = integral([&](double theta) { return std::cos(theta) * chord_moment(1, theta, k); }, 0, pi / 2);
     const double moment = integral([&](double theta) { return chord_moment(2, theta, k); }, 0, pi / 2);
-    return {2 * force, 2 * moment - k * (2 * force)};  // pi - theta gives the same chord in the opposite direction
+    return {2 * force, 2 * moment - k * (2 * force)};  // pi - theta gives the same chord, reversed
   }
   const auto over = [&](int n, int power) {
     return 2 * integral(

@@ -1,4 +1,5 @@
-// In scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W.
+// Equations in scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v; dbeta/ds = 1/W, W the
+// weight of beta.
 #include "contensou/reduction/direct_motion.hpp"
 
 #include <algorithm>
@@ -29,12 +30,13 @@ using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
 /// Largest change of x in one step next to a kink, as a fraction of x, where x = ln k - ln k of the kink. A law may
-/// have a term x ln|x| there. Fehlberg's error estimate, of the stages at the ends of a step, does not see it.
+/// have a term x ln|x| there. Fehlberg's error estimate does not detect this term, because it uses the stages at the
+/// ends of a step.
 constexpr double fraction_of_distance = 0.5;
 /// Distance |x| below which x^2 is negligible and steps need not shrink any more.
 constexpr double nearest_kink = 1e-8;
 
-/// Distance from a kink below which the step before ended on the kink.
+/// Distance from a kink below which the previous step counts as having ended on the kink.
 constexpr double on_kink = 16 * std::numeric_limits<double>::epsilon();
 
 struct DirectEquations {
@@ -59,7 +61,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  // beta grows without bound. ln(1 + beta/beta_unit) starts at 0 and has the size of the other variables.
+  // beta grows without bound. ln(1 + beta/beta_unit) starts at 0 and has the magnitude of the other variables.
   const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
   const double beta_unit = 1 / speed;
   DirectEquations equations{system, beta_unit};
@@ -78,7 +80,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
     if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
 
-    // The step ends at the next time to report. The steps after it must not be shortened by that.
+    // The step ends at the next time to report. This must not shorten the steps after it.
     const double wanted = report.next_time();
     Values rate;
     equations(x, rate, s);

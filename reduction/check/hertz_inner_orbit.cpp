@@ -1,4 +1,4 @@
-// README (R12). With s = k^2, for k <= 1:
+// Elementary orbit of the exact law, README (R12). With s = k^2, for k <= 1:
 //   Phi - r k Psi = (3 pi k/128) [4 (4 - s) - r (8 - 8 s + 3 s^2)] = (3 pi k/128) 3 r (s+ - s)(s - s-)
 //   w = const s^(a/2) (1 - s/s+)^(e+) (1 - s/s-)^(e-),   a = r/(2 - r)
 #include "check/hertz_inner_orbit.hpp"

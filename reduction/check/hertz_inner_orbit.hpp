@@ -2,7 +2,8 @@
 
 namespace contensou::reduction {
 
-/// Returns ln w along an orbit of the exact law for 0 < k <= 1, where it is elementary, up to a constant: README (R12).
+/// Returns ln w along an orbit of the exact law for 0 < k <= 1, up to a constant. It is an elementary function there,
+/// reduction/README.md (R12).
 ///
 /// It is independent of SimilarityCurve::ln_w. Compare differences between two k, because the constants differ.
 ///
@@ -10,7 +11,7 @@ namespace contensou::reduction {
 /// @param k  v/(mu |u|), 0 < k <= 1
 /// @throws std::domain_error  outside these ranges
 ///
-/// Accuracy  4 eps (|ln w| + r); the formula for the roots keeps its digits as r -> 0.
+/// Accuracy  4 eps (|ln w| + r). The formula for the roots keeps its digits as r -> 0.
 double hertz_inner_ln_w(double r, double k);
 
 }  // namespace contensou::reduction

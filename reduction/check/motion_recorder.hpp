@@ -7,7 +7,7 @@
 
 namespace contensou::reduction {
 
-/// The part that both steppers share: units, the start in logarithms, the times still to report, and the Motion that
+/// The common part of both steppers: units, the start in logarithms, the times still to report, and the Motion that
 /// grows. It contains no equation of motion.
 class MotionRecorder {
  public:
@@ -15,11 +15,11 @@ class MotionRecorder {
   /// @throws std::domain_error  if start is not a state, or times are negative, not finite or decreasing
   MotionRecorder(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
 
-  /// Returns the start in the recorder's unit of speed; -infinity for a speed of 0. A requested start is already
-  /// reported.
+  /// Returns the start in the recorder's unit of speed, with -infinity as the logarithm of a speed of 0. If the start
+  /// was requested, it is already reported.
   const LogState& start() const { return start_; }
 
-  /// Returns an upper bound of the whole scaled time, the unit of its error.
+  /// Returns an upper bound of the whole scaled time. Errors of the scaled time are relative to it.
   double time_scale() const { return time_scale_; }
 
   /// Returns the next time to report, in scaled time; infinity if there is none.

@@ -29,7 +29,7 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using Pair = std::array<double, 2>;
 
-/// The field in the form that a stepper calls.
+/// The field with the call operator that a stepper needs.
 struct Equations {
   const PlanarField& field;
 
@@ -39,7 +39,7 @@ struct Equations {
   }
 };
 
-/// The steps of one orbit. They are made up to the latest time that was requested.
+/// The steps of one orbit, computed up to the latest requested time.
 class SteppedMotion final : public PlanarOrbit::Motion {
  public:
   SteppedMotion(PlanarField field, const Vector2d& start)
@@ -57,7 +57,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     while (states_.back().t < time) extend();
     const auto after = std::ranges::upper_bound(states_, time, {}, &State::t);
     State state = *std::prev(after);
-    // This step is shorter than one whose error was accepted.
+    // This step ends inside a step whose error was accepted, so its error is smaller.
     auto stepper = odeint::runge_kutta_dopri5<Pair>();
     if (time > state.t) stepper.do_step(Equations{field_}, state.x, state.t, time - state.t);
     return {state.x[0], state.x[1]};

@@ -39,7 +39,7 @@ double regularised_symmetry_residual(const ReducedSystem& system, State state) {
 }
 
 double slope_symmetry_residual(const ReducedSystem& system, State state) {
-  // The two partial derivatives give another difference quotient than the derivative along the group. Steps are short,
+  // The two partial derivatives use other difference quotients than the derivative along the group. Steps are short,
   // because the exact law has no third derivative at k = 1.
   constexpr double h = 2e-5;
   const auto partial = [&](double du, double dv) {

@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Allowed errors: of rounding, of the difference quotients of symmetry.hpp, and of the steppers.
+// Allowed errors of three kinds: rounding, difference quotients (symmetry.hpp), and steppers.
 constexpr double rounding = 1e-13;
 constexpr double difference_quotient = 1e-9;
 constexpr double stepping = 1e-10;
@@ -34,8 +34,8 @@ double relative(double value, double reference) {
 /// Returns the larger of two errors; NaN counts as the largest, so that it is never lost.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// Returns the start in a unit of speed in which squares and sums do not overflow. The conversion is exact. A speed
-/// below 1e-200 of the other has no effect and becomes 0, so that the checks of an axis apply.
+/// Returns the start in a unit of speed for which squares and sums do not overflow. The conversion is exact. A speed
+/// below 1e-200 of the other speed has no effect and becomes 0, so that the checks of an axis apply.
 State normalised(State start) {
   constexpr double faint = 1e-200;
   const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
@@ -91,7 +91,7 @@ class Examination {
     add("generator on (2.6)", field_symmetry_residual(system_, start_), difference_quotient);
     add("generator on (2.7)", regularised_symmetry_residual(system_, start_), difference_quotient);
 
-    // The factor is no power of two, so that no digit agrees by construction.
+    // The factor is not a power of two. With a power of two all digits would agree by construction.
     constexpr double factor = 1e3 / 7;
     const double scaled = integrate_directly(system_, {factor * start_.u, factor * start_.v}).stop_time;
     add("stop time of the scaled start, (2.6)", relative(scaled, factor * orbit_.stop_time()), stepping);
@@ -126,7 +126,7 @@ class Examination {
         if (edges[i] > edges[i - 1]) change += Rule::integrate(slope, edges[i - 1], edges[i], 8, 1e-14);
       }
       const double along = orbit_.at_coordinate(xi).ln_v - orbit_.at_coordinate(xi - 1).ln_v;
-      // dp/dq loses the digits that Phi - r k Psi loses.
+      // dp/dq loses the same digits as Phi - r k Psi.
       const double digits = 1 / std::max(1.0, steepness(chart.log_ratio(xi - 1)));
       worst = worse(relative(along, std::copysign(change, along)) * digits, worst);
     }
@@ -137,7 +137,8 @@ class Examination {
   double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
 
   void first_integral(const Motion& regularised, const Motion& direct) {
-    // The slope of the curve multiplies an error of ln k. It is unbounded on rays, and for r next to Phi'(0)/Psi(0).
+    // An error of ln k is multiplied by the slope of the curve, which is unbounded on rays and for r next to
+    // Phi'(0)/Psi(0).
     const auto drift = [&](const Motion& motion) {
       const double at_start = flow_.log_first_integral(start_.u, std::log(start_.v));
       double worst = 0;
@@ -153,8 +154,8 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive rho + r k Psi replaces r k Psi,
-  /// because steps in time blur k as much next to the ray.
+  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive the numerator is rho + r k Psi,
+  /// because the errors of k by steps in time are that much larger next to the ray.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
     const Balance balance = Balance::of(system_.law(), system_.r(), system_.drive(), k);
@@ -165,8 +166,8 @@ class Examination {
   bool on_a_ray(double ln_k) const { return steepness(ln_k) > 1e9; }
 
   void times(const Motion& regularised) {
-    // Compare tau(k) and beta(k) of the similarity solution with the stepper at the same k. Beside an invariant ray k
-    // determines neither of them well, and on the ray not at all.
+    // Compare tau(k) and beta(k) of the similarity solution with the stepper at the same k. Next to an invariant ray k
+    // determines tau and beta badly; on the ray it does not determine them.
     const double beta_unit = 1 / (16 * system_.mu() * std::abs(start_.u) + 15 * pi * start_.v);
     double worst_tau = 0;
     double worst_beta = 0;
@@ -206,7 +207,7 @@ class Examination {
     const auto [lower, upper] = system_.stop_time_bounds(start_);
     add("two-sided bound of the stop time", worse(lower / stop - 1, worse(stop / upper - 1, 0)), rounding);
 
-    // The bounds follow from this inequality: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 for laws with m >= 1.
+    // The law's bounds follow from: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 for laws with m >= 1.
     const double sign = system_.law().sliding_bounds()->min >= 1 ? 1 : -1;
     double worst = 0;
     for (int i = -200; i <= 200; ++i) {

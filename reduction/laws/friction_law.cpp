@@ -54,7 +54,7 @@ void Law::Function::require_degree_0() const {
                                "and Psi = {} at sliding = {}, pivoting = {}",
                                here.force, here.moment, slip.sliding, slip.pivoting));
     }
-    // No scale is a power of two, by which any law would agree to the bit.
+    // No scale is a power of two, because with a power of two every law would agree to the bit.
     for (double scale : {1e-9, 1e-3, 0.3, 1e3, 1e9}) {
       const Resistance there = resistance({scale * slip.sliding, scale * slip.pivoting});
       if (!differ(here.force, there.force) && !differ(here.moment, there.moment)) continue;
@@ -68,7 +68,7 @@ void Law::Function::require_degree_0() const {
 }
 
 void Law::Function::require_approach() const {
-  // Takes a quantity at two ratios, the second 64 times nearer to the limit. The quantity must not grow like a power.
+  // Compares a quantity at two ratios, the second 64 times nearer to the limit. It must not grow like a power.
   const auto require_bounded = [&](const char* what, double first, double second, double allowance) {
     if (std::abs(second) <= 2 * std::abs(first) + allowance) return;
     reject(name, fmt::format("{}: it is {} and, 64 times nearer to the limit, {}", what, first, second));

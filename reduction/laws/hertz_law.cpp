@@ -1,4 +1,4 @@
-// Notation (Zh98 section 1):
+// Notation and closed forms of V. F. Zhuravlev, 1998 (Zh98), section 1:
 //   k = sliding/pivoting,  Phi = F/(N f),  Psi = M/(N f eps),  theta* = asin(1/k)
 //
 //   k <= 1:  Phi = (3 pi/32) k (4 - k^2)
@@ -20,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Below this k the printed form is accurate to 7e-16. Here the series needs 56 terms, and fewer beyond.
+/// Below this k the printed form is accurate to 7e-16. At this k the series needs 56 terms; at larger k, fewer.
 constexpr double series_from = 1.25;
 constexpr std::size_t series_terms = 64;
 

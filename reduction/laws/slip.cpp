@@ -16,7 +16,7 @@ Slip slip_of_ratio(double k) {
 
 namespace {
 
-/// Apart from the test, which then needs no frame of its own: laws make it in every call.
+/// Throws. It is a function of its own, so that the test in require_slip, which runs in every call of a law, is short.
 [[noreturn, gnu::noinline]] void reject(const char* law, Slip slip) {
   if (slip.sliding == 0 && slip.pivoting == 0) {
     throw std::domain_error(

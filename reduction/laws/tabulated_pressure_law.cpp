@@ -28,7 +28,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Functions of y in [0, 1] that are smooth except at y = 0, side by side in one table of polynomials.
+/// Several functions of y in [0, 1] that are smooth except at y = 0, in one table of polynomials.
 ///
 /// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of its distance from y = 0. The last
 /// panel begins at y = 0; there a singular part like y ln y is below the last bit.
@@ -59,7 +59,7 @@ class FunctionTable {
   }
 
   Values operator()(double y) const {
-    // The exponent and the first bits of the mantissa number the panels. The others go from -1 to 1 across it.
+    // The exponent and the first bits of the mantissa give the panel's number. The other bits give the place in it.
     constexpr int fraction_bits = 52;
     constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
     constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);
@@ -105,10 +105,10 @@ const FunctionTable<2>& ring_functions() {
   return table;
 }
 
-/// The integrals of (R34) over rings of neighbouring radii with k among them; u = s/k^2 - 1.
+/// The integrals of (R34) over rings of neighbouring radii, among them k; u = s/k^2 - 1.
 class NearRings {
  public:
-  /// Integrals of Phi and of a Psi/k of a ring from 0 to u, and the integrals of these.
+  /// Integrals of Phi and of a Psi/k of a ring from 0 to u, and the integrals of these integrals.
   struct Integrals {
     double force, force_again, moment, moment_again;
   };
@@ -117,7 +117,7 @@ class NearRings {
     static const NearRings instance;
     if (u == 0) return {0, 0, 0, 0};
     std::array<double, columns> sum{};
-    // Powers below 2^-56 are left out: 2^(-n distance) bounds them.
+    // Powers below 2^-56 are left out. 2^(-n distance) is a bound of the power n.
     const int distance = -std::ilogb(u);
     const std::size_t count = distance > 1 ? std::min<std::size_t>(terms, 56 / (distance - 1) + 2) : terms;
     for (const auto& coefficients : std::span(instance.powers_).last(count)) {
@@ -134,7 +134,7 @@ class NearRings {
   static constexpr std::size_t columns = 8;
   static constexpr int terms = 36;
 
-  /// Coefficient of (-u)^n (plain + log ln|u|). `integrated` leaves out the factor u.
+  /// Coefficient of (-u)^n (plain + log ln|u|). `integrated` does not contain the factor u.
   struct Term {
     double plain;
     double log;
@@ -176,11 +176,11 @@ struct Ring {
   double load;
 };
 
-/// A few rings that replace all rings between two radii: a Gauss rule in s with the pressure as its weight.
+/// A few rings that replace all rings between two radii: a Gauss rule in s whose weight is the pressure.
 using Rule = std::vector<Ring>;
 constexpr int rule_order = 10;
 
-/// The part of the patch between two rows, where the pressure, divided by the whole load, is linear in s.
+/// The part of the patch between two rows of the table. The pressure divided by the whole load is linear in s there.
 struct Piece {
   double inner, outer;  ///< radii
   double inner_pressure, outer_pressure;
@@ -204,7 +204,7 @@ Rule rule_of(const Piece& piece) {
   return rule;
 }
 
-/// Returns the Gauss rule for the rings of two other rules, by Lanczos' recurrence.
+/// Returns the Gauss rule that replaces two rules, by Lanczos' recurrence.
 Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   Rule all = left;
   all.insert(all.end(), right.begin(), right.end());
@@ -247,13 +247,13 @@ Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   return rule;
 }
 
-/// Neighbouring pieces. Their rule replaces them if k is at least one width of the block away.
+/// Neighbouring pieces. Their Gauss rule replaces them if k is at least one width of the block away.
 struct Block {
   double inner_square, outer_square, width;
   Rule rule;                   ///< empty if the block reaches too near to the centre
   Piece piece;                 ///< the first piece
   double pivoting_moment = 0;  ///< moment of pure pivoting of a block of one piece
-  std::size_t next;            ///< the first block that is not a part of this one; for one piece the next block
+  std::size_t next;            ///< the first block behind this one and its parts; for one piece the next block
 
   bool far_from(double square) const { return square <= inner_square - width || square >= outer_square + width; }
 };
@@ -282,7 +282,7 @@ void require_table(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   if (!(pressure.maxCoeff() > 0)) throw std::domain_error("TabulatedPressureLaw: the pressure is 0 in every row");
 }
 
-/// Returns the rho of the sharpest bends: steps of the pressure, and changes of its slope in s above its mean slope.
+/// Returns the rho of the sharpest bends: steps of the pressure, and changes of its slope in s above the mean slope.
 std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
   constexpr std::size_t most = 32;
   struct Bend {
@@ -346,7 +346,7 @@ class TabulatedPressureLaw::Rings {
     const Sum pivoting = sum(0);
     load_ = sliding.force;
     pivoting_moment_ = pivoting.moment;
-    // Curves are sampled from k = 4e-18. For smaller k the library takes Phi to be linear.
+    // Curves are sampled from k = 4e-18. For smaller k the library treats Phi as linear.
     constexpr double slow = 0x1p-57;
     constexpr double slower = 0x1p-100;
     if (!(std::abs(sum(slow).force * (slower / slow) / sum(slower).force - 1) < 1e-13)) refuse_centre();
@@ -429,7 +429,7 @@ class TabulatedPressureLaw::Rings {
     return total;
   }
 
-  /// Returns the sum over the disc in the middle, a uniform disc and a paraboloid.
+  /// Returns the sum over the disc inside the second row: a uniform disc and a paraboloid.
   Sum disc(double k) const {
     static const PressureLaw flat = PressureLaw::uniform(), round(1);
     Sum total{0, 0, 0, 0};
@@ -486,7 +486,7 @@ class TabulatedPressureLaw::Rings {
     total.force += force;
     total.missing += piece.load() - force;
     total.moment += moment;
-    // Psi is nearly 2/pi, its value for k = a, so the subtraction loses no digits
+    // Psi is nearly 2/pi, its value at k = a, so the subtraction loses no digits.
     total.deficit += pivoting_moment - moment;
   }
 

@@ -9,7 +9,7 @@
 
 namespace contensou::reduction {
 
-/// Takes second-order differences in the ratio of the smaller speed to the larger, one-sided beside 0.
+/// Uses second-order differences in the smaller speed divided by the larger; next to 0 the differences are one-sided.
 kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& slip) const {
   constexpr double step = 6e-6;  // rounding and the third derivative give about the same error
   const bool pivots = slip.p <= slip.r;
@@ -24,7 +24,7 @@ kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& s
     return change / (2 * step) * (pivots ? 1 : -1);
   };
   const double force_slope = slope(&Resistance::force), moment_slope = -slope(&Resistance::moment);
-  constexpr double least = 1e-300;  // below, a quotient is its limit
+  constexpr double least = 1e-300;  // for a smaller number a quotient equals its limit
   return {slip.p > least ? here.force / slip.p : force_slope, slip.r > least ? here.moment / slip.r : moment_slope,
           force_slope, moment_slope};
 }

@@ -40,7 +40,7 @@ State scaled(State start, double factor) { return {start.u * factor, start.v * f
 
 double square_root_of_ratio(double a, double b) { return std::sqrt(a) / std::sqrt(b); }
 
-/// Returns the start of pure sliding over a distance, and of pure pivoting through an angle.
+/// Return the start of pure sliding over a distance, and the start of pure pivoting through an angle.
 State sliding_over(const Flow& flow, double distance) {
   return scaled({0, 1}, square_root_of_ratio(distance, reached(flow, {0, 1}).distance));
 }
@@ -61,7 +61,7 @@ bool comes_to(const Reached& here, const Aim& aim) {
   return same(here.tau, aim.tau) && same(here.distance, aim.distance) && same(here.turned, aim.turned);
 }
 
-/// Returns the start as `aimed`, without the test that it fulfils the demands.
+/// Returns the start as `aimed`, but does not test that it fulfils the demands.
 std::optional<State> best_start(const Flow& flow, const Aim& aim) {
   // If one demand is 0, the motion lies on an axis.
   const bool in_place = aim.distance && *aim.distance == 0;
@@ -79,8 +79,8 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     if (straight) return sliding_over(flow, *aim.distance);
   }
 
-  // This ratio is distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of the ratio divided
-  // by the demanded ratio. It does not depend on the scale of the start, and it grows with k.
+  // The ratio is distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of the ratio divided by
+  // the demanded ratio. It is independent of the scale of the start, and it grows with k.
   const auto residual = [&](double ln_k) {
     const Reached here = reached(flow, unit_start(flow, ln_k));
     const double time = aim.tau ? 2 * std::log(here.tau / *aim.tau) : 0;
@@ -88,7 +88,7 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     const double turned = aim.turned ? std::log(here.turned / *aim.turned) : 0;
     return aim.distance ? distance - (aim.tau ? time : turned) : time - turned;
   };
-  constexpr double widest = 640;  // the speeds and their product are still doubles
+  constexpr double widest = 640;  // at this |ln k| the speeds and their product are still doubles
   double low = 0, high = 0;
   double at_low = residual(0), at_high = at_low;
   for (double step = 1; at_low > 0 && low > -widest; step *= 2) {

@@ -61,7 +61,7 @@ struct Flow::Arrays {
 
 namespace {
 
-/// Returns true if two ln k* are equal within a ray's accuracy.
+/// Returns true if two ln k* are equal within the accuracy of a ray.
 bool same_ratio(double a, double b) { return a == b || std::abs(a - b) < 1e-6; }
 
 /// Returns a ln k between two ratios, each of which may be 0 or infinity.
@@ -203,11 +203,11 @@ void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, st
 
 double Flow::refused(std::size_t whole) const { return by_table(whole) ? table().refused() : 0; }
 
-// The content of the table, m, is not bounded with a drive.
+// The table stores m, which is not bounded with a drive.
 bool Flow::by_table(std::size_t starts) const { return starts >= many_starts && system().drive() == 0; }
 
 const StopTimeTable& Flow::table() const {
-  // The table gets a copy of the flow, because a flow that the table refers to would never be released.
+  // The table gets a copy of the flow. A flow that is referred to by its own table would never be released.
   return arrays_->table.made([this] { return StopTimeTable(Flow(solved_)); });
 }
 

@@ -1,4 +1,4 @@
-// README (R61): a start moved along itself scales the motion; a start moved along the field delays it.
+// README (R61): if the start moves along itself, the motion is scaled; along the field, it is delayed.
 #include "contensou/reduction/instant_gradient.hpp"
 
 #include <algorithm>

@@ -38,8 +38,8 @@ double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
 /// Returns the root of an increasing function of xi in [low, high] by Newton's method, with bisection if a step leaves
-/// the interval. The function changes by a factor over a unit of xi, so after a small_step the error, its square, is
-/// nothing.
+/// the interval. The function changes by a factor over a unit of xi. So after a small_step the error, which is its
+/// square, is negligible.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);
@@ -97,7 +97,7 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   m0_ = curve_->sliding_coefficient(xi0_);
 }
 
-/// Computes ln w at the start at its first use, because a stop time and a slip length do not need its panels.
+/// Computes ln w at the start at its first use, because a stop time and a slip length do not need the panels of ln w.
 double Orbit::log_start() const {
   double ln_w = ln_w0_.value.load(std::memory_order_relaxed);
   if (std::isnan(ln_w)) ln_w0_.value.store(ln_w = curve_->ln_w(xi0_), std::memory_order_relaxed);
@@ -173,7 +173,7 @@ double Orbit::scaled_left_slope(double xi, const Progress& now) const {
 }
 
 double Orbit::coordinate_at_left(double left) const {
-  // Below the curve's limit the time left is a power of exp(xi).
+  // Below linear_below() the time left is a power of exp(xi).
   const double limit = std::min(curve_->linear_below(), xi0_);
   const Progress last = progress(limit);
   const double at_limit = scaled_left(limit, last);
@@ -207,7 +207,7 @@ OrbitPoint Orbit::rest(double tau) const {
 }
 
 OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
-  // The speed falls linearly. dtau = weight dbeta, where the weight is proportional to the square of the speed.
+  // On an axis the speed falls linearly, and dtau = weight dbeta with a weight proportional to the square of the speed.
   if (fraction_left == 0) return rest(tau);
   const double rate = system_.scaled_time_rate();
   const double spent = (1 - fraction_left) / fraction_left;
@@ -221,8 +221,8 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
 }
 
 double Orbit::beta(double xi, const Progress& now) const {
-  // Beside a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. At a law's kink x ln|x| the
-  // distance from the ray is squared while w is halved. So xi is too inaccurate at distances below sqrt(eps).
+  // Next to a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. If the law has a term x ln|x|
+  // there, the distance from the ray is squared while w is halved. So xi is inaccurate at distances below sqrt(eps).
   constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
@@ -239,7 +239,7 @@ double Orbit::beta(double xi, const Progress& now) const {
   const auto elapsed = [&](double there, const Progress& then) {
     return curve_->beta_coefficient(there) / (w_ * then.w + v_ * then.v) - curve_->beta_coefficient(xi0_) / (w_ + v_);
   };
-  // On the small ray of a drive w falls by any factor while k stays equal to the last bit.
+  // On the ray at small k of a drive, w falls by any factor while k stays equal to the last bit.
   constexpr double there_already = 1e-9;
   if (system_.drive() > 0 && std::abs(ln_k - ln_k_star) < there_already) {
     const double xi_then = chart.coordinate(ln_k_star + std::copysign(there_already, ln_k0_ - ln_k_star));
@@ -259,7 +259,7 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
-/// Takes the speeds from the time left. Beside a ray they fall while k hardly changes, and xi does not determine them.
+/// Computes the speeds from the time left. Next to a ray they fall while k hardly changes, so xi does not suffice.
 OrbitPoint Orbit::point_with_left(double tau, double xi, double left) const {
   return point(tau, xi, progress(xi, left));
 }
@@ -325,7 +325,7 @@ Orbit::Instant Orbit::instant(double tau) const {
 
 double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction, double from) const {
   const auto rest = [&](double xi) { return fallen(xi).*ln_speed - ln_fraction; };
-  // Below the curve's limit both logarithms are linear.
+  // Below linear_below() both logarithms are linear.
   const double limit = std::min(curve_->linear_below(), from);
   const double at_limit = rest(limit);
   if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
@@ -339,7 +339,7 @@ double Orbit::coordinate_of_fastest() const {
   };
   const double at_begin = on_axis() ? 0 : excess(ln_k0_);
   if (at_begin >= 0) return xi0_;
-  // k grows towards its limit, where friction exceeds the drive.
+  // k grows towards its limit, at which friction exceeds the drive.
   constexpr double far = 60;
   const double end = std::min(chart().log_terminal_ratio(), far);
   const double at_end = excess(end);
@@ -355,7 +355,7 @@ double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double star
   const double ln_fraction = std::isnormal(fraction) ? std::log(fraction) : std::log(speed) - std::log(start);
   if (from != xi0_ && fallen(from).*ln_speed <= ln_fraction) return 0;
   const double xi = coordinate_of_fall(ln_speed, ln_fraction, from);
-  // Both speeds follow from the known one and from k.
+  // Both speeds follow from the speed that is known and from k.
   Progress now = fallen(xi);
   const double correction = ln_fraction - now.*ln_speed;
   now.ln_w += correction;
@@ -378,7 +378,7 @@ double Orbit::time_of_u(double u) const {
 
 double Orbit::integral(const std::function<double(double)>& of_v, double tau, const std::vector<double>& edges) const {
   if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::integral: tau must be >= 0, got {}", tau));
-  // The integral of the value at v = 0, and that of the difference, which vanishes with v.
+  // Split into the integral of the value at v = 0 and the integral of the difference, which vanishes with v.
   const double end = std::min(tau, stop_time());
   const double last_value = of_v(0);
   const double at_rest = last_value * end;
@@ -390,7 +390,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
     for (double v : edges) panels.push_back(std::min(time_of_v(std::max(v, 0.0)), end));
     integrand = [&](double at) { return of_v(v0_ * (1 - at / stop_time())) - last_value; };
   } else {
-    // The variable is xi, because v and the time follow from it without a root.
+    // The variable of integration is xi, because v and the time follow from xi without a root.
     constexpr double ln_nothing = -50;
     constexpr double width = 3;
     constexpr double most = 64;
@@ -419,7 +419,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   for (std::size_t i = 1; i < panels.size(); ++i) {
     const double left = panels[i - 1], width = panels[i] - left;
     if (width == 0) continue;
-    // Beside a kink the curve contains roots of the distance; 3 s^2 - 2 s^3 turns them into whole powers.
+    // Next to a kink the curve contains roots of the distance; 3 s^2 - 2 s^3 in place of s makes whole powers.
     const bool bends = std::ranges::any_of(kinks, [&](double kink) { return kink == left || kink == panels[i]; });
     const auto along = [&](double s) {
       return bends ? integrand(left + width * s * s * (3 - 2 * s)) * 6 * s * (1 - s) : integrand(left + width * s);
@@ -483,7 +483,7 @@ OrbitColumns Orbit::sample(Eigen::Index count) const {
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index to_go = count - 1 - i;
     const double last = static_cast<double>(count - 1);
-    // The nearer end sets the scale, so that the time left keeps its digits near the stop.
+    // Times count from the nearer end, so that the time left keeps its digits near the stop.
     columns.set(i, i < to_go ? at_time(stop * (static_cast<double>(i) / last))
                              : at_time_left(stop * (static_cast<double>(to_go) / last)));
   }

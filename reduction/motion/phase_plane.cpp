@@ -29,7 +29,7 @@ double excess_slope(const Law& law, double r, double k) {
     const double coarse = central(100 * at_kink);
     return fine > 1.01 * coarse ? infinity : fine / k;
   }
-  // The differences have order 8 and stay on one side of k = 1.
+  // The differences have order 8 and use points on one side of k = 1 only.
   constexpr std::array weights{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
   const double h = std::min(0.02, std::abs(ln_k) / 20);
   double slope = 0;
@@ -63,7 +63,7 @@ PhasePlane phase_plane(const Flow& flow) {
   const double r = system.r();
   const auto [chi, gamma] = system.inertia();
   const TerminalRatios& terminal = flow.terminal();
-  // weight of (2.8) divided by (mu u)^2
+  // weight of beta in (2.8) divided by (mu u)^2
   const auto weight = [](double k) { return (16 + 15 * pi * k) * (8 + 3 * pi * k); };
 
   // Returns the sign of 1 - r/limit; 0 if r and limit are equal within the tolerance.
@@ -75,8 +75,9 @@ PhasePlane phase_plane(const Flow& flow) {
 
   const double body_scale = std::sqrt(chi / gamma);
   PhasePlane plane{terminal, body_scale * std::sqrt(terminal.low), body_scale * std::sqrt(terminal.high), {}, {}};
-  // Adds the two points of a half-line, and the tangent if orbits end there. fall is the rate of the speed along it
-  // divided by the speed. order is the rate of the angle next to it divided by fall; attraction is the sign of order.
+  // Adds the two points of a half-line, and the tangent if orbits end there. Let rate be the relative rate of the speed
+  // along the half-line: this is fall. order is the relative rate of the angle next to it, divided by fall. attraction
+  // is the sign of order.
   const auto add = [&](InvariantDirection direction, double k, double fall, double order, double attraction) {
     for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
       const bool at_origin = place == SingularPlace::origin;
@@ -88,7 +89,7 @@ PhasePlane phase_plane(const Flow& flow) {
     }
   };
 
-  // README (R16), (R17). mu may underflow in the rates, but not in the orders.
+  // Rates by README (R16), (R17). mu may underflow in the rates, but not in the orders.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
   const double moment = law.pivoting_moment();

@@ -22,16 +22,16 @@ OrbitPoint at_beta(const Orbit& orbit, double mu, State start, double beta) {
   OrbitPoint found = orbit.at_time_left(0);
   if (std::isinf(beta) || stop == 0) return found;
   if (orbit.on_axis()) {
-    // The one speed falls linearly, and dtau = weight dbeta with the square of the speed. If the share f of the time is
-    // left, beta is (1 - f)/f times its value at f = 1/2.
+    // The speed that is not 0 falls linearly, and dtau = weight dbeta with a weight proportional to its square. If the
+    // share f of the time is left, beta is (1 - f)/f times its value at f = 1/2.
     const double spent = beta / orbit.at_time_left(stop / 2).beta;
     if (std::isfinite(spent)) found = orbit.at_time_left(stop / (1 + spent));
   } else {
-    // Towards the stop beta grows like 1/(time left), so its logarithm is nearly linear in that of the time left.
+    // Towards the stop beta grows like 1/(time left), so ln beta is nearly linear in ln (time left).
     const double unit = 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v);
     const auto at = [&](double ln_share) { return orbit.at_time_left(std::min(stop * std::exp(ln_share), stop)); };
     const auto missing = [&](double ln_share) { return std::log(beta + unit) - std::log(at(ln_share).beta + unit); };
-    constexpr double last = -700;  // smaller shares of the time are no doubles
+    constexpr double last = -700;  // smaller shares of the time are not doubles
     double low = -1;
     while (low > last && missing(low) > 0) low = std::max(2 * low, last);
     found = at(root_between(missing, low, 0, missing(low), std::log(beta + unit) - std::log(unit)));

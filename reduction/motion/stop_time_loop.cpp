@@ -62,7 +62,7 @@ constexpr std::size_t width = 4;
 using Numbers [[gnu::vector_size(width * sizeof(double))]] = double;
 using Bits [[gnu::vector_size(width * sizeof(double))]] = std::uint64_t;
 
-// Vectors that are stored at any place in an array.
+// Vectors that are stored at any address of an array.
 using StoredNumbers [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = double;
 using StoredBits [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = std::uint64_t;
 const StoredNumbers* at(const double* first) { return reinterpret_cast<const StoredNumbers*>(first); }
@@ -70,8 +70,8 @@ StoredNumbers* at(double* first) { return reinterpret_cast<StoredNumbers*>(first
 StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(first); }
 
 /// The loop for every instruction set: it is inlined into functions that are compiled for one set each. It handles some
-/// vectors at a time in two steps. The chain of a division and a polynomial is long, and a processor looks ahead by few
-/// vectors only.
+/// vectors at a time in two steps, because a division and a polynomial are a long chain of operations, and a processor
+/// looks ahead by few vectors only.
 [[gnu::always_inline]] inline void run(const Panels& table, const double* u0, const double* v0, double* tau,
                                        std::size_t size) {
   constexpr std::size_t vectors = 8, starts = width * vectors;
@@ -95,7 +95,7 @@ StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(firs
     }
     Bits unusable{};
     for (std::size_t n = 0, i = 0; n < vectors; ++n, i += width) {
-      Numbers row[width];  // c[0] to c[3] + t4 (c[4] to c[7]) of each start
+      Numbers row[width];  // c[0] to c[3] + t^4 (c[4] to c[7]) of each start
       for (std::size_t j = 0; j < width; ++j) {
         const double* c = table.panels[index[i + j]].c;
         row[j] = *at(&c[0]) + t4[i + j] * *at(&c[width]);

@@ -5,18 +5,18 @@
 
 namespace contensou::reduction {
 
-/// The data of StopTimeTable's loops: stop times tau* = pivoting |u0| + v0 M(k0), the function M as polynomials.
+/// The data of StopTimeTable's loops. Stop times are tau* = pivoting |u0| + v0 M(k0), with polynomials for M.
 ///
-/// Let v_mu = v0/mu and D = |u0| + v_mu. A start lies on one of four branches. They meet at k0 = v_mu/|u0| = 1/2, 1
-/// and 2. On each branch the coordinate
+/// Let v_mu = v0/mu and D = |u0| + v_mu. A start lies on one of four branches. They meet at k0 = v_mu/|u0| = 1/2, 1 and
+/// 2. On each branch the coordinate
 ///   y = min(|u0|, v_mu, ||u0| - v_mu|)/D
-/// is 0 at k0 = 0, 1 or infinity, where M may be singular. The exponent of y + lowest and the first `cut_bits` bits of
-/// its mantissa are the number of the panel in its branch. So panels become narrow towards y = 0.
+/// is 0 at k0 = 0, 1 or infinity, at which M may be singular. The exponent of y + lowest and the first `cut_bits` bits
+/// of its mantissa number the panel in its branch. So panels become narrow towards y = 0.
 struct StopTimePanels {
   static constexpr int terms = 8;
   static constexpr int cut_bits = 4;
   static constexpr int octaves = 64;
-  static constexpr double lowest = 0x1p-63;  ///< the exponent is 0 modulo 64
+  static constexpr double lowest = 0x1p-63;  ///< smallest y + lowest; its exponent is 0 modulo 64
   static constexpr std::size_t per_branch = std::size_t{octaves} << cut_bits;
   /// Number of used panels of a branch, those with y <= 1/3.
   static constexpr std::size_t used = (std::size_t{octaves - 3} << cut_bits) + 6;
@@ -24,7 +24,7 @@ struct StopTimePanels {
   static constexpr std::size_t near_one = per_branch;       ///< 1/2 < v_mu/|u0| < 2
   static constexpr std::size_t above_one = 2 * per_branch;  ///< v_mu/|u0| > 1
 
-  /// Coefficients of the powers of y + lowest - left edge.
+  /// Coefficients of the powers of the distance y + lowest - (left edge of the panel).
   struct alignas(64) Panel {
     double c[terms];
   };
@@ -33,7 +33,7 @@ struct StopTimePanels {
   double pivoting = 0;            ///< P/|u0|
   const Panel* panels = nullptr;  ///< branches times per_branch; the coefficients of an unused panel are NaN
 
-  /// Returns the stop time of a start whose polynomial value is not usable, and NaN for a start that is not a state.
+  /// Returns the stop time of a start for which the polynomial has no usable value, and NaN for an invalid start.
   std::function<double(double u0, double v0)> otherwise;
 };
 
@@ -51,14 +51,14 @@ StopTimeLoop& run_fastest();
 /// Returns the stop time of one start by the polynomials; NaN if the value is not usable.
 double from_panels(const StopTimePanels& table, double u0, double v0);
 
-/// The panel of a start, and its distance in y + lowest from the panel's left edge.
+/// The panel of a start, and the distance of the start's y + lowest from the panel's left edge.
 struct PlaceInPanels {
   std::size_t panel;
   double t;
 };
 
-/// Finds the place of a start.
-/// @param w  mu |u0|, in the unit of v0; not both 0
+/// Finds the panel of a start and the place in it.
+/// @param w  mu |u0|, in the unit of v0; w and v0 are not both 0
 PlaceInPanels place_in_panels(double w, double v0);
 
 /// Returns the number of the panel of a start.

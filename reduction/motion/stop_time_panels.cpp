@@ -11,7 +11,7 @@ namespace {
 using Panels = StopTimePanels;
 using Panel = Panels::Panel;
 
-/// Returns inverse_mu v0/|u0| at a y on the branch of a panel.
+/// Returns inverse_mu v0/|u0| for a y on the branch of a panel.
 double ratio(std::size_t panel, double y) {
   const double up_to_one = (panel & Panels::near_one) != 0 ? (1 - y) / (1 + y) : y / (1 - y);
   return (panel & Panels::above_one) != 0 ? 1 / up_to_one : up_to_one;
@@ -30,7 +30,7 @@ Span span(std::size_t panel) {
   return {octave + width * static_cast<double>(index % cuts), width};
 }
 
-/// Least-squares polynomials on [0, 1] through values at Chebyshev's points. There are twice as many points as terms,
+/// Least-squares polynomials on [0, 1] through values at Chebyshev's points. The points are twice as many as the terms,
 /// so that the noise of the values is halved.
 class Fit {
  public:
@@ -57,7 +57,7 @@ class Fit {
 
   /// Returns the coefficients of powers of width x.
   Panel panel(const Values& values, double width) const {
-    // Without the constant the other coefficients are small, and so is their rounding.
+    // The other coefficients are small without the constant, and so is their rounding.
     const double constant = values[0];
     Panel fitted{};
     for (std::size_t n = 0; n < Panels::terms; ++n) {
@@ -78,7 +78,7 @@ class Fit {
 
  private:
   std::array<Values, Panels::terms> analysis_{};  ///< maps values to coefficients of Chebyshev's polynomials
-  /// Coefficients of powers of x in these polynomials.
+  /// Coefficients of powers of x in Chebyshev's polynomials.
   std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};
 };
 

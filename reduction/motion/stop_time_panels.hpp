@@ -8,7 +8,7 @@
 
 namespace contensou::reduction {
 
-/// Returns m of README (R4) at k.
+/// Returns the sliding coefficient m of README (R4) at k.
 double sliding_coefficient(const Flow& flow, double k);
 
 /// Returns k at the fraction x in [0, 1] of the width of a panel.

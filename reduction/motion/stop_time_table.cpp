@@ -29,7 +29,7 @@ constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
 
 bool moderate(double x) { return x > 0x1p-100 && x < 0x1p100; }
 
-/// Number of starts that a thread takes at least: whole cache lines.
+/// Smallest number of starts for one thread: whole cache lines.
 constexpr std::size_t grain = 64;
 
 void run_shared(const Panels& panels, std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
@@ -76,7 +76,7 @@ struct StopTimeTable::Stored {
     return fitted_panel(index, [&](double k) { return sliding * sliding_coefficient(flow, k); });
   }
 
-  /// Compares some stop times of each panel with the flow's, and disables the panels that fail.
+  /// Compares some stop times of each panel with those of the flow, and disables the panels that fail.
   void prove() {
     std::vector<bool> fails(storage.size());
     for (std::size_t i = 0; i < storage.size(); ++i) {
@@ -104,7 +104,7 @@ struct StopTimeTable::Stored {
     if (!std::isfinite(u0) || !std::isfinite(v0) || v0 < 0) return not_a_number;
     const double largest = std::max(std::abs(u0), v0);
     if (largest == 0) return 0;
-    // A multiple of the start may be in the range of the table.
+    // A start out of the range of the table may have a multiple in this range.
     const int exponent = std::ilogb(largest);
     const State start{std::ldexp(std::abs(u0), -exponent), std::ldexp(std::abs(v0), -exponent)};
     const double tau = from_panels(loop, start.u, start.v);

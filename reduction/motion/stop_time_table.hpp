@@ -14,9 +14,9 @@ namespace contensou::reduction {
 /// A start (u0, v0) has u0 of either sign and v0 >= 0 of any size. A stop time beyond the range of doubles is infinity.
 /// A start that Flow::stop_time rejects becomes NaN.
 ///
-/// The constructor tests the table: it compares some stop times of each panel with the flow's. The flow computes all
-/// starts in panels with an error above 4 eps one by one. It also computes all starts of a system whose P/|u0| or S/v0
-/// is above 2^100 or below 2^-100.
+/// The constructor tests the table: it compares some stop times of each panel with those of the flow. The flow computes
+/// one by one all starts in panels with an error above 4 eps. It also computes all starts if P/|u0| or S/v0 of the
+/// system is above 2^100 or below 2^-100.
 ///
 /// Source    README (R18): m from the flow's curves.
 /// Accuracy  4 eps relative, plus the error of the curve.
@@ -36,7 +36,7 @@ class StopTimeTable {
   /// @throws std::domain_error  if u0 or v0 is not finite, or v0 < 0
   double operator()(double u0, double v0) const;
 
-  /// Computes stop times as Flow::stop_times does for many starts.
+  /// Computes stop times for many starts, as Flow::stop_times.
   void evaluate(std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
                 unsigned threads = 1) const;
 

@@ -82,7 +82,7 @@ struct StopTimesOfMu::Stored {
         for (std::size_t n = 0; n < Panels::terms; ++n) panels[i].c[n][j] = fitted.c[n];
       });
     }
-    // Test next to 0, and between points in the middle and at the end, where the interpolation is worst.
+    // Test at an r next to 0, and between points in the middle and at the end, where the interpolation is worst.
     for (double r : {1e-3 * at.r[0], (at.r[points_of_r / 2 - 1] + at.r[points_of_r / 2]) / 2,
                      (at.r[points_of_r - 2] + at.r[points_of_r - 1]) / 2})
       prove(r);
@@ -95,7 +95,7 @@ struct StopTimesOfMu::Stored {
     }
   }
 
-  /// Returns the motions of this law with that r; the body does not matter.
+  /// Returns the flow of this law with the given r. mu = 1 and chi = 1, because the result depends on r only.
   Flow at_r(double r) const { return ReducedSystem(unit.law(), 1, {.chi = 1, .gamma = r}); }
 
   void prove(double r) {
@@ -106,7 +106,7 @@ struct StopTimesOfMu::Stored {
         const double k = ratio_in_panel(i, x);
         const auto [panel, t] = k < 1 ? place_in_panels(1, k) : place_in_panels(1 / k, 1);
         const double wanted = sliding_coefficient(flow, k);
-        // The share S/(stop time) of an error of m enters the stop time.
+        // An error of m enters the stop time with the factor S/(stop time).
         const double felt = 1 / (1 / (r * unit.law().pivoting_moment() * k) + wanted);
         if (!(std::abs(interpolated(panels[panel], t, share) - wanted) * felt <= allowed_error))
           panels[panel].refused = true;

@@ -2,15 +2,15 @@
 
 #include <Eigen/Core>
 
-/// Linear algebra of matrices of any size. One source compiles Eigen's templates, which take seconds in each.
+/// Linear algebra of matrices of any size. Only one source compiles Eigen's templates, which takes seconds.
 namespace contensou::reduction {
 
 /// The singular value decomposition U diag(values) V^T of a matrix, with thin U and V.
 struct SingularValues {
   explicit SingularValues(const Eigen::MatrixXd& matrix);
 
-  /// Returns the least-squares solution of least norm, from the largest singular values.
-  /// @param rank  number of them
+  /// Returns the least-squares solution of least norm, using the largest singular values only.
+  /// @param rank  number of singular values used
   Eigen::VectorXd solution(const Eigen::VectorXd& right, Eigen::Index rank) const;
 
   Eigen::VectorXd values;  ///< decreasing

@@ -1,7 +1,6 @@
-// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. With c' = a + b + 1 - c in place of c the equation has the same form in
-// y:
+// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. The equation of F has the same form in y, with a + b + 1 - c for c:
 //   x (1 - x) F'' + [c - (a + b + 1) x] F' - a b F = 0
-// Taylor coefficients f_n about a point x, from f_0 = F, f_1 = F':
+// Taylor coefficients f_n about a point x, starting with f_0 = F, f_1 = F':
 //   x (1 - x) (n + 1)(n + 2) f_(n+2) = (n + a)(n + b) f_n - (n + 1) [n (1 - 2 x) + c - (a + b + 1) x] f_(n+1)
 // The half width of panel j, 2^-(j+2) to 2^-(j+1), is a third of the distance from its centre to the singular point.
 #include "numerics/gauss_function.hpp"
@@ -14,7 +13,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// A solution of the equation, given by value and slope at one point.
+/// A solution of the equation, given by its value and slope at one point.
 struct Continuation {
   static constexpr int terms = 48;
 
@@ -81,7 +80,7 @@ double on_panel(std::span<const GaussFunction::Panel> panels, double x) {
 }  // namespace
 
 GaussFunction::GaussFunction(Wide a, Wide b, Wide c) {
-  // The terms begin to grow where (|a| + n)(|b| + n) x exceeds (c + n)(1 + n).
+  // The terms begin to grow if (|a| + n)(|b| + n) x exceeds (c + n)(1 + n).
   while (std::max(std::abs(a), std::abs(b)) > std::ldexp(2 * std::max(c, Wide{1}), near_exponent_)) ++near_exponent_;
 
   Continuation at{a, b, c, std::ldexp(Wide{1}, -near_exponent_), 0, 0};

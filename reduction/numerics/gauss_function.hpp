@@ -6,7 +6,7 @@
 
 namespace contensou::reduction {
 
-/// The type in which tables are computed: long double, or double where that is software of 128 bits (WebAssembly).
+/// The type for the computation of tables: long double; or double if long double is software of 128 bits (WebAssembly).
 #ifdef __wasm__
 using Wide = double;
 #else
@@ -15,10 +15,10 @@ using Wide = long double;
 
 /// 2F1(a, b; c; x) on 0 <= x <= 1, c > 0 and c - a - b >= 1, as a table of Taylor series.
 ///
-/// Source    the series at 0, up to x = 1/2 or to where its terms begin to grow. Beyond, the hypergeometric equation is
-///           continued panel by panel. Each panel is twice as wide as the one before up to x = 1/2, and half as wide
-///           from there to the singular point x = 1. Connection formulas have poles at integer c - a - b, which the
-///           laws of a flat disc and of a ring have.
+/// Source    the series at 0, up to x = 1/2 or to the x from which its terms begin to grow. Beyond, the hypergeometric
+///           equation is continued panel by panel. Up to x = 1/2 each panel is twice as wide as its predecessor; from
+///           there to the singular point x = 1, half as wide. Connection formulas are not used: they have poles at
+///           integer c - a - b, the case of the laws of a flat disc and of a ring.
 /// Accuracy  2 eps if |a| and |b| are of order 1 and Wide has 64 bits; values are rounded to double once.
 class GaussFunction {
  public:
@@ -32,7 +32,7 @@ class GaussFunction {
   /// @param y  1 - x, computed by the caller without cancellation
   double operator()(double x, double y) const;
 
-  /// Returns (1 - 2F1)/x, without the subtraction for small x.
+  /// Returns (1 - 2F1)/x without the subtraction, which loses digits at small x.
   double deficit(double x, double y) const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace contensou::reduction {
 
-/// A part that the first thread that needs it makes.
+/// A part of an object that is made by the first thread that needs it.
 template <class Part>
 class Later {
  public:

@@ -19,7 +19,7 @@ struct Transform {
   LegendreSeries::Samples points;
   Eigen::Matrix<double, order, order> analysis;
   Eigen::Matrix<double, order, order + 1> synthesis;
-  Eigen::Matrix<double, 1, order> end;  ///< samples -> value at 1; that at -1 is of the samples in reverse
+  Eigen::Matrix<double, 1, order> end;  ///< samples -> value at 1; the samples in reverse -> value at -1
 
   Transform() {
     const auto& half_points = GaussRule::abscissa();

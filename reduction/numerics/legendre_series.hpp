@@ -25,7 +25,7 @@ class LegendreSeries {
   /// Returns the series divided by x = (1 + t)/2, without its value at x = 0.
   LegendreSeries divided_by_x() const;
 
-  /// Returns the series without its highest coefficients, up to the first above a bound.
+  /// Returns the series truncated after its last coefficient above a bound.
   LegendreSeries without_noise(double bound) const;
 
   double operator()(double t) const;
@@ -33,7 +33,7 @@ class LegendreSeries {
   /// Returns the value at 1.
   double at_end() const { return coefficients_.sum(); }
 
-  /// Returns the value of through(samples) at an end, -1 or 1, at the cost of one product.
+  /// Returns the value of through(samples) at an end, -1 or 1. The cost is one scalar product.
   static double at_end(const Samples& samples, int end);
 
   /// Returns the values at points().

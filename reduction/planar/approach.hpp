@@ -13,7 +13,7 @@ namespace contensou::reduction {
 /// A function that begins with a power: factor z^order (1 + ...) for small z > 0.
 struct LeadingPower {
   double order = 0;
-  double factor = 0;  ///< 0 for a function that vanishes
+  double factor = 0;  ///< 0 for a function that vanishes identically
 };
 
 /// A direction with the error of its angle; 0 for an axis.
@@ -25,18 +25,18 @@ struct Place {
   double error;
 };
 
-/// R and T next to a direction, on one side of it, as functions of the angle z > 0 from it (README (R62)).
-///
-/// The orders are those of a series through samples (powers of z, of its square root or of its cube root, poles
-/// included). Where no series converges they are slopes of logarithms, which must agree at several distances.
+/// The rates R and T of README (R42) next to a direction, on one side of it, as functions of the angle z > 0 from it
+/// (R62).
+/// The leading orders come from a series through samples (in powers of z, of its square root or of its cube root, poles
+/// included). If no series converges, the orders are slopes of logarithms, which must agree at several distances.
 class Approach {
  public:
   using Rates = SectionField::Rates;
 
-  /// A side on which the field has no values.
+  /// Makes a side on which the field has no values.
   Approach() = default;
 
-  /// @param side    1: counter-clockwise of it; -1: clockwise
+  /// @param side    1: the side counter-clockwise of the direction; -1: clockwise
   /// @param length  angle to the next direction where R or T may not be smooth
   /// @param noise   relative error of the field's values
   Approach(const SectionField& field, const Place& place, double side, double length, double noise);
@@ -46,25 +46,25 @@ class Approach {
   /// True if the field has values next to the direction.
   bool exists() const { return exists_; }
 
-  /// True if both orders are known.
+  /// True if the leading orders of R and T are known.
   bool decided() const { return decided_; }
 
   /// Declares the orders unknown.
   void leave_open() { decided_ = false; }
 
-  /// T times side: positive where the motion leads away from the direction.
+  /// T times side: positive if the motion leads away from the direction.
   const LeadingPower& angular() const { return angular_; }
   const LeadingPower& radial() const { return radial_; }
 
-  /// True if the field has a limit for z -> 0 and points along the scaling there.
+  /// True if the field has a limit for z -> 0 and this limit is parallel to the scaling.
   bool ray() const { return decided_ && angular_.order > 0 && radial_.order >= 0; }
-  /// True if R and T have limits, and that of T is not 0.
+  /// True if R and T have limits and the limit of T is not 0.
   bool regular() const { return decided_ && angular_.order == 0 && radial_.order >= 0; }
 
-  /// gamma: dp/dz is as z^(gamma - 1), so that p stays bounded where gamma > 0.
+  /// The exponent gamma in dp/dz ~ z^(gamma - 1). p stays bounded if gamma > 0.
   double growth() const { return radial_.order - angular_.order + 1; }
 
-  /// Largest distance at which series give T and R with all digits; 0 if there are none.
+  /// Largest distance up to which series represent T and R to all digits; 0 if there are none.
   double width() const { return width_; }
   /// T times side and R at a distance up to width().
   Rates series(double z) const;
@@ -83,11 +83,11 @@ class Approach {
   LegendreSeries angular_rest_, radial_rest_;  ///< T/z^order and R/z^order, in z^(1/root)
 };
 
-/// Moves a direction onto a zero of T of a higher order beside it, where values lose half of their digits and more:
-/// onto the zero of the derivative that has a simple one. Returns the direction itself where there is none.
+/// Moves a direction onto a multiple zero of T beside it, at which values lose half of their digits or more. The result
+/// is the simple zero of a derivative of T; the direction itself if there is none.
 Place sharpened_zero(const SectionField& field, const Eigen::Vector2d& n, double noise);
 
-/// Moves a direction onto a pole of an even order beside it.
+/// Moves a direction onto a pole of even order beside it; returns the direction itself if there is none.
 Place sharpened_pole(const SectionField& field, const Eigen::Vector2d& n, double noise);
 
 }  // namespace contensou::reduction

@@ -49,7 +49,7 @@ class Scan {
   }
 
  private:
-  /// A sample at an angle from an anchor: the direction is known to more digits than the sum of both.
+  /// A sample at an angle from an anchor. Kept apart, both give the direction to more digits than their sum.
   struct Probe {
     double offset;
     Vector2d anchor;
@@ -115,14 +115,14 @@ void Scan::sample() {
     throw std::domain_error("PlanarReduction: the field has no values on the curve about the centre");
   }
   star_ = std::ranges::all_of(probes_, [&](const Probe& probe) { return !probe.rates || is_zero(*probe.rates); });
-  // Next to a multiple zero that lies on no axis T is rounding, and so is its sign.
+  // Next to a multiple zero off the axes, T is only rounding, and so is its sign.
   std::erase_if(probes_, [&](const Probe& probe) {
     const bool on_axis = probe.anchor[0] == 0 || probe.anchor[1] == 0;
     return !on_axis && probe.rates && is_zero(*probe.rates);
   });
 }
 
-/// Returns the direction between three samples at which a function of the rates, infinite without rates, is least.
+/// Returns the direction between three samples at which a function of the rates is least; it is infinite without rates.
 Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
                      const std::function<double(const Rates&)>& size) const {
   const auto function = [&](double offset) {
@@ -137,7 +137,7 @@ Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
   return turned(here.anchor, offset);
 }
 
-/// Adds a sample where T, of one sign at three samples, has another one between them.
+/// Adds a sample of the other sign of T between three samples of one sign, if there is one.
 bool Scan::add_pairs_of_zeros() {
   const std::size_t known = between_.size();
   for (std::size_t i = 1; i + 1 < probes_.size(); ++i) {
@@ -152,7 +152,7 @@ bool Scan::add_pairs_of_zeros() {
     const auto rates = field_(n);
     if (!rates) continue;
     const double size = std::max(before.rates->size, after.rates->size), value = std::abs(rates->angular);
-    // The place of the least |T| is known to half of the digits.
+    // The place of the least |T| is accurate to half of the digits only.
     constexpr double nearly = 1e-12;
     const Place place = value <= nearly * size ? sharpened_zero(field_, n, noise_) : Place(n);
     if (place.n != n || value <= 16 * noise_ * size) {
@@ -206,7 +206,7 @@ void Scan::find_candidates() {
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     const Probe &here = probes_[i], &next = probes_[(i + 1) % probes_.size()];
     if (across_anchor(here, next)) {
-      // A zero beside the anchor, nearer than the samples are.
+      // Look for a zero between the anchor and its nearest sample.
       const auto on = field_(next.anchor);
       if (!here.rates || !next.rates || !on || is_zero(*on)) continue;
       if (std::signbit(here.rates->angular) == std::signbit(next.rates->angular)) continue;
@@ -229,7 +229,7 @@ void Scan::find_candidates() {
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     order.emplace_back(angle_between(anchors_[0], candidates_[i].n), i);
   std::ranges::sort(order);
-  // Rounding makes one direction several; the anchor is exact, so it is kept.
+  // Rounding may turn one direction into several. An anchor is exact, so the anchor is kept.
   constexpr double same = 1e-11;
   std::vector<Place> kept;
   bool last_is_anchor = false;
@@ -262,7 +262,7 @@ void Scan::divide(std::size_t i, Directions& found) const {
     if (left.decided() && right.decided()) {
       return left.regular() && right.regular() && (left.angular().factor < 0) == (right.angular().factor > 0);
     }
-    // Logarithms and the like: nothing but a finite change is crossed.
+    // A logarithm and the like is not crossed: only a finite change is.
     constexpr double far = 1e-3, nearer = 1e-6;
     const auto step = std::min({far, before / 4, after / 4});
     std::array<std::optional<Rates>, 4> steps;

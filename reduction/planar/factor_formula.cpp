@@ -1,6 +1,6 @@
-// V and H as formulas. Null vectors of (R64) in functions that have names are brought to a row echelon form, whose
-// entries are rational if V has rational coefficients; then the coefficients are rounded, and (R66) is computed with
-// these.
+// V and H as formulas. The null vectors of V's equation (R64), in functions that have names, are brought to a row
+// echelon form. Its entries are rational if V has rational coefficients. Then the coefficients are rounded, and the
+// misfit (R66) is computed with the rounded ones.
 #include "planar/factor_formula.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::optional<Coefficients> rational(const VectorXd& values, double error) {
   return result;
 }
 
-/// "3 u^2/4" of 3, "u^2" and 4, without its sign.
+/// Returns a term of a sum without its sign, such as "3 u^2/4" for 3, "u^2" and 4.
 std::string term(Whole above, const std::string& name, Whole below) {
   const Whole divisor = std::gcd(above, below), size = std::abs(above) / divisor;
   const bool bare = name.empty() || name == "1";
@@ -70,7 +70,7 @@ std::string term(Whole above, const std::string& name, Whole below) {
   return text;
 }
 
-/// A sum with its signs; "0" if it is empty.
+/// Returns a sum with its signs; "0" if it is empty.
 std::string sum(const std::vector<std::string>& names, const Coefficients& factors) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -104,7 +104,7 @@ class Polynomial {
     return value;
   }
 
-  /// Divides by a polynomial whose last term, in the order of u, then v, is not 0, if nothing is left.
+  /// Divides by a polynomial if no remainder is left. The divisor's last term, by u, then v, is not 0.
   bool divide(const Polynomial& by) {
     const auto [m, n] = by.last();
     Polynomial rest = *this, quotient;
@@ -137,7 +137,7 @@ class Polynomial {
     return most;
   }
 
-  /// Returns it with a sign so that the term of the lowest degree is positive.
+  /// Returns the polynomial as text, with the sign that makes the term of the lowest degree positive.
   std::string text() const {
     std::vector<std::string> names;
     Coefficients factors;
@@ -169,7 +169,7 @@ class Polynomial {
   std::array<Whole, side* side> terms_ = {};
 };
 
-/// Returns it in factors with small coefficients, except for its sign.
+/// Returns the polynomial in factors with small coefficients, except for its sign.
 std::string factorised(Polynomial rest) {
   std::vector<std::pair<std::string, int>> found;
   constexpr int large = 10;
@@ -201,17 +201,17 @@ std::string factorised(Polynomial rest) {
   return text;
 }
 
-/// Values and derivatives of functions at a point: rows of value, d/du, d/dv.
+/// Values and derivatives of functions at a point: a row of value, d/du, d/dv for each function.
 using Functions = std::function<Eigen::MatrixX3d(const Vector2d& x, const Jet& jet)>;
 
-/// Returns the functions of a form of V in u and v themselves, not in the coordinates of a box.
+/// Returns the functions of a form of V in u and v, not in the coordinates of a box.
 Functions terms_of(FactorForm form) {
   return [form](const Vector2d& x, const Jet& jet) -> Eigen::MatrixX3d {
     return InverseFactor::terms(form, {Vector2d::Zero(), Vector2d::Ones()}, x, jet);
   };
 }
 
-/// Returns the rows of (R64) in these functions, scaled as in (R66).
+/// Returns the rows of V's equation (R64) in these functions, scaled as in the misfit (R66).
 MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
   MatrixXd rows(std::ssize(samples.points), functions(samples.points[0], samples.jets[0]).rows());
   for (Index k = 0; k < rows.rows(); ++k) {
@@ -222,7 +222,7 @@ MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
   return rows;
 }
 
-/// Returns the rational combination with the fewest functions that satisfies (R64).
+/// Returns the rational combination with the fewest functions that satisfies V's equation (R64).
 std::optional<Coefficients> null_combination(const Functions& functions, const FieldSamples& samples) {
   MatrixXd rows = rows_of(functions, samples);
   VectorXd sizes = VectorXd::Zero(rows.cols());
@@ -235,7 +235,7 @@ std::optional<Coefficients> null_combination(const Functions& functions, const F
   const double mean = std::sqrt(static_cast<double>(rows.rows()));
   const Index nullity = (svd.values.array() <= exact * mean).count();
   if (nullity == 0) return std::nullopt;
-  // To echelon form, the largest entries first.
+  // Elimination to echelon form, with the largest entries as pivots.
   MatrixXd basis = svd.V.rightCols(nullity).transpose();
   for (Index row = 0; row < nullity; ++row) {
     Index pivot_row = 0, pivot = 0;
@@ -273,7 +273,7 @@ std::optional<Coefficients> null_combination(const Functions& functions, const F
   return best;
 }
 
-/// u^i v^j up to a degree.
+/// Returns the functions u^i v^j up to a degree.
 Functions monomials(int degree) {
   return [degree](const Vector2d& x, const Jet&) {
     Eigen::MatrixX3d all((degree + 1) * (degree + 2) / 2, 3);
@@ -289,7 +289,7 @@ Functions monomials(int degree) {
   };
 }
 
-/// A function of one variable by its values, and its integral as text.
+/// A function of one variable and the text of its integral.
 struct Known {
   const char* integral;  ///< text with {} in place of the variable
   Whole below;
@@ -310,7 +310,7 @@ constexpr Known known[]{{"{}", 1, [](double) { return 1.; }},
                         {"{}^-2", -2, [](double x) { return 1 / (x * x * x); }}};
 constexpr std::size_t known_count = std::size(known);
 
-/// Returns the integral of a function of one variable as a sum of at most three known ones.
+/// Returns the integral of a function of one variable as text, if the function is a sum of at most three known ones.
 std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, char name) {
   if (values.isZero(0)) return "";
   MatrixXd columns(x.size(), static_cast<Index>(known_count));
@@ -353,7 +353,7 @@ std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, c
   return std::nullopt;
 }
 
-/// H of a field with F/V = a(v) and G/V = b(u).
+/// Returns H of a field with F/V = a(v) and G/V = b(u).
 std::string separated_integral(const SmoothField& field, const Polynomial& v, const FieldSamples& samples) {
   const Index count = 40;
   VectorXd us(count), vs(count), of_u(count), of_v(count);

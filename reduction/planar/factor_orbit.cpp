@@ -1,5 +1,6 @@
-// An orbit as the level of H, dH = (F dv - G du)/V, part by part, README (R67), (R68). No time is stepped: a part is a
-// curve w(s) of one coordinate over the other, put on the level by Newton's method. Its time is the integral of ds/F.
+// An orbit as a level line of H, dH = (F dv - G du)/V, part by part, README (R67), (R68). There are no steps in time. A
+// part is a curve w(s) of one coordinate as a function of the other, moved onto the level by Newton's method. Its time
+// is the integral of ds/F.
 #include "planar/factor_orbit.hpp"
 
 #include <algorithm>
@@ -24,13 +25,13 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// A motion on the level of H.
+/// A motion along a level line of H.
 struct FactorMotion final : PlanarOrbit::Motion {
   /// A part of the orbit, along which one coordinate grows or falls.
   struct Panel {
-    int along;            ///< this coordinate
+    int along;            ///< index of this coordinate
     double from, length;  ///< start and length of the piece
-    double begin;         ///< time
+    double begin;         ///< time at the start of the piece
     LegendreSeries other, time;
 
     Vector2d at(double t) const {
@@ -55,9 +56,9 @@ struct FactorMotion final : PlanarOrbit::Motion {
 
   Vector2d start;
   std::vector<Panel> panels = {};
-  double followed = 0;                  ///< time
+  double followed = 0;                  ///< time up to which the orbit is computed
   double turn_begin = 0, turn_end = 0;  ///< times of the last turn
-  // Near an equilibrium, from `followed` on: rest + exp(t flow) offset.
+  // Near an equilibrium, for times after `followed`, the state is rest + exp(t flow) offset.
   Vector2d rest = Vector2d::Zero(), offset = rest;
   Matrix2d flow = Matrix2d::Zero();
 };
@@ -86,7 +87,7 @@ Vector2d FactorMotion::at(double time) const {
   return in_panels(time);
 }
 
-/// The way of an orbit from panel to panel and from box to box.
+/// Follows an orbit from panel to panel and from box to box.
 class Follower {
   using Samples = LegendreSeries::Samples;
   using Panel = FactorMotion::Panel;
@@ -146,7 +147,7 @@ class Follower {
 
   void stop(std::string_view reason) { motion_.undecided = fmt::format("{} about ({}, {})", reason, x_[0], x_[1]); }
 
-  /// True if the orbit nears a zero of the field for ever: from here on the linear flow is exact except for rounding.
+  /// True if the orbit tends to a zero of the field: from here on the linear flow is exact except for rounding.
   bool rests(const Jet& here) {
     motion_.rest = x_;
     motion_.offset.setZero();
@@ -154,7 +155,7 @@ class Follower {
       end(PlanarEnd::equilibrium, motion_.followed);
       return true;
     }
-    // The distance falls to the smallest numbers, and every part of the way takes longer.
+    // The distance falls to the smallest numbers, and every further part of the orbit takes longer.
     constexpr double tiny = 1e-30, longer = 0.01;
     if (x_.norm() <= tiny * size_ && motion_.panels.back().time.at_end() > longer * motion_.followed) {
       motion_.rest.setZero();
@@ -188,7 +189,7 @@ class Follower {
     if (!(left <= found * here.f.norm())) return false;
     const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
     const bool saddle = determinant < -clear * norm * norm;
-    // The parts of the offset along the lines of a saddle.
+    // Components of the offset along the two lines of a saddle.
     const double root = std::sqrt(std::max(trace * trace / 4 - determinant, 0.)), in = trace / 2 - root,
                  out = trace / 2 + root;
     const Vector2d stable = (slopes * offset - out * offset) / (in - out), unstable = offset - stable;
@@ -218,7 +219,7 @@ class Follower {
     return true;
   }
 
-  /// True if it goes to infinity: |x'| ~ |x|^p along it.
+  /// True if the orbit goes to infinity: |x'| ~ |x|^p along it.
   bool escapes(const Jet& here) {
     constexpr double farther = 1e12;
     const Vector2d direction = here.f.stableNormalized();  // squares may overflow
@@ -238,7 +239,7 @@ class Follower {
     return true;
   }
 
-  /// True beside a pole or where values end, if the last part of the way took some rounding errors of the time.
+  /// True at a pole or at the end of the values, if the last part took only some rounding errors of the time.
   bool at_border(const Jet& here, double roundings) const {
     constexpr double overflows = 1e100;
     const double rounding = roundings * eps * motion_.followed;
@@ -248,15 +249,15 @@ class Follower {
     const Vector2d way = rounding * here.f;
     if (!(way.norm() < short_way * size_)) return false;
     if (!value_of(field_, x_ + way)) return true;
-    // A field that changes by its own size within rounding has a pole, though the orbit may be smooth: v' = -v tan u.
+    // The field has a pole if it changes by its own size within rounding, though an orbit may be smooth: v' = -v tan u.
     if (here.slopes.norm() * way.norm() > here.f.norm()) return true;
-    // A speed that grows within a longer way may belong to an orbit that goes to infinity as a logarithm.
+    // If the speed grows over a longer way, the orbit may go to infinity as a logarithm.
     const Vector2d direction = here.f.normalized();
     const double speed = here.f.norm(), growth = direction.dot(here.slopes * direction);
     return speed > singular * first_->f.norm() && speed < short_way * size_ * growth;
   }
 
-  /// Returns the estimated distance of an equilibrium, in units of the box; infinity if there is none.
+  /// Returns the estimated distance to an equilibrium, in units of the box; infinity if there is none.
   static double rest_in(const Jet& here, const Box& box) {
     const double distance = newton_step(here).cwiseQuotient(box.radii).norm();
     return std::isfinite(distance) ? distance : infinity;
@@ -264,11 +265,11 @@ class Follower {
 
   static Vector2d newton_step(const Jet& here) { return here.slopes.inverse() * here.f; }
 
-  /// Fits V in a box about this point.
+  /// Fits V in a box about the current point.
   bool enter(const Jet& here) {
     scale_ = x_.cwiseAbs().cwiseMax(scale_ / 2);
     box_ = {x_, box_about(scale_).radii};
-    // Near an equilibrium, where V is small, the box is as small as the distance.
+    // Near an equilibrium V is small. The box is made as small as the distance to the equilibrium.
     constexpr double part = 0.7;
     const double distance = rest_in(here, box_);
     box_.radii *= std::min(1., part * distance) * fraction_;
@@ -287,7 +288,7 @@ class Follower {
       return true;
     }
 
-    // Fit no V where the rounding of x alone hides its form: the orbit no longer needs V there.
+    // Do not fit V if the rounding of x alone hides the form of V: the orbit no longer needs V there.
     constexpr double hidden = 1e-12;
     if (noise_.norm() > hidden * here.f.norm()) return true;
     constexpr int halvings = 10;
@@ -308,7 +309,7 @@ class Follower {
     return lasts;
   }
 
-  /// Adds a panel as long as its series allow.
+  /// Adds one panel, as long as its series converge.
   bool step(const Jet& here) {
     const Vector2d speed = here.f.cwiseQuotient(box_about(scale_).radii).cwiseAbs();
     const int along = speed[0] >= speed[1] ? 0 : 1;
@@ -324,8 +325,8 @@ class Follower {
     return false;
   }
 
-  /// Finds the other coordinate w at the points of a panel. q approximates dw/ds; along w = w_0 + integral of q
-  /// H changes by the integral of (q - G/F) F/V, and dH/dw = F/V: Newton's method, README (R67).
+  /// Finds the other coordinate w at the points of a panel. q approximates dw/ds. Along w = w_0 + integral of q, H
+  /// changes by the integral of (q - G/F) F/V, and dH/dw = F/V. This is Newton's method, README (R67).
   bool solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
     const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
@@ -391,7 +392,7 @@ class Follower {
     return true;
   }
 
-  /// Moves the point onto V = 0.
+  /// Moves the point onto the curve V = 0.
   void return_to_curve() {
     const auto here = jet_of(fitted_, x_);
     if (!here) return;
@@ -403,7 +404,7 @@ class Follower {
       x_[across] -= step;
   }
 
-  /// Looks for a return to this point from now on.
+  /// Makes this point the one to which a return is looked for from now on.
   void anchor(const Vector2d& f) {
     anchor_ = passed_ = x_;
     forward_ = f;
@@ -411,7 +412,7 @@ class Follower {
     motion_.turn_end = motion_.followed;
   }
 
-  /// True if it has come back to where it was a turn ago.
+  /// True if the orbit has returned to its position one turn ago.
   bool returns() {
     extent_ = std::max(extent_, (x_ - passed_).norm());
     const double before = std::exchange(along_, (x_ - anchor_).dot(forward_));
@@ -449,7 +450,7 @@ class Follower {
   Vector2d scale_;                      ///< scale of the orbit's coordinates
   Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x
   double fraction_ = 1;                 ///< fraction of the largest box
-  double stretch_ = 0.25;               ///< stretch of the last panel's box
+  double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
   Vector2d anchor_, forward_, passed_;  ///< returns are looked for across the line through the anchor
   double extent_ = 0, along_ = 0;
   int fits_ = 0;

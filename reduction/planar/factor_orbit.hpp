@@ -8,8 +8,8 @@
 
 namespace contensou::reduction {
 
-/// Follows the level of H through the start to its end.
-/// @param fitted  the field with the same orbits for which V has its form
+/// Follows the level line of the first integral H through the start to its end.
+/// @param fitted  field with the same orbits, for which V has its form
 /// @param factor  inverse integrating factor in a box about `start`
 std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
                                                   const InverseFactor& factor, const Eigen::Vector2d& start,

@@ -12,19 +12,19 @@
 
 namespace contensou::reduction {
 
-/// f and its derivatives at a point.
+/// The field f and its derivatives at a point.
 struct Jet {
   Eigen::Vector2d f;
   Eigen::Matrix2d slopes;
-  double error = 0;  ///< error of the slopes, if they are differences
+  double error = 0;  ///< error of the derivatives, if they are differences
   Eigen::MatrixX3d basis = {};
 };
 
-/// Return f, and f with its derivatives; none where the field has no value.
+/// Return f, and f with its derivatives; empty if the field has no value there.
 std::optional<Eigen::Vector2d> value_of(const SmoothField& field, const Eigen::Vector2d& x);
 std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
 
-/// Returns D f of a field with a denominator D.
+/// Returns D f for a field f with a denominator D.
 SmoothField with_cleared_denominator(const SmoothField& field);
 
 struct Box {
@@ -34,46 +34,46 @@ struct Box {
   Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
 };
 
-/// Returns the factor that scales a row of (R64): 1/(|F|/radius + |G|/radius + |div f|), or 0 if that is infinite.
+/// Returns the scale of a row of V's equation (R64): 1/(|F|/radius + |G|/radius + |div f|), or 0 if that is infinite.
 double weight(const Box& box, const Jet& jet);
 
 /// Returns the box about x in which V is fitted.
 Box box_about(const Eigen::Vector2d& x);
 
 enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product, basis };
-inline constexpr int factor_forms = 8;  ///< number of forms that are tried; a basis replaces them
+inline constexpr int factor_forms = 8;  ///< number of forms that are tried; a basis of the field replaces them
 
 /// Returns true if the coefficients of a box are valid everywhere.
 inline bool holds_everywhere(FactorForm form) { return form == FactorForm::affine || form == FactorForm::basis; }
 
 std::string_view name(FactorForm form);
 
-/// Returns the box wider in the directions in which V is a polynomial of this form: it is one there, too.
+/// Returns the box, widened in the directions in which V is a polynomial of this form, because V is known there, too.
 Box widened(FactorForm form, Box box, double factor);
 
-/// V in a box.
+/// The inverse integrating factor V in a box.
 class InverseFactor {
  public:
   static constexpr int most = Basis::most;
   template <int Columns>
   using Terms = Eigen::Matrix<double, Eigen::Dynamic, Columns, 0, most, Columns>;
 
-  /// V, dV/du and dV/dv.
+  /// The row V, dV/du, dV/dv.
   using Value = Eigen::RowVector3d;
 
   InverseFactor(FactorForm form, Box box, Terms<1> coefficients)
       : form_(form), box_(std::move(box)), coefficients_(std::move(coefficients)) {}
 
-  /// Returns the functions that V, or ln V of a product, is a sum of, with their derivatives.
+  /// Returns the functions of the form, with their derivatives. V is a sum of them; for a product, ln V is.
   static Terms<3> terms(FactorForm form, const Box& box, const Eigen::Vector2d& x, const Jet& jet);
 
-  /// @param jet  its slopes count only for the derivatives of an affine form, its basis for that form
+  /// @param jet  its derivatives are used only for the derivatives of an affine form; its basis for the form `basis`
   Value operator()(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns (R66), with the size of V in place of its mean square over the box.
+  /// Returns the misfit (R66) at one point, divided by V there instead of the mean square of V over the box.
   double residual(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns how large V is without the cancellation of its terms.
+  /// Returns the magnitude of V before the cancellation of its terms.
   double size(const Eigen::Vector2d& x, const Jet& jet) const;
 
   FactorForm form() const { return form_; }
@@ -82,7 +82,7 @@ class InverseFactor {
   /// True if the centre of the box lies on the invariant curve V = 0.
   bool vanishes = false;
 
-  /// Relative error of the coefficients, of which size() is 1.
+  /// Relative error of the coefficients, which are scaled so that size() is 1.
   double error = 0;
 
  private:
@@ -91,28 +91,28 @@ class InverseFactor {
   Terms<1> coefficients_;
 };
 
-/// f at points of a box, some for the fit and some to examine it.
+/// Values of f at points of a box: some for the fit of V and some to test it.
 struct FieldSamples {
   Box box;
   Jet centre;
   std::vector<Eigen::Vector2d> points = {};
   std::vector<Jet> jets = {};
-  double error = 0;  ///< error of the slopes, relative to those that (R66) divides by
+  double error = 0;  ///< error of the derivatives, relative to the divisor of (R66)
 
   int fitted() const { return static_cast<int>(points.size()) * 8 / 11; }
 };
 
-/// Returns the samples; none if a fifth of the box is without values.
+/// Returns the samples; empty if a fifth of the box is without values.
 std::optional<FieldSamples> sample(const SmoothField& field, const Box& box);
 
 struct FactorFit {
   InverseFactor factor;  ///< scaled to V = 1 at the centre of the box, unless V vanishes there
   TriedForm tried;
-  bool small;   ///< the singular value and the residual
-  bool unique;  ///< except for a constant factor
+  bool small;   ///< true if the singular value and the misfit are small
+  bool unique;  ///< true if V is unique except for a constant factor
 };
 
-/// Returns the best V of this form; none if all functions of the form vanish.
+/// Returns the best V of this form; empty if all functions of the form vanish.
 std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples);
 
 }  // namespace contensou::reduction

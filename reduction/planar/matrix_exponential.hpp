@@ -4,7 +4,7 @@
 
 namespace contensou::reduction {
 
-/// exp(A) of a real 2 x 2 matrix. Each entry of a diagonal one's to its last bits, whatever the others are.
+/// Returns exp(A) of a real 2 x 2 matrix. For a diagonal matrix each entry is accurate to its last bits.
 Eigen::Matrix2d matrix_exponential(const Eigen::Matrix2d& matrix);
 
 }  // namespace contensou::reduction

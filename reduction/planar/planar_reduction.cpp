@@ -25,7 +25,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// The root of a function that grows with x, below `high`, where it is not negative.
+/// Returns the root, below `high`, of a function that grows with x and is not negative at `high`.
 double root_below(const std::function<double(double)>& function, double high) {
   double width = 1, low = high - width;
   constexpr double widest = 1e300;
@@ -36,14 +36,14 @@ double root_below(const std::function<double(double)>& function, double high) {
   return root_between(function, low, high);
 }
 
-/// Place of a point among the orbits: its strip and xi; on an orbit with constant q there is no strip.
+/// The place of a point among the orbits: its strip and xi. An orbit with constant q has no strip.
 struct StripPlace {
   const Strip* strip = nullptr;
   double xi = 0;
   double radial = 0;  ///< R, only without a strip
 };
 
-/// Solution by a scaling: README (R42) to (R45).
+/// The solution by a scaling: README (R42) to (R45).
 struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<ScalingSolution> {
   ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
 
@@ -94,8 +94,8 @@ ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, 
   kind = classify();
 }
 
-/// Makes the end of orbits undecided that join a ray in finite time where the field says no single way on: orbits leave
-/// it to the other side as well, or the field on the ray is not the limit of its values.
+/// Makes the end of orbits undecided that join a ray in finite time, if the field does not determine their
+/// continuation: orbits leave it to the other side as well, or the field on the ray is not the limit of its values.
 void ScalingSolution::leave_branching_open() {
   constexpr double close = 1e-6;
   for (Direction& end : directions.dividing) {
@@ -245,7 +245,7 @@ PlanarEnd ScalingSolution::end(const StripPlace& place) const {
   return PlanarEnd::undecided;
 }
 
-/// Returns the time until the orbit reaches its end, which may be a border; infinity if it takes for ever.
+/// Returns the time until the orbit reaches its end, which may be a border; infinity if it never does.
 double ScalingSolution::end_time(const StripPlace& place, double p) const {
   const double c = section.time_degree();
   if (place.strip != nullptr)
@@ -276,21 +276,21 @@ std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {
   return p - at.strip->ln_rho(at.xi);
 }
 
-/// A way along an orbit against xi, and the time that it takes.
+/// A walk along an orbit in the direction of the motion, against xi, and the time that it takes.
 struct Walk {
   const Strip& strip;
   double c, integral;  ///< p - L(q)
   double xi;
-  double passed = 0;  ///< time
+  double passed = 0;  ///< time spent so far
 
   double elapsed(double left, double right) const {
     using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
     const auto rate = [&](double at) { return std::exp(c * (integral + strip.ln_rho(at))) / strip.rate(at); };
-    constexpr unsigned halvings = 3;  // both are smooth between ends of panels
+    constexpr unsigned halvings = 3;  // the integrand and its factors are smooth between ends of panels
     return Rule::integrate(rate, left, right, halvings, 1e-13);
   }
 
-  /// Goes on until that time has passed or xi is `last`, in steps on which the integrand changes moderately.
+  /// Continues until the time `wanted` has passed or xi is `last`, in steps on which the integrand changes moderately.
   /// @return true if the time has passed
   bool go(double wanted, double last) {
     while (xi > last) {
@@ -318,7 +318,7 @@ struct ScalingMotion final : PlanarOrbit::Motion {
     return solution->section.point(strip.to().n(), p + (strip.ln_rho(-infinity) - strip.ln_rho(place.xi)));
   }
 
-  /// The time of a turn, where orbits turn for ever.
+  /// Returns the time of a turn, for orbits that turn for ever.
   double turn_time() const {
     const Strip& strip = *place.strip;
     Walk turn{strip, solution->section.time_degree(), p - strip.ln_rho(place.xi), place.xi};
@@ -358,20 +358,20 @@ Vector2d ScalingMotion::at(double time) const {
                                time_there);
   };
   if (time == 0) return at_coordinate(place.xi);
-  constexpr double early = 0.02;  // from then on the time left has all its digits
+  constexpr double early = 0.02;  // from this share on the time left has all its digits
   if (strip.timed() && time > early * end_time) {
     const double left = end_time - time, ln_left = std::log(left);
     if (strip.joins_ray()) {
       const double on_arrival = std::exp(c * (integral + strip.ln_rho(-infinity))) * strip.time_left(-infinity);
       if (left < on_arrival) return on_ray(on_arrival - left);
     }
-    // ln of the time left falls with xi.
+    // The logarithm of the time left falls with xi, so xi is a root.
     return at_coordinate(root_below(
         [&](double xi) { return c * (integral + strip.ln_rho(xi)) + std::log(strip.time_left(xi)) - ln_left; },
         place.xi));
   }
   Walk walk{strip, c, integral, place.xi};
-  // sum of the first n terms of a geometric series, of ratio exp(growth), and n of a sum
+  // the sum of the first `count` terms of a geometric series with the ratio exp(growth)
   const auto terms = [](double growth, double count) {
     return growth == 0 ? count : std::expm1(growth * count) / std::expm1(growth);
   };
@@ -383,8 +383,8 @@ Vector2d ScalingMotion::at(double time) const {
   }
   const bool decided = strip.to().decided(), joins = strip.joins_ray();
   const bool linear = decided && !joins && strip.to().angular().order == 1;
-  constexpr double farthest = -1e4;  // z is 0 there
-  // The rest of the time is as z^(1 - a) on a ray that orbits join.
+  constexpr double farthest = -1e4;  // z is 0 at this xi
+  // On a ray that orbits join, the rest of the time is proportional to z^(1 - a).
   const double last = joins                ? Strip::first / (1 - strip.to().angular().order)
                       : linear || !decided ? Strip::first
                                            : farthest;
@@ -395,14 +395,14 @@ Vector2d ScalingMotion::at(double time) const {
   }
   if (joins) return on_ray(time - walk.passed);
   if (!linear) return at_coordinate(walk.xi);
-  // Beyond, s is constant. R is constant where p has no bound.
+  // Beyond this xi, s is constant. R is constant if p has no bound.
   const double rate = std::abs(strip.to().angular().factor);
   const double growth = strip.to().radial().order == 0 ? c * strip.to().radial().factor : 0;
   const double sigma = (time - walk.passed) * std::exp(-c * (integral + strip.ln_rho(walk.xi)));
   return at_coordinate(walk.xi - rate * (growth == 0 ? sigma : std::log1p(growth * sigma) / growth));
 }
 
-/// The motion of the centre itself.
+/// The motion that stays at the centre.
 struct Rest final : PlanarOrbit::Motion {
   explicit Rest(const Vector2d& at) : x(at) {}
   Vector2d at(double) const override { return x; }

@@ -35,12 +35,12 @@ Unknowns unknowns_of(const Generator& g) {
   return (Unknowns() << g.matrix(0, 0), g.matrix(0, 1), g.matrix(1, 0), g.matrix(1, 1), g.shift, g.time).finished();
 }
 
-/// The field with its failures: no value, and the first message.
+/// The field, with a count of its failures: points without a value, and the first message.
 class Sampler {
  public:
   explicit Sampler(const PlanarField& field) : field_(field) {}
 
-  /// Its points and values from now on are in these units: powers of 2, which round nothing.
+  /// Sets the units of its points and values from now on: powers of 2, so that no rounding occurs.
   void set_units(double length, double value) {
     length_ = length;
     value_ = value;
@@ -86,14 +86,14 @@ Vector2d sample_point(int i, const Vector2d& around) {
   return radius * direction.cwiseProduct(around);
 }
 
-/// The determining equations at the samples, their rows and columns scaled to like sizes.
+/// The determining equations at the samples. Rows and columns are scaled to similar magnitudes.
 struct Equations {
   MatrixXd matrix;
   Eigen::VectorXd row_scale;
   Unknowns column_scale;
   std::vector<Vector2d> points = {};
-  double error = 0;  ///< Frobenius norm of the error of the matrix that stems from the derivatives
-  double range = 1;  ///< largest |f| at the samples divided by the least
+  double error = 0;  ///< Frobenius norm of the error of the matrix that comes from the derivatives
+  double range = 1;  ///< largest |f| at the samples divided by the smallest
 };
 
 Equations determining_equations(Sampler& field, const Vector2d& around) {
@@ -101,7 +101,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   struct Sample {
     Vector2d x;
     Eigen::Matrix<double, 2, 7> rows, errors;
-    Eigen::Matrix<double, 2, 7> sizes;  ///< sizes of the rows' terms, which may cancel
+    Eigen::Matrix<double, 2, 7> sizes;  ///< absolute sums of the rows' terms, which may cancel
   };
   std::vector<Sample> samples;
   bool all_zero = true;
@@ -137,7 +137,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   }
   if (all_zero) throw std::domain_error("the field is 0 at every point that was tried");
 
-  // Rows and columns in turn; then without the points next to a kink, whose errors are the largest.
+  // Scale rows and columns in turn; then again without the points next to a kink, whose errors are the largest.
   const auto inverse = [](double length) { return length > 0 ? 1 / length : 1; };
   const auto scaled = [&] {
     const auto count = static_cast<Eigen::Index>(2 * samples.size());
@@ -177,7 +177,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   return equations;
 }
 
-/// phi = exp(s X): x -> L x + d.
+/// The finite transformation phi = exp(s X): x -> L x + d.
 struct Transformation {
   Transformation(const Generator& g, double s) : linear(matrix_exponential(s * g.matrix)), shift(Vector2d::Zero()) {
     constexpr int terms = 60;  // terms of the integral of exp(s A) over s; A has no entry above 1, and s is small
@@ -193,8 +193,8 @@ struct Transformation {
   Vector2d shift;
 };
 
-/// Checks f(phi x) = exp(-c s) L f(x) for finite phi, which crosses kinks that derivatives do not see. phi moves each
-/// point forwards and backwards by about twice its distance from the origin.
+/// Tests f(phi x) = exp(-c s) L f(x) for a finite phi. Unlike derivatives, it crosses kinks. phi moves each point
+/// forwards and backwards by about twice its distance from the origin.
 ///
 /// @param scale    typical size of u and v
 /// @param allowed  largest error, relative to f
@@ -214,8 +214,8 @@ bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vect
   });
 }
 
-/// max over the points of |f(phi x) - exp(s (A - c)) f(x)|/|f|, phi the finite transformation, s = ln 2; and the
-/// difference over s, as a right side of the determining equations.
+/// Largest value over the points of |f(phi x) - exp(s (A - c)) f(x)|/|f|, where phi is the finite transformation with s
+/// = ln 2; and this difference divided by s, as a right side of the determining equations.
 struct Finite {
   double residual = 0;
   Eigen::VectorXd difference;
@@ -268,8 +268,8 @@ std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d rig
   return (left + right) / 2;
 }
 
-/// Adds an equation for each line on which the field jumps. X must be tangent to the line if the symmetry holds across
-/// it: (A x + b) x (the line's direction) = 0.
+/// Adds an equation for each line on which the field jumps. If the symmetry holds across the line, X is tangent to it:
+/// (A x + b) x (direction of the line) = 0.
 void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
   std::vector<Unknowns> rows;
   for (std::size_t i = 1; i < equations.points.size(); ++i) {
@@ -314,7 +314,7 @@ Unknowns normalised(const Unknowns& x, double error) {
   });
 }
 
-/// Returns a basis of the kernel with as many zeros as elimination gives. The scaling replaces the member that
+/// Returns a basis of the kernel with as many zeros as elimination gives. The scaling replaces the basis vector that
 /// contributes most to it.
 std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::optional<Generator>& scaling) {
   const Eigen::Index count = kernel.cols();
@@ -340,7 +340,7 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
 }
 
 /// Finds the simplest scaling in the null space that holds in the whole plane. It tries subspaces in turn, the simplest
-/// first, and takes from each the scaling that is nearest to A = 1.
+/// first, and takes from each subspace the scaling that is nearest to A = 1.
 ///
 /// @param largest  largest singular value of the equations
 template <class Everywhere>
@@ -372,7 +372,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
     Unknowns x = product(kernel, least_squares(kernel, identity));
     if (!scales(generator_of(x), scale)) continue;
 
-    // Refine x by finite transformations, which need no derivative: Newton's method with the matrix at hand.
+    // Refine x by finite transformations, which need no derivative: Newton's method with the matrix computed before.
     Finite finite = transformed(x);
     for (int step = 0; step < 4; ++step) {
       const Eigen::VectorXd correction =
@@ -407,7 +407,7 @@ double Generator::growth() const {
 }
 
 Vector2d Generator::centre() const {
-  return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // no -0
+  return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // the addition turns -0 into 0
 }
 
 PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
@@ -416,7 +416,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     throw std::domain_error(fmt::format(
         "a finite point other than 0 is needed, about which the field is sampled, got ({}, {})", around[0], around[1]));
   }
-  constexpr double large = 1e100;  // beyond, or below 1/large, squares may overflow
+  constexpr double large = 1e100;  // squares of numbers above this, or below its inverse, may overflow or underflow
   const double unit = size < large && size > 1 / large ? 1 : std::ldexp(1, std::ilogb(size));
   const Vector2d scale = around.cwiseAbs().unaryExpr([&](double x) { return (x > 0 ? x : size) / unit; });
   Sampler sampler(field);
@@ -439,7 +439,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     nullity += result.singular_values[i] <= result.level;
   }
   constexpr double hidden = 1e-2;
-  // A few samples decide alone if sizes differ so much; the rows of all samples should.
+  // If magnitudes differ so much, a few samples decide alone; but all samples should contribute.
   constexpr double widest = 1e140;
   if (result.level > hidden || !(equations.range < widest)) result.verdict = PlanarSymmetries::Verdict::undecided;
   const double zero = std::max(result.level, nullity > 0 ? result.singular_values[nullity - 1] : 0);
@@ -459,7 +459,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   };
   find_generators();
   if (!result.scaling && !std::ranges::all_of(result.generators, &Generator::everywhere)) {
-    // If several generators hold within sectors only, one that leaves the jumps in place may hold everywhere.
+    // If several generators hold within sectors only, one that maps the jumps onto themselves may hold everywhere.
     add_jumps(equations, sampler, scale);
     const double largest_now = SingularValues(equations.matrix).values[0];
     result.scaling = simplest_scaling(sampler, equations, largest_now, result.level, scale, everywhere);

@@ -9,23 +9,23 @@
 
 namespace contensou::reduction {
 
-/// f on the closed curve x_0 + S n(q) that the scaling moves over the plane (README (R42)).
+/// The field f on the closed curve x_0 + S n(q) (the section). The scaling moves it over the plane (README (R42)).
 class SectionField {
  public:
-  /// p' = R and q' = T in the time sigma.
+  /// The rates p' = R and q' = T of the canonical coordinates in the time sigma.
   struct Rates {
     double radial, angular;
     double size;                         ///< |S^-1 f|
-    double radial_terms, angular_terms;  ///< sums of the sizes of the terms of R and T, which may cancel
+    double radial_terms, angular_terms;  ///< sums of the absolute terms of R and of T, whose terms may cancel
   };
 
   /// @throws std::domain_error  unless all eigenvalues of the scaling's matrix have positive real parts
   SectionField(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around);
 
-  /// At a unit vector n; none where the field has no value.
+  /// Returns the rates at a unit vector n; empty if the field has no value there.
   std::optional<Rates> operator()(const Eigen::Vector2d& n) const;
 
-  /// True if the field has a value at the centre that is not 0.
+  /// True if the field has a value other than 0 at the centre.
   bool regular() const;
 
   const PlanarField& field() const { return field_; }
@@ -33,9 +33,9 @@ class SectionField {
   const Eigen::Vector2d& centre() const { return centre_; }
   const Eigen::Matrix2d& frame() const { return frame_; }  ///< S
 
-  /// n and p of a point other than the centre.
+  /// Returns n and p of a point other than the centre.
   std::pair<Eigen::Vector2d, double> canonical(const Eigen::Vector2d& x) const;
-  /// n of a direction seen from the centre, on the curve.
+  /// Returns n at the point where the curve meets a direction seen from the centre.
   Eigen::Vector2d on_section(const Eigen::Vector2d& direction) const;
   Eigen::Vector2d point(const Eigen::Vector2d& n, double p) const;
 
@@ -48,7 +48,7 @@ class SectionField {
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
-/// n turned counter-clockwise, to the last bits of each component for small angles.
+/// Returns n turned counter-clockwise; for small angles each component is accurate to its last bits.
 Eigen::Vector2d turned(const Eigen::Vector2d& n, double angle);
 
 }  // namespace contensou::reduction

@@ -31,7 +31,7 @@ struct PlanarReduction::Solution {
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
 
-  /// Returns the canonical coordinates of the scaling. A solution without a scaling throws, here and in `point`.
+  /// Returns the canonical coordinates of the scaling. A solution without a scaling throws, also in `point`.
   /// @param x  finite, not the centre
   virtual PlanarCanonical canonical(const Eigen::Vector2d&) const { throw without_scaling(); }
   virtual Eigen::Vector2d point(double, double) const { throw without_scaling(); }
@@ -79,7 +79,7 @@ struct SectionSolution : PlanarReduction::Solution {
   SectionField section;
 };
 
-/// Solves a system by its scaling. Arguments and exceptions are those of the constructor of PlanarReduction.
+/// Solves a system by its scaling. Arguments and exceptions as the constructor of PlanarReduction.
 std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(PlanarField field, const Generator& scaling,
                                                                    const Eigen::Vector2d& around, double noise);
 
@@ -95,7 +95,7 @@ struct PlanarOrbit::Motion {
   virtual Eigen::Vector2d at_end() const = 0;
 
   PlanarEnd end = PlanarEnd::centre;
-  double end_time = 0;             ///< also the time of reaching a border
+  double end_time = 0;             ///< time of the end, also if the orbit ends at a border
   bool border_time_known = false;  ///< false: PlanarOrbit::end_time returns infinity at a border
   std::string undecided = {};
 };

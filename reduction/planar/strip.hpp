@@ -13,23 +13,22 @@
 
 namespace contensou::reduction {
 
-/// A direction in which T has the other sign within a sector, or cannot be distinguished from 0 on a turn.
+/// Thrown for a direction at which T has the other sign within a sector, or T of a turn is 0 within its errors.
 struct MissedRay {
   Eigen::Vector2d n;
   bool crossed;  ///< true: T has the other sign
 };
 
-/// p in the limit at an end of a sector.
+/// The limit of p at an end of a sector.
 enum class Limit { centre, infinity, point, undecided };
 
-/// The orbits of one sector between two dividing directions, or of the whole plane where there are none: copies of one
+/// The orbits of one sector between two dividing directions, or of the whole plane if there are none: copies of one
 /// curve p = L(xi).
-///
-/// xi falls along every orbit. In a sector exp(xi) = z/(1 - z/length), z the angle from the end that it comes to; else
-/// xi is the angle against the motion, and L and M go on over the turns.
+/// xi falls along every orbit. In a sector exp(xi) = z/(1 - z/length), where z is the angle from the end to which the
+/// orbit tends. Without dividing directions xi is the angle against the motion, and L and M continue over the turns.
 class Strip {
  public:
-  /// @param breaks     directions within, at which R and T may not be smooth
+  /// @param breaks     directions within the strip at which R and T may not be smooth
   /// @param sense      direction of growing xi: 1 if counter-clockwise
   /// @param length     angle between the ends
   /// @param tolerance  relative error of the panels
@@ -37,40 +36,40 @@ class Strip {
   Strip(const SectionField& field, const Approach& to, const Approach& from, const std::vector<Eigen::Vector2d>& breaks,
         double sense, double length, double tolerance);
 
-  /// A strip without ends.
+  /// Makes a strip without ends.
   Strip(const SectionField& field, const std::vector<Eigen::Vector2d>& breaks, double sense, double tolerance);
 
   bool closed() const { return !to_; }
   const Approach& to() const { return *to_; }
   const Approach& from() const { return *from_; }
-  /// p at the end of the orbit, and p at its beginning.
+  /// Return the limits of p at the end of the orbit and at its beginning.
   Limit limit() const;
   Limit origin() const;
   /// Growth of p in one turn.
   double turn() const { return turn_; }
   double turn_sigma() const;
 
-  /// xi in a sector below which R and T equal their leading powers.
+  /// The xi in a sector below which R and T equal their leading powers.
   static constexpr double first = -40;
 
-  /// Returns xi of a direction; none outside the strip, -infinity or infinity on its ends.
+  /// Returns xi of a direction; -infinity or infinity at the ends of the strip; empty outside it.
   std::optional<double> locate(const Eigen::Vector2d& n) const;
   Eigen::Vector2d direction(double xi) const;
 
   /// Returns L(xi), which is 0 at xi = 0.
   double ln_rho(double xi) const;
 
-  /// Returns true if orbits reach their end in finite time; time_left is then that time divided by exp(c p).
+  /// Returns true if orbits reach their end in finite time. Then time_left is this time divided by exp(c p).
   bool timed() const { return timed_; }
   double time_left(double xi) const;
 
-  /// True if orbits come to a ray in finite time and go on along it.
+  /// True if orbits come to a ray in finite time and continue along it.
   bool joins_ray() const;
 
-  /// Returns the largest end of a panel below xi, or -infinity: s and R are smooth between that end and xi.
+  /// Returns the largest panel edge below xi, or -infinity. Between this edge and xi, s and R are smooth.
   double smooth_from(double xi) const;
 
-  /// Returns s(xi): d sigma = -d xi/s(xi).
+  /// Returns the rate s(xi) at which xi falls: d sigma = -d xi/s(xi).
   double rate(double xi) const { return terms(xi).rate; }
 
  private:
@@ -98,7 +97,7 @@ class Strip {
   double length_;
   double tolerance_;
   bool timed_ = false;
-  double time_order_ = 0;  ///< order of M in z next to the end
+  double time_order_ = 0;  ///< order of the time function M next to the end
   double turn_ = 0;
   double last_time_ = 0;
   std::vector<Panel> panels_;

@@ -121,13 +121,13 @@ double PadeCurve::angle_coefficient(double ln_k) const {
 
 double PadeCurve::beta_coefficient(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
-  // y (1 + k), in k or 1/k, whichever is at most 1.
+  // y (1 + k), computed with k or with 1/k, the one that is at most 1.
   const double bounded =
       ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
   if (at.y <= 0.5) return bounded / (3 * pi * A_ * (e_ + 1)) * gauss_series(1 - b(), e_ + 2, at.y);
 
-  // (R11): x^a times the integral of t^(-a-1) (1-t)^e from x to 1/2, term by term, and from 1/2 to 1. The terms of t^-a
-  // and, for r = 1, t^(1-a) may be nearly logarithms.
+  // (R11): x^a times the integral of t^(-a-1) (1-t)^e, from x to 1/2 term by term, then from 1/2 to 1. The integrals of
+  // the terms t^-a and, for r = 1, t^(1-a) may be nearly logarithms.
   const double to_half = -std::numbers::ln2 - at.ln_x;
   const double x_to_a = std::exp(a_ * at.ln_x);
   const double s = 1 - a_;
@@ -140,7 +140,7 @@ double PadeCurve::beta_coefficient(double ln_k) const {
 }
 
 double PadeCurve::time_rate(double ln_k) const {
-  // k/((1 + k) D), in k or 1/k, whichever is at most 1.
+  // k/((1 + k) D), computed with k or with 1/k, the one that is at most 1.
   const double far = std::exp(-std::abs(ln_k));
   if (ln_k > 0) return (8 * far + 3 * pi) * (16 * far + 15 * pi) / (3 * pi * (1 + far) * (A_ * far + B_));
   return (8 + 3 * pi * far) * (16 + 15 * pi * far) / (3 * pi * (1 + far) * (A_ + B_ * far));

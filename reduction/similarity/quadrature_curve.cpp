@@ -20,10 +20,10 @@ namespace {
 
 using Samples = LegendreSeries::Samples;
 
-/// xi - ln k* below which no double k differs from k*.
+/// The value of xi - ln k* below which no double k differs from k*.
 constexpr double nearest = -37;
 
-/// D divided by its larger term; a smaller quotient is only rounding.
+/// Smallest |D| divided by its larger term that is more than rounding.
 constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
 /// The coefficients of the equations at one xi.
@@ -74,8 +74,8 @@ class QuadratureCurve::Panels {
     return after == panels_.begin() ? panels_.front() : *std::prev(after);
   }
 
-  /// Makes panels of width 1, with edges at k = 1 and the law's kinks, as far as D has a digit.
-  /// @return the edge at which D has most digits
+  /// Makes panels of width 1, with edges at k = 1 and the law's kinks, over the range in which D has a correct digit.
+  /// @return the edge at which D has the most digits
   double sample() {
     const bool from_above = chart_.side() == TerminalChart::Side::above;
     const double end = chart_.log_terminal_ratio() * (from_above ? 1 : -1);
@@ -136,7 +136,7 @@ class QuadratureCurve::Panels {
   bool coefficients(double xi, CurveCoefficients& at) const {
     const auto [k, rate, drag, larger, difference] = drag_at(xi);
     if (!frozen_ && !(difference > resolution * larger)) return false;
-    // If D has no digit along the whole curve, its rounding bounds the rate of k.
+    // If D has no correct digit along the whole curve, its rounding bounds the rate of k.
     const double q = frozen_ ? 1 / (resolution * larger) : std::abs(rate) / difference;
     at = {.ln_w_slope = drag * q, .time = k * q / (1 + k), .cancellation = frozen_ ? 1 : larger / difference};
     return true;
@@ -183,7 +183,7 @@ class QuadratureCurve::Panels {
     constexpr int last = LegendreSeries::order - 1;
     lower_slope_ = panels_.front().ln_w_slope.mean();
     upper_slope_ = panels_.back().ln_w_slope[last];
-    // The sum starts where ln w changes least, because it may grow without bound at either end.
+    // The sum starts at the place of the smallest change of ln w, because ln w may grow without bound at either end.
     for (Panel& panel : panels_) panel.ln_w = LegendreSeries::through(panel.half() * panel.ln_w_slope).antiderivative();
     const auto middle = std::ranges::lower_bound(panels_, anchor, {}, &Panel::left);
     double ln_w = 0;

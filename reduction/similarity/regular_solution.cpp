@@ -6,7 +6,8 @@
 //   |D| dp/dz + (Phi' - F Psi'/Psi) p           = -Psi'/Psi,   p = ds/dv, ' = d/d ln k
 //   |D| dq/dz + r k (Psi Phi'/F - Psi') q       = k Phi'/F,    q = ds/dw
 //   |D| db/dz - h b               = -g,  h = (r k Psi + k F)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
-// A function y = p m, p = p(k), has F - D p'/p in place of F, and p times the right side; so have n and o.
+// A function y = p m, p = p(k), satisfies the equation with F - D p'/p in place of F and p times the right side. The
+// same holds for n and o.
 #include "similarity/regular_solution.hpp"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ constexpr double highest_exponent = 700;  ///< exp(700) is still a double
 
 double sign_of(const TerminalChart& chart) { return chart.side() == TerminalChart::Side::above ? 1 : -1; }
 
-/// Returns the z at which panels meet, from the stop on: the law's kinks, and multiples of a width for which the series
-/// converge to the last bit far from k = 1.
+/// Returns the z at which panels meet, starting at the stop: the law's kinks, and multiples of a width for which the
+/// series converge to the last bit far from k = 1.
 std::vector<double> edges_of(const Law& law, double r, const TerminalChart& chart, double drive) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("QuadratureCurve: r = gamma mu^2/chi must be positive and finite, got {}", r));
@@ -46,7 +47,7 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
   constexpr double narrowest = 4 * std::numeric_limits<double>::epsilon();
   const double sign = sign_of(chart);
   const auto [low, high] = std::minmax({sign * lowest_ln_k(law, r, drive), sign * max_ln_k});
-  // Towards k = infinity, w is not negligible beside v until k is also beyond r.
+  // Towards k = infinity, w is negligible compared with v only if k is also much larger than r.
   const double beyond = sign < 0 ? std::clamp(std::log(r), 0.0, highest_exponent - max_ln_k) : 0;
   const double begin = std::max(sign * chart.log_terminal_ratio(), low - beyond);
   const double end = std::min(sign * chart.log_far_ratio(), high);
@@ -61,7 +62,7 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
   return edges;
 }
 
-/// The law at one k, with D made positive along the chart.
+/// The law's values at one k, with the sign of D that makes it positive along the chart.
 struct Forces {
   double difference;  ///< |D|
   double force;       ///< F
@@ -75,7 +76,7 @@ class ForcesOnTheWay {
       : law_(law), r_(r), drive_(drive), chart_(chart) {}
 
   Forces operator()(double k) const {
-    /// D| divided by its larger term above which the sign of D is certain.
+    /// The value of |D| divided by its larger term above which the sign of D is certain.
     constexpr double certainty = 1e-9;
     const double sign = sign_of(chart_);
     const Balance balance = Balance::of(law_, r_, drive_, k);
@@ -90,7 +91,7 @@ class ForcesOnTheWay {
           std::exp(chart_.log_far_ratio()), law_.name(), sliding, drag, k, r_));
     }
     against_ = std::max(against_, -difference / larger);
-    // Next to the ray of a drive F is r k Psi, and for a small r that is less than the rounding of Phi and rho.
+    // On the ray at small k of a drive F = r k Psi. For a small r, F is smaller than the rounding of Phi and rho.
     const bool on_ray = drive_ > 0 && k == std::exp(chart_.log_terminal_ratio());
     const double positive = !on_ray && difference > 0 ? difference : 0;  // a negative difference is rounding
     const bool beside_a_ray = drive_ > 0 && positive < drag / 2;
@@ -140,7 +141,7 @@ void RegularSolution::march(const std::function<Terms(double)>& equation, double
   LegendreSeries y = solve_linear_ode(difference / half, rate, source, last_);
   const double y_end = y.at_end();
 
-  // The error of the series, relative to a panel of width 1; a narrower panel counts less.
+  // The error of the series, relative to a panel of width 1; in a narrower panel an error counts less.
   const double largest = std::max(rate.maxCoeff(), difference.maxCoeff());
   const double y_size = std::max({std::abs(y_end), size_, size_ / largest});
   const double of_terms =
@@ -190,7 +191,7 @@ RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& 
   const auto equation = [&, tangent = tangent_of(law)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
     const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(k));
-    // All terms are multiplied by max(k, 1/k). The slopes of a tangent are by k for k <= 1, and by 1/k for k > 1.
+    // All terms are multiplied by max(k, 1/k). Slopes of a tangent are derivatives by k for k <= 1, else by 1/k.
     const double larger = std::max(k, 1 / k);
     const double moment_falls = moment_slope / (moment_by_r * std::min(1.0, 1 / k));
     return {larger * difference, force_slope + force * moment_falls, moment_falls};
@@ -204,7 +205,7 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   const auto equation = [&, tangent = tangent_of(law)](double at) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(at);
     const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(at));
-    // The slopes of a tangent are by k for k <= 1, and by 1/k for k > 1.
+    // The slopes of a tangent are derivatives by k for k <= 1, and by 1/k for k > 1.
     const double times = at < 1 ? at * at : 1;
     const double slides = times * force_slope / force;
     return {difference, r * (times * moment_slope + moment_by_r * std::min(1.0, 1 / at) * slides), slides};
@@ -213,13 +214,13 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   std::vector<double> edges = edges_of(law, r, chart, drive);
   std::erase_if(edges, [&](double edge) { return sign * edge <= std::log(k); });
   edges.insert(sign > 0 ? edges.begin() : edges.end(), sign * std::log(k));
-  // The solution falls like 1/k, but the noise of differences does not.
+  // The solution falls like 1/k, but the noise of the difference quotients does not.
   const double noise = tangent_error(law);
   return {equation, sign, edges, noise > 0 ? 1.0 : 0.0, start, noise};
 }
 
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
-  // Solve for y = n/(1 + k), because the slip v (v/2 + n w) only needs n to an error relative to max(n, k).
+  // Solve for y = n/(1 + k), because the slip length v (v/2 + n w) only needs n to an error relative to max(n, k).
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
@@ -261,8 +262,8 @@ RegularSolution beta_solution(const Law& law, double r, const TerminalChart& cha
 
 BetaSolution::BetaSolution(const Law& law, double r, const TerminalChart& chart, double drive)
     : b_(beta_solution(law, r, chart, drive)), sign_(sign_of(chart)), nearest_(edges_of(law, r, chart, drive).front()) {
-  // If h is small compared with D, b is far from its limit long after all other functions have reached theirs. For k ->
-  // 0 v is negligible in w + v, however small r is; for k -> infinity w is.
+  // If h is small compared with D, b is far from its limit long after all other functions have reached their limits. In
+  // w + v, v is negligible for k -> 0, however small r is; w is negligible for k -> infinity.
   const double k = std::exp(sign_ * nearest_);
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto [difference, force, drag, sliding] = forces(k);

@@ -18,16 +18,15 @@ inline constexpr double max_ln_k = 44;
 /// Returns min_ln_k, or a smaller value with a drive.
 double lowest_ln_k(const Law& law, double r, double drive);
 
-/// Limits of the halving of panels, here and in QuadratureCurve. With a noisy law panels would be halved for ever.
+/// Limits of the halving of panels, here and in QuadratureCurve. Without them a noisy law would be halved for ever.
 inline constexpr double panel_tolerance = 1e-15;
 inline constexpr int max_depth = 40;
 inline constexpr std::size_t max_panels = 50'000;
 
-/// A quantity y that relaxes along a curve: |D| dy/dz + h y = g, D = Phi - rho - r k Psi, z = +- ln k. h > 0 at the
-/// beginning, and the integral of h/|D| is bounded from below.
-///
-/// The equation is singular where D vanishes. y is the solution that is regular at the beginning, found by collocation,
-/// panel after panel. There is no division by D, so y keeps its digits where D has lost all.
+/// A quantity y that relaxes along a curve: |D| dy/dz + h y = g, where D = Phi - rho - r k Psi and z = +- ln k. At the
+/// beginning h > 0, and the integral of h/|D| is bounded from below.
+/// The equation is singular at a zero of D. y is the solution that is regular at the beginning, found by collocation,
+/// panel after panel. No step divides by D, so y keeps its digits even if D has lost all of them.
 class RegularSolution {
  public:
   struct Terms {
@@ -38,8 +37,9 @@ class RegularSolution {
 
   /// @param equation   the terms at k, up to a common positive factor
   /// @param direction  +1 if z is ln k, -1 if z is -ln k; errors decay as z grows
-  /// @param edges      z at which panels meet, increasing; at the first y is g/h
-  /// @param size       size of y to which errors of g and of a smaller y are relative; a law may give 1 - Psi/Psi(0)
+  /// @param edges      z at which panels meet, increasing; at the first edge y is g/h
+  /// @param size       errors of g, and of a smaller y, are relative to this size of y; a law may compute 1 -
+  ///                   Psi/Psi(0)
   ///                   and 1 - Phi only to eps of 1, which is enough for times and lengths
   /// @param start      y at the first edge, if D does not vanish there
   /// @param noise      relative error of the terms; panels are not halved for smaller errors
@@ -49,8 +49,8 @@ class RegularSolution {
   /// Returns y; beyond the edges, its value at the nearest edge.
   double operator()(double ln_k) const;
 
-  /// Returns the last terms of the series, relative to max(|y|, size), as an estimate of the error. It includes noise
-  /// of the law, and any D of the wrong sign, which is replaced by 0.
+  /// Returns an estimate of the error: the last terms of the series, relative to max(|y|, size). It includes noise of
+  /// the law, and any D of the wrong sign, which is replaced by 0.
   double truncation() const { return truncation_; }
 
   /// Returns the number of evaluations of the equation.
@@ -65,7 +65,7 @@ class RegularSolution {
     LegendreSeries y;
   };
 
-  /// Adds the panels from left to right, halved as often as necessary.
+  /// Adds the panels from left to right. Panels are halved until their series converge.
   void march(const std::function<Terms(double k)>& equation, double left, double right, int depth);
 
   double direction_;
@@ -80,39 +80,39 @@ class RegularSolution {
 };
 
 /// Returns true if a curve with a drive reaches k = 0, where m, n and o grow like 1/k. The functions below then return
-/// these times k/(1 + k).
+/// the products of m, n and o with k/(1 + k).
 bool reaches_rest(const TerminalChart& chart, double drive);
 
-/// Solves the equation of m with any right side: that of m itself, or of its derivatives by r and rho, README (R58).
-/// @param source   right side at k; of the solution times k/(1 + k) if to_rest
-/// @param to_rest  true to solve for m, or its derivative, times k/(1 + k)
+/// Solves the equation of m with any right side: that of m, or of a derivative of m by r or rho, README (R58).
+/// @param source   right side at k; if to_rest is true, the right side of the product
+/// @param to_rest  true to solve for the product of m, or of its derivative, with k/(1 + k)
 RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
                                  const std::function<double(double k)>& source);
 
-/// Returns m of README (R4) between two neighbours among 0, the invariant rays and infinity; it is regular at the limit
-/// of k. It is multiplied by k/(1 + k) if reaches_rest.
+/// Returns m of README (R4) between two neighbours among 0, the invariant rays and infinity. m is regular at the limit
+/// of k. If reaches_rest, the result is m k/(1 + k).
 ///
 /// @param chart  chart along which Phi - rho - r k Psi does not change its sign
 /// @throws std::domain_error  if the sign changes, or unless r > 0
 RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// Returns ds/dv of README (R57) along the same chart.
+/// Returns ds/dv of README (R57), the derivative of the scaled stop time, along the same chart.
 RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& chart, double drive);
 
 /// Returns ds/dw of README (R57) along the part of the chart from k to infinity, where Phi > rho.
 /// @param chart  chart that reaches infinity
-/// @param start  value at k, if k is the beginning; without it the solution is regular at its beginning
+/// @param start  value at k, if the solution begins at k; without it the solution is regular at its beginning
 RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart& chart, double drive, double k,
                                   std::optional<double> start);
 
-/// Returns n/(1 + k), with n of (R13) and (R50), along the same chart; times k/(1 + k) if reaches_rest.
+/// Returns n/(1 + k) along the same chart, with n of (R13) and (R50); if reaches_rest, times k/(1 + k).
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// Returns o of (R31) along the same chart; times k/(1 + k) if reaches_rest.
+/// Returns o of (R31) along the same chart; if reaches_rest, times k/(1 + k).
 RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// The function b of (R7) along the same chart. It is solved from the far end towards the stop, because D has the other
-/// sign in its equation: the regular solution is regular at the far end.
+/// The function b of (R7) along the same chart. D has the other sign in its equation, so it is solved from the far end
+/// towards the stop, and the regular solution is regular at the far end.
 class BetaSolution {
  public:
   BetaSolution(const Law& law, double r, const TerminalChart& chart, double drive);

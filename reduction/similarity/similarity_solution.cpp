@@ -29,7 +29,7 @@ SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalR
         curves.push_back(
             std::make_shared<QuadratureCurve>(law, r, TerminalChart::between(std::log(end.k), std::log(far)), drive));
       } catch (const std::domain_error& unexpected) {
-        // Phi/(k Psi) changes too fast for terminal_ratios. The arguments of the caller are correct.
+        // The arguments of the caller are correct; Phi/(k Psi) changes too fast for terminal_ratios.
         throw std::runtime_error(unexpected.what());
       }
     }

@@ -11,10 +11,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// k from which on 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
+/// The k above which 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
 constexpr double fast_slide = 1e3;
 
-/// D| divided by its larger term below which m' has too few digits.
+/// The value of |D| divided by its larger term below which m' has too few digits.
 constexpr double clear = 0.01;
 
 }  // namespace
@@ -37,7 +37,7 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
       solved_from_(infinity) {
   const double from = chart.log_terminal_ratio(), to = chart.log_far_ratio();
   if (std::max(from, to) < infinity || std::min(from, to) > std::log(fast_slide)) return;
-  // A drive makes k fall to a ray, at which ds/dw is regular, so ds/dw is solved from there on.
+  // With a drive k falls to a ray, at which ds/dw is regular. So ds/dw is solved from the ray on.
   const bool from_ray = drive > 0 && from > -infinity && from < infinity;
   const double solved_from = from_ray ? std::exp(from) : fast_slide;
   std::optional<double> start;

@@ -11,8 +11,8 @@ namespace contensou::reduction {
 /// The derivatives of the scaled stop time s along one chart.
 ///
 /// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, with a
-/// drive, and for w beside a fast slide; (R57) is solved there. The derivatives by r and rho each need one equation,
-/// (R58).
+/// drive, and, for the derivative by w, in a fast slide. In these cases equation (R57) is solved. The derivatives by r
+/// and rho need one equation each, (R58).
 class SlidingDerivatives {
  public:
   /// @throws std::domain_error  as sliding_solution
@@ -26,7 +26,7 @@ class SlidingDerivatives {
 
   /// Returns the derivatives at k.
   /// @param k  v/w on the chart, finite
-  /// @param m  the curve's m at this k in closed form, if it has one
+  /// @param m  m at this k in closed form, if the curve has one
   Values at(double k, std::optional<double> m) const;
 
  private:
@@ -35,14 +35,14 @@ class SlidingDerivatives {
   };
   BySpeeds by_speeds(double k, double m) const;
 
-  /// Returns the ratio of m_ to m: k/(1 + k), or 1.
+  /// Returns m_ divided by m: k/(1 + k), or 1.
   double share(double k) const { return to_rest_ ? k / (1 + k) : 1; }
 
   Law law_;
   double r_, drive_;
   bool to_rest_;
   RegularSolution m_, by_v_, by_r_, by_drive_;
-  double solved_from_;  ///< by_w_ is used from this k on
+  double solved_from_;  ///< by_w_ is used for this k and larger ones
   std::optional<RegularSolution> by_w_;
 };
 

@@ -12,7 +12,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// ln(1 - exp(-x)), x > 0.
+/// Returns ln(1 - exp(-x)), x > 0.
 double log_one_minus_exp(double x) { return x < 1 ? std::log(-std::expm1(-x)) : std::log1p(-std::exp(-x)); }
 
 }  // namespace
@@ -52,7 +52,7 @@ double TerminalChart::log_ratio(double xi) const {
 }
 
 double TerminalChart::log_ratio_rate(double xi) const {
-  // (1 - k*/k) (1 - k/k_far)/(1 - k*/k_far) from above.
+  // (1 - k*/k) (1 - k/k_far)/(1 - k*/k_far), for a chart from above.
   const double from_end = 1 / (1 + std::exp(end_ - xi));
   if (far_ == infinity) return sign_ * from_end;
   return sign_ * from_end * (-std::expm1(end_ - far_) / (1 + std::exp(xi - far_)));

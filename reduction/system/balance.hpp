@@ -6,7 +6,7 @@
 
 namespace contensou::reduction {
 
-/// Returns true if the friction that a drive leaves follows best from 1 - Phi. From rho = 1/2 on 1 - rho is exact.
+/// Returns true if friction minus drive is best computed from 1 - Phi. For rho >= 1/2 the difference 1 - rho is exact.
 inline bool by_deficit(const Law& law, double drive) { return drive >= 0.5 && law.states_force_deficit(); }
 
 /// Returns F = Phi - rho.
@@ -15,11 +15,11 @@ inline double net_force(const Law& law, Slip slip, double sliding, double drive)
   return by_deficit(law, drive) ? (1 - drive) - law.force_deficit(slip) : sliding - drive;
 }
 
-/// D = Phi - rho - r k Psi of README (R2) and (R49) as a difference of two accurate numbers. k falls where D > 0.
+/// D = Phi - rho - r k Psi of README (R2) and (R49), as a difference of two accurate numbers. k falls for D > 0.
 struct Balance {
-  double slows;            ///< Phi, or 1 - rho
-  double speeds;           ///< rho + r k Psi, or (1 - Phi) + r k Psi
-  double force;            ///< F
+  double slows;            ///< Phi, or 1 - rho if by_deficit
+  double speeds;           ///< rho + r k Psi, or (1 - Phi) + r k Psi if by_deficit
+  double force;            ///< F = Phi - rho
   double drag;             ///< r k Psi
   double sliding, moment;  ///< Phi, Psi
 

@@ -18,7 +18,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// An E below this has no sign: a law is accurate to some eps, and k takes practically for ever to pass there.
+/// An |E| below this has no reliable sign: a law is accurate to some eps, and k takes nearly for ever to pass.
 constexpr double without_sign = TerminalRatios::tolerance;
 
 /// Largest |ln k|; beyond, the law equals its limit.
@@ -56,7 +56,7 @@ class Search {
     }
   }
 
-  /// Throws if a drive leaves so little of friction that rounding of Phi hides the sign of E at k = infinity.
+  /// Throws if the drive nearly cancels the friction, so that rounding of Phi hides the sign of E at k = infinity.
   void require_decided() const {
     constexpr double part = 1e-8;
     if (by_deficit(law_, drive_) || samples_.back().sign() != 0 || without_sign < part * (1 - drive_)) return;
@@ -66,7 +66,7 @@ class Search {
         drive_, r_, law_.name()));
   }
 
-  /// Adds the extrema of E that come near to 0, or lie beyond 0 between two samples of one sign.
+  /// Adds the extrema of E that come near to 0, or have the other sign than both neighbouring samples.
   void sharpen() {
     std::vector<Sample> extrema;
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
@@ -86,7 +86,7 @@ class Search {
 
   void collect() {
     const Sample* last = nullptr;  // last sample with a sign
-    const Sample* zero = nullptr;  // sample with the smallest |E| since then, without a sign
+    const Sample* zero = nullptr;  // sample without a sign with the smallest |E| since `last`
     for (const Sample& here : samples_) {
       if (here.sign() == 0) {
         if (!zero || std::abs(here.excess) < std::abs(zero->excess)) zero = &here;
@@ -146,9 +146,9 @@ TerminalRatio TerminalRatios::end_of(double k) const {
 }
 
 double least_log_ratio(const Law& law, double r, double drive) {
-  // Friction is below the drive by exp(44) there, so k grows at the rate rho/w.
+  // At this distance friction is below the drive by exp(44), so k grows at the rate rho/w.
   constexpr double distance = 44;
-  constexpr double least = -600;  // a double exp(-600) leaves room for its factors
+  constexpr double least = -600;  // exp(-600) is a double whose products with other factors are doubles, too
   return std::max(std::log(drive) - std::log(law.force_slope() + r * law.pivoting_moment()) - distance, least);
 }
 

@@ -12,21 +12,21 @@ struct Dependence {
   double growth = 1;      ///< growth of the variance of a mean; n values are worth n/growth independent ones
 };
 
-/// Estimates both from the residuals r of a fit, unbiased by the numbers that were fitted.
+/// Estimates both numbers from the residuals r of a fit, without the bias that the fitted parameters cause.
 ///
-/// Let J be the derivatives of the residuals, C = (J^T J)^-1 and A = J C^1/2, so that r = (1 - A A^T) e of errors e.
-/// Errors that are independent and of variance s^2 give E r_i r_j = s^2 (delta_ij - a_i a_j) with a_i the rows of A.
-/// The rows z_i = (r_i, s a_i) have E z_i z_j = s^2 delta_ij. Hence
-///   sum z_i z_(i+1) / (n s^2)  estimates the correlation of neighbours; without any it is 0 +- 1/sqrt(n). One less it
-///   is half of
-/// J. von Neumann's quotient (1941, doi:10.1214/aoms/1177731677).
-/// The sum of m successive errors has the variance g m s^2 with g = 1 + 2 sum (1 - j/m) c_j, c_j the correlation of
-/// errors that are j apart (the kernel of M. S. Bartlett, 1950, doi:10.1093/biomet/37.1-2.1). Of their residuals the
-/// fit takes a part as large as s^2 |a_i + ... + a_(i+m-1)|^2 times g, whose derivatives change as slowly. So
+/// Let J be the derivatives of the residuals, C = (J^T J)^-1 and A = J C^1/2. Errors e then give r = (1 - A A^T) e. If
+/// errors are independent with variance s^2, E r_i r_j = s^2 (delta_ij - a_i a_j), where a_i are the rows of A. The
+/// rows z_i = (r_i, s a_i) then satisfy E z_i z_j = s^2 delta_ij. Therefore
+///   sum z_i z_(i+1) / (n s^2)  estimates the correlation of neighbours; without correlation it is 0 +- 1/sqrt(n). It
+///   equals 1 minus half of J. von Neumann's quotient (1941, doi:10.1214/aoms/1177731677).
+/// The sum of m successive errors has the variance g m s^2 with g = 1 + 2 sum (1 - j/m) c_j, where c_j is the
+/// correlation of errors that are j apart (the kernel of M. S. Bartlett, 1950, doi:10.1093/biomet/37.1-2.1). The fit
+/// removes from this sum a part of the variance g s^2 |a_i + ... + a_(i+m-1)|^2, because its derivatives change as
+/// slowly. Therefore
 ///   sum (r_i + ... + r_(i+m-1))^2 / sum (m s^2 - s^2 |a_i + ... + a_(i+m-1)|^2)  over all windows of m values
 ///   estimates g.
-/// For m = sqrt(n) longer dependence is seen in longer films, and the relative error of g, sqrt(4 m/(3 n)), falls.
-/// @param runs  z_i as rows, of each track
+/// With m = sqrt(n) longer films show longer dependence, and the relative error of g, sqrt(4 m/(3 n)), falls.
+/// @param runs  for each track, a matrix with the rows z_i
 Dependence dependence_of(const std::vector<Eigen::MatrixXd>& runs);
 
 }  // namespace contensou::fit

@@ -21,8 +21,8 @@ namespace {
 
 bool of_all_tracks(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
 
-/// Turns a slip against its direction, which is the same as the opposite one along it, and the spin that no datum tells
-/// the sense of to that of the ball.
+/// Reverses a negative slip, which is the same as an opposite direction. If no datum shows the sense of the spin, the
+/// spin gets the sense of the ball's spin.
 VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
   for (std::size_t i = 0; i < request.tracks.size(); ++i) {
     const auto sees = [&](Observable observable) { return series_of(request.tracks[i], observable) != nullptr; };
@@ -52,8 +52,8 @@ void require(const FitRequest& request) {
   for (const Track& track : request.tracks) require(track);
 }
 
-/// Friction and patch radius of the ball count as they are where they are not only a start: then they must be what the
-/// model allows.
+/// Throws if friction or patch radius of the ball is outside the limits of the model. Starts of a search may be
+/// outside: only values that are not free, or that a plan uses, are tested.
 void require_limits(const Search& search, bool planned) {
   const si::Contact& contact = search.request.ball.contact;
   const Free& free = search.request.free;
@@ -143,7 +143,7 @@ Fit fit(const FitRequest& asked) {
   Search search(request);
   require_limits(search, false);
   VectorXd solution = search.solve();
-  constexpr int most = 10;  // most better solutions that profiles may meet
+  constexpr int most = 10;  // largest number of better solutions that profiles may find
   for (int i = 0;; ++i) {
     Report report = report_on(search, with_signs(request, solution), false);
     if (report.better && i < most) {

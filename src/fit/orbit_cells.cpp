@@ -15,11 +15,11 @@ namespace contensou::fit {
 
 namespace {
 
-constexpr double near_axis = 1e-12;  ///< k or 1/k to which a start nearer to an axis is moved
-constexpr double at_rest = 1e-12;    ///< share of the speeds at the start, below which the body rests
+constexpr double near_axis = 1e-12;  ///< smallest k or 1/k; a start nearer to an axis is moved to it
+constexpr double at_rest = 1e-12;    ///< share of the speeds at the start below which the body counts as resting
 constexpr double first_width = 0.5, min_width = 1e-16;
-constexpr double ray_step = 1e-5;  ///< fraction of c*: nearer to the ray D would be rounded, and F is a line
-/// Shares of the terms of D: from `certainty` on its sign is certain, below `constant` k counts as constant, and
+constexpr double ray_step = 1e-5;  ///< share of c*: closer to the ray D is rounded, so F is taken as a line
+/// Shares of the larger term of D. Above `certainty` the sign of D is certain. Below `constant` k counts as constant.
 /// `rounding` is the error of the terms.
 constexpr double certainty = 1e-9, constant = 1e-10, rounding = 1e-15;
 
@@ -30,9 +30,9 @@ struct OrbitCells::Basis {
   using Values = Eigen::Array<double, nodes, 1>;
 
   Values z;
-  Eigen::Matrix<double, nodes + 1, nodes> integral;   ///< powers of z from values
-  Eigen::Matrix<double, nodes, nodes + 1> values;     ///< values from powers of z
-  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< last two of the Chebyshev series, from values
+  Eigen::Matrix<double, nodes + 1, nodes> integral;   ///< values -> powers of z of the integral
+  Eigen::Matrix<double, nodes, nodes + 1> values;     ///< powers of z -> values
+  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< values -> last two Chebyshev coefficients
 
   Basis() {
     for (int j = 0; j < nodes; ++j) {
@@ -49,7 +49,7 @@ struct OrbitCells::Basis {
     }
   }
 
-  /// Returns the estimated error of the polynomial through these values: its last two Chebyshev coefficients, added.
+  /// Returns the estimated error of the polynomial through these values: its last two Chebyshev coefficients.
   double error(const Values& of) const { return (last_coefficients * of.matrix()).cwiseAbs().sum(); }
 
   static const Basis& only() {
@@ -101,7 +101,7 @@ double OrbitCells::greatest_drive(const reduction::Law& law, double mu, reductio
 }
 
 OrbitCells::Forces OrbitCells::forces(double k) const {
-  // A start without slip may lie beside a ray that is nearer than k = 0: beyond it the force is the opposite.
+  // If the ray is nearer to the start than k = 0, a start without slip lies beyond it, at k < 0; with reversed force.
   const auto [size, moment] = law_(reduction::slip_of_ratio(std::abs(k)));
   const double B = inertia_.gamma * mu_ * mu_ * moment;
   return {inertia_.chi * (std::copysign(size, k) - drive_) - B * k, B};
@@ -111,7 +111,7 @@ double OrbitCells::k_end(double k) const {
   if (kind_ == Kind::flat)
     return reduction::terminal_ratios(law_, inertia_.gamma * mu_ * mu_ / inertia_.chi).end_of(k).k;
   if (drive_ == 0) return 0;
-  // One ray, and quicker than all of them.
+  // This search finds one ray, and is faster than a search for all rays.
   const auto rises = [&](double ln_k) { return forces(std::exp(ln_k)).D; };
   const double low = std::log(drive_) - 5, high = 20, at_low = rises(low), at_high = rises(high);
   if (!(at_low < 0 && at_high > 0))
@@ -135,7 +135,7 @@ OrbitCells::Powers OrbitCells::next_powers(double half_width, double& error) con
   Values k, falls, steps;
   double noise = 0;
   for (int j = 0; j < nodes; ++j) {
-    constexpr double smallest = 1e-12;  // below it Phi/k and Psi do not change
+    constexpr double smallest = 1e-12;  // below this k, Phi/k and Psi do not change
     double distance = distance_ * std::exp(-(s_ + half_width * (1 + basis.z[j])));
     k[j] = inverse_ ? 1 / (end_ + distance) : end_ + distance;
     if (end_ == 0 && !inverse_) distance = std::max(distance, smallest);
@@ -165,7 +165,7 @@ OrbitCells::Powers OrbitCells::next_powers(double half_width, double& error) con
   add(T_, dT);
   add(slid, dT * mu_ * k * u);
   add(turned, dT * u);
-  // Far too wide a cell has an exponential that underflows.
+  // The exponential over a cell that is far too wide underflows.
   constexpr double steepest = 50;
   const double fall_of_ln_u = -falls.minCoeff(), share = std::min(1.0, 2 * half_width + fall_of_ln_u);
   error = std::max(basis.error(falls), basis.error(dT) / dT.maxCoeff() * share) / (accuracy_ + noise);
@@ -197,7 +197,7 @@ Speeds OrbitCells::speeds_at(double T) const {
   const auto found = std::ranges::lower_bound(cells_, T, {}, &Cell::T_end);
   if (found == cells_.end()) return {0, 0, v_share_ * now_[slid], u_share_ * now_[turned]};
   const auto& [s, half_width, T_end, powers] = *found;
-  // Newton's method, from where the last one was found.
+  // Newton's method, starting at the last result.
   const auto number = static_cast<std::size_t>(found - cells_.begin());
   double z = number == last_cell_ ? last_z_ : -1;
   for (int i = 0; i < 50; ++i) {
@@ -208,7 +208,7 @@ Speeds OrbitCells::speeds_at(double T) const {
     }
     const double last = z;
     z = std::clamp(z - (value - T) / slope, -1.0, 1.0);
-    if (std::abs(z - last) < 1e-6) break;  // the error now is of its square
+    if (std::abs(z - last) < 1e-6) break;  // the next error would be of the size of its square
   }
   last_cell_ = number;
   last_z_ = z;
@@ -221,7 +221,7 @@ Speeds OrbitCells::speeds_at(double T) const {
 
 double OrbitCells::stop() const {
   if (start_.u == 0) return 0;
-  // Next to the axis u = 0 what is left of u is not its own.
+  // Next to the axis u = 0, u of the cells is that of the neighbouring orbit start_.
   if (u_share_ < 1) return start_.v / (inertia_.chi * (1 - drive_));
   return now_[T_] + mu_ * std::exp(now_[ln_u]) / forces(ratio(s_)).B;
 }

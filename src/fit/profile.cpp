@@ -19,10 +19,10 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-4;
-/// An estimate is better if its sum of squares is lower by this much.
+/// An estimate counts as better if its sum of squares is lower by at least this much.
 constexpr double better_by = 0.01;
-/// `near_limit` is a share of the range of a number: nearer to a limit, the number is at the limit. A limit counts if
-/// the sum of squares would fall beyond it by more than the share `telling` of the rise.
+/// A number counts as at a limit if it is nearer to it than the share `near_limit` of its range. The limit then counts
+/// as the end if the sum of squares would fall beyond it by more than the share `telling` of the rise.
 constexpr double near_limit = 1e-6, telling = 0.1;
 constexpr Index patch_place = 1;
 /// Widest step of a logarithm, and the ratio of the lengths of successive steps.
@@ -30,8 +30,8 @@ constexpr double widest = 1.2, growth = 1.6;
 /// Largest error of an end, as a share of its distance from the estimate.
 constexpr double sharp = 2e-3;
 constexpr int most_refinements = 12;
-/// Largest number of starts at a point: `most_starts` on the way along the valley, `few_starts` when the end is
-/// bracketed or another valley is sought.
+/// Largest number of starts at a point: `most_starts` on the way along the valley, `few_starts` once the end is
+/// bracketed, and for the search of another valley.
 constexpr std::size_t most_starts = 6, few_starts = 2;
 
 }  // namespace
@@ -85,7 +85,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
   judge(foretold);
   for (const auto& [part, nearest] : parts) judge(*nearest.parameters);
   std::ranges::sort(found, {}, [](const auto& each) { return each.first; });
-  // The best, and the best of another part.
+  // First the best point, then the best point of another part.
   std::vector<VectorXd> starts;
   for (auto& [cost, parameters] : found) {
     const bool is_new = std::ranges::none_of(starts, [&parameters = parameters](const VectorXd& start) {
@@ -98,7 +98,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
 }
 
 const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) const {
-  constexpr double near = 1;  // the best of those that are nearer; else the nearest
+  constexpr double near = 1;  // the best of the guesses that are nearer than this; else the nearest
   const VectorXd* nearest = nullptr;
   double least = endless;
   for (const VectorXd& guess : search_.guesses) {
@@ -129,7 +129,7 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     double distance, height;  ///< from the estimate; root of the rise at the point minus root of the allowed rise
   };
   Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
-  VectorXd last = best_;  // inside
+  VectorXd last = best_;  // last point inside the interval
   const auto look = [&](double distance, const VectorXd& foretold, std::size_t starts = few_starts) {
     const double excess = lowest(number, from + sign * distance, foretold, starts).excess;
     const Reach found{distance, std::sqrt(std::max(0.0, excess)) - std::sqrt(rise_)};
@@ -185,7 +185,7 @@ bool Profile::is_held_by_limit(const Coordinate& number, const VectorXd& paramet
   for (Index place : search_.free) {
     const auto [low, high] = search_.model.range(place);
     if (place == number.place || !std::isfinite(high)) continue;
-    // No patch is larger than the ball, so the upper limit of the patch radius is a true end.
+    // No patch is larger than the ball, so the upper limit of the patch radius is a real end.
     const bool below = limited[place] - low < near_limit * (high - low);
     const bool above = high - limited[place] < near_limit * (high - low) && place != patch_place;
     if (!below && !above) continue;
@@ -195,7 +195,7 @@ bool Profile::is_held_by_limit(const Coordinate& number, const VectorXd& paramet
       if (line[place] == 0) continue;
       outward.head<2>() = line * (outward[place] / line[place]);
     }
-    // Friction or patch radius would change by a factor of e, another number by the size of its limit.
+    // The step changes friction or patch radius by a factor of e, and another number by the size of its limit.
     if (place >= contact_parameters) outward *= std::abs(limited[place]);
     if (-search_.slope(limited, outward) > telling * rise_) return true;
   }

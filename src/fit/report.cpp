@@ -60,7 +60,7 @@ void Reporter::add_estimate(Parameter parameter, std::size_t track) {
   }
   if (is_of_contact(parameter)) {
     estimate.value = std::exp(estimate.value);
-    // No patch is larger than the ball, not even by rounding.
+    // By rounding the estimate may be larger than the ball, but no patch is.
     if (parameter == Parameter::patch_radius) estimate.value = std::min(estimate.value, request_.ball.ball.radius);
     estimate.standard_error = error == 0 ? 0 : estimate.value * error;
     estimate.interval = {estimate.value * std::exp(-quantile_ * error), estimate.value * std::exp(quantile_ * error)};
@@ -100,7 +100,7 @@ bool Reporter::moves(std::size_t track) const {
   });
 }
 
-/// The track and the time of a row of residuals: each series has one for each time of its track.
+/// Returns the track and the time of a row of residuals. Each series has one row for each time of its track.
 Outlier Reporter::place_of(Index row) const {
   for (std::size_t i = 0; i < request_.tracks.size(); ++i) {
     const Track& track = request_.tracks[i];
@@ -125,7 +125,7 @@ void Reporter::set_noise() {
       sizes.push_back(std::abs(residuals_[row]));
     }
     const auto n = static_cast<double>(rows.size());
-    // The others' standard deviation, not less than what values are rounded to.
+    // The standard deviation of the other values, but at least the step to which values are rounded.
     constexpr double far = 6;
     const double border =
         far * std::max(sd_by_median(sizes),

@@ -44,7 +44,7 @@ void Reporter::set_ball() {
 void Reporter::set_spreads() {
   const auto number = [&](Parameter parameter) { return fit_.estimate(parameter).value; };
   const bool placed = is_free(TrackModel::place(Parameter::direction)), flat = request_.ball.ball.body.lies_flat();
-  // A column of velocity and angular velocity: the ball rolls by what its centre is faster than the contact point.
+  // Velocity and angular velocity of the start. The rolling is velocity of the centre minus slip.
   const double along = placed ? number(Parameter::direction) : 0;
   const Eigen::Vector2d e(std::cos(along), std::sin(along)), across(-e.y(), e.x()), none = Eigen::Vector2d::Zero();
   const auto start_by = [&](Parameter parameter) -> Eigen::Matrix<double, 5, 1> {
@@ -77,12 +77,12 @@ void Reporter::set_spreads() {
     const bool of_place = parameter == Parameter::x || parameter == Parameter::y || parameter == Parameter::angle;
     const bool in_ball = placed ? !of_place : row < slopes.rows();
     if (!in_ball || track > 0) continue;
-    if (!std::isfinite(error)) return;  // no spread describes a number that the data do not decide
+    if (!std::isfinite(error)) return;  // the data do not determine a number, so no spread describes it
     errors[i] = error;
     if (placed && row >= shared_parameters)
       slopes.col(i).tail<5>() = start_by(parameter);
     else
-      slopes(row, i) = 1;  // named also lists slip and spin next
+      slopes(row, i) = 1;  // `named` lists slip and spin after this number
   }
   slopes = slopes * errors.asDiagonal();
   fit_.ball.spreads = si::spreads_of(slopes * fit_.correlation * slopes.transpose(), named);

@@ -16,17 +16,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The data do not determine a combination whose eigenvalue in the correlations of derivatives is below this.
+/// A combination is undetermined if its eigenvalue in the correlations of derivatives is below this.
 constexpr double undecided = 1e-10;
 
-/// A parabola is a poor model of the sum of squares in two cases. Friction and patch radius have a correlation above
-/// `strongly_correlated` and a relative error above `hardly_nonlinear`; or a relative error exceeds `nonlinear`.
+/// A parabola is a poor model of the sum of squares in two cases. Either the correlation of friction and patch radius
+/// exceeds `strongly_correlated` and a relative error `hardly_nonlinear`. Or a relative error is above `nonlinear`.
 constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
 
-/// Errors below this share of the range of the values are not the noise of a film: the numbers are computed or rounded.
+/// Errors below this share of the range of values are not the noise of a film: the values are computed or rounded.
 constexpr double sharpest_film = 1e-4;
 
-/// Powers of f and eps in the combinations that a film may determine: f by a slip, f eps by a spin, f/eps by its end.
+/// Powers of f and eps in combinations that a film may determine: a slip gives f, a spin f eps, its end f/eps.
 const Eigen::Vector2d combinations[]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
 
 Inverse inverse_of(const MatrixXd& information) {
@@ -49,7 +49,7 @@ Inverse inverse_of(const MatrixXd& information) {
   return result;
 }
 
-/// Returns the 2 by 2 information matrix of ln f and ln eps when all other parameters are free, too.
+/// Returns the 2 by 2 information matrix of ln f and ln eps if all other parameters are free, too.
 Eigen::Matrix2d information_of_contact(const MatrixXd& information) {
   const Index others = information.rows() - 2;
   if (others == 0) return information;
@@ -86,11 +86,12 @@ void Reporter::set_covariance(const MatrixXd& covariance) {
   fit_.correlation = inverse_deviation.asDiagonal() * covariance_ * inverse_deviation.asDiagonal();
 }
 
-/// The covariance of the estimate is C J^T E[e e^T] J C. As the derivatives J change little from value to value, J^T
-/// E[e e^T] J of a column is g J^T J, with g the growth of the variance of its means: n values are worth n/g.
+/// The covariance of the estimate is C J^T E[e e^T] J C with errors e that may depend on each other. The derivatives J
+/// change little from value to value. So J^T E[e e^T] J of a column is g J^T J, with the growth g of the variance of
+/// means: n values are worth n/g independent values.
 void Reporter::set_dependence() {
   const MatrixXd rows_of_A = derivatives_ * inverse_.root;
-  VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1, row by row
+  VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1 for each row
   double worth = static_cast<double>(search_.values);
   for (std::size_t place = 0; place < std::size(dependence_); ++place) {
     const std::vector<Index>& rows = search_.rows_of[place];
@@ -118,7 +119,7 @@ void Reporter::set_dependence() {
           std::sqrt(variance) * rows_of_A(of, Eigen::all);
     }
     dependence_[place] = dependence_of(runs);
-    // Less than 1 is chance.
+    // A growth below 1 is due to chance.
     const double growth = std::max(1.0, dependence_[place].growth);
     for (Index row : rows) more[row] = growth - 1;
     worth -= n * (1 - 1 / growth);
@@ -146,7 +147,7 @@ bool Reporter::is_vague() const {
     const Index place = search_.free[i];
     const double error = deviation_[static_cast<Index>(i)];
     if (place < contact_parameters && error > nonlinear) return true;
-    // The orbit depends on rolling friction divided by friction.
+    // The orbit depends on the quotient of rolling friction and friction.
     if (place == TrackModel::place(Parameter::rolling_friction) && error > nonlinear * std::exp(parameters_[0]))
       return true;
     const Parameter parameter = TrackModel::parameter_at(place);

@@ -13,12 +13,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Standard deviations of a normal distribution that chance exceeds in fewer than one of ten thousand films.
+/// By chance, a normal distribution exceeds this many standard deviations in fewer than one of ten thousand films.
 constexpr double too_rare = 3.7;
 
 }  // namespace
 
-/// Returns the distance, in standard errors, by which a free parameter at a limit would go beyond it; 0 off the limits.
+/// Returns how many standard errors a free parameter at a limit would go beyond it; 0 for a parameter off its limits.
 double Reporter::held_back(std::size_t free) const {
   const Index place = search_.free[free];
   const auto [low, high] = search_.model.range(place);
@@ -56,10 +56,10 @@ void Reporter::set_misfits() {
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
     const auto place = static_cast<std::size_t>(observable);
-    // Rounded values are off as their neighbours are.
+    // The errors of rounded values are correlated with those of their neighbours.
     const double correlation = noise.sd > search_.rounding[place] ? dependence_[place].neighbours : 0;
-    // Chance allows any correlation of few values; 0.9 is that of values that are off the motion by four times of what
-    // their neighbours are.
+    // With few values any correlation may be due to chance. A correlation of 0.9 means that the common error of
+    // neighbours is four times their independent error.
     constexpr double surely = 0.9, blurred = 0.5;
     const double by_chance = std::min(surely, too_rare / std::sqrt(static_cast<double>(noise.values)));
     if (observable == Observable::angle && noise.estimated && noise.sd > blurred) {
@@ -73,11 +73,11 @@ void Reporter::set_misfits() {
     }
   }
   if (std::ranges::all_of(fit_.noise, &Noise::estimated) && !fit_.noise.empty()) return;
-  // The approximation of Wilson and Hilferty: the cube root of chi^2 is normal.
+  // Approximation of Wilson and Hilferty: the cube root of chi^2 has a normal distribution.
   constexpr double too_much = 2;
   const double n = fit_.degrees_of_freedom, share = 2 / (9 * n);
   double reduced = fit_.reduced_chi2();
-  if (request_.robust) {  // Huber's loss allows outliers, so use the median
+  if (request_.robust) {  // Huber's loss allows outliers, so the median is used
     std::vector<double> sizes;
     for (Index row = 0; row < residuals_.size(); ++row) {
       if (search_.weight[row] > 0) sizes.push_back(std::abs(residuals_[row]));
@@ -92,7 +92,7 @@ void Reporter::set_misfits() {
 }
 
 void Reporter::set_rolling_friction_seen() {
-  // Express the same motion as one with rolling friction 0.
+  // Express the same motion by parameters that include a rolling friction of 0.
   VectorXd start = parameters_;
   for (std::size_t track = 0; track < request_.tracks.size(); ++track) {
     const auto of = [&](Parameter parameter) -> double& { return start[TrackModel::place(parameter, track)]; };
@@ -106,7 +106,7 @@ void Reporter::set_rolling_friction_seen() {
   }
   const TrackModel model(request_.ball, request_.law, request_.tracks, accuracy_of_guess, true);
   VectorXd beside = start;
-  constexpr double step = 0.01;  // share of friction, so wide that accuracy_of_guess suffices
+  constexpr double step = 0.01;  // share of friction; so wide that orbits with accuracy_of_guess suffice
   double& rolling_friction = beside[TrackModel::place(Parameter::rolling_friction)];
   rolling_friction = step * std::exp(start[0]);
   const VectorXd by_it = (model.values(beside) - model.values(start)).cwiseProduct(search_.weight) / rolling_friction;

@@ -11,15 +11,15 @@ using Eigen::Index;
 
 namespace {
 
-/// Rise of a sum of squares with several minima, compared with the rise for one minimum.
+/// Rise of the sum of squares if there are several minima, divided by the rise for one minimum.
 constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
 
 }  // namespace
 
-/// A motion depends on k = v/(patch radius |spin|) at the start. Where nothing shows the spin, two k can give a slip
-/// that slows down alike, with another friction each; so it is for a slip that nothing shows.
+/// A motion depends on k = v/(patch radius |spin|) at the start. If the data do not show the spin, two values of k with
+/// different frictions may give nearly the same slip. The same holds for the spin if the data do not show the slip.
 void Reporter::set_other_motions(Profile& profile) {
-  // A patch that is free makes up for any spin: then profiles are wide.
+  // If the patch radius is free, it compensates for any spin. Then profiles are wide, and cover the other motions.
   if (request_.free.patch_radius) return;
   const double patch = std::exp(parameters_[1]);
   for (std::size_t track = 0; track < request_.tracks.size() && !profile.better(); ++track) {
@@ -36,7 +36,7 @@ void Reporter::set_other_motions(Profile& profile) {
     const double slip = std::abs(parameters_[TrackModel::place(Parameter::slip, track)]);
     const double spin = std::abs(parameters_[TrackModel::place(Parameter::spin, track)]);
     const bool is_spin = TrackModel::parameter_at(place_of_hidden) == Parameter::spin;
-    // Beyond these k one of the speeds hardly changes the other.
+    // Beyond these k one of the speeds has hardly any effect on the other.
     constexpr double farthest = 3.2, step = 0.4;
     std::vector<double> values;
     for (double ln_k = -farthest; ln_k <= farthest + step / 2; ln_k += step) {
@@ -55,7 +55,7 @@ void Reporter::set_other_motions(Profile& profile) {
 }
 
 void Reporter::set_profiles() {
-  // Orbits as sharp as a film is.
+  // The orbits are as accurate as a film.
   Search quick(request_, accuracy_of_guess);
   quick.weight = search_.weight;
   quick.guesses = search_.guesses;
@@ -76,11 +76,11 @@ void Reporter::set_profiles() {
     for (const Eigen::Vector2d& powers : {Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
       numbers.push_back(combined(powers));
   }
-  // The patch first: it is the number that most films tell least of, so that its valley is the longest.
+  // The patch radius comes first. Most films show it worst of all numbers, so its valley is the longest.
   std::ranges::stable_sort(numbers, {},
                            [](const Number& number) { return number.coordinate.powers != Eigen::Vector2d(0, 1); });
-  // The best motion may be one of many: where there are other ones, and of a slip or spin that nothing shows, with a
-  // friction that nothing ends.
+  // The best motion may be one of many. This is so if other motions were found, and for a slip or spin that no series
+  // shows, with a friction that no end of the motion determines.
   const auto rise_of = [&](const Number& number) {
     const double rise = least_rise * growth_of(number.coordinate);
     if (!fit_.other_motions.empty()) return of_two_numbers * rise;

@@ -14,19 +14,19 @@
 
 namespace contensou::fit {
 
-/// A relative error from which on a number counts as unknown: catalogues are better.
+/// A number with at least this relative error counts as unknown, because catalogues are more accurate.
 inline constexpr double unknown = 0.5;
 
 inline bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < contact_parameters; }
 
-/// The inverse of a matrix of information, and which parameters it does not decide.
+/// The inverse of an information matrix, and the parameters that the matrix does not determine.
 struct Inverse {
   Eigen::MatrixXd covariance;
-  Eigen::MatrixXd root;  ///< times its transpose: the covariance
+  Eigen::MatrixXd root;  ///< the product with its transpose is the covariance
   std::vector<bool> undecided;
 };
 
-/// A solution and what follows from it.
+/// Computes the report from a solution.
 class Reporter {
  public:
   Reporter(const Search& search, const Eigen::VectorXd& solution, bool planned)
@@ -39,12 +39,12 @@ class Reporter {
   Report report();
 
  private:
-  /// Sets the subject, the number of values and the goodness of the fit.
+  /// Sets the ball and the law, the number of values and the goodness of the fit.
   void set_size();
   /// Sets covariance and correlations by curvature.
   void set_errors();
   void set_covariance(const Eigen::MatrixXd& covariance);
-  /// Finds the dependence of errors of unknown size on each other, and adds it to the covariance.
+  /// Estimates the dependence of errors of unknown size on each other, and increases the covariance accordingly.
   void set_dependence();
   /// Returns the variance of a number divided by the variance that independent errors would give.
   double growth_of(const Coordinate& number) const;
@@ -56,10 +56,10 @@ class Reporter {
   bool is_vague() const;
   bool needs_profile() const;
   void set_profiles();
-  /// A number whose profile is computed, and its limits.
+  /// A number whose profile likelihood is computed, and its limits.
   struct Number {
     Coordinate coordinate;
-    std::optional<std::size_t> estimate;  ///< place in Fit::estimates; none for a combination
+    std::optional<std::size_t> estimate;  ///< index in Fit::estimates; empty for a combination
     double error;                         ///< standard error by curvature
     double low, high;
     Interval interval;
@@ -73,7 +73,7 @@ class Reporter {
   void set_noise();
   void set_predicted();
   void set_ball();
-  /// Sets the spreads of the numbers of the ball; leaves them empty if the data do not determine one of them.
+  /// Sets the spreads of the numbers of the ball. They remain empty if the data do not determine one of the numbers.
   void set_spreads();
   double held_back(std::size_t free) const;
   void set_misfits();
@@ -82,11 +82,11 @@ class Reporter {
 
   bool is_free(Eigen::Index place) const { return std::ranges::find(search_.free, place) != search_.free.end(); }
   bool both_free() const { return request_.free.friction && request_.free.patch_radius; }
-  /// Returns true if the data contain a series that shows this number of the start: slip; spin or angle.
+  /// Returns true if a series shows this number of the start: the slip for slip; spin or angle for spin.
   bool is_seen(Parameter parameter, std::size_t track) const;
   /// Returns true if the data contain x, y, vx or vy.
   bool moves(std::size_t track) const;
-  /// Returns the residual; in a robust fit, clamped at the bend of Huber's loss.
+  /// Returns the residual. In a robust fit it is clamped to the limits beyond which Huber's loss is linear.
   double bounded(double residual) const {
     return request_.robust ? std::clamp(residual, -huber_bend, huber_bend) : residual;
   }
@@ -100,7 +100,7 @@ class Reporter {
   Inverse inverse_;
   Eigen::MatrixXd covariance_;  ///< covariance of the free parameters
   Eigen::VectorXd deviation_;   ///< standard errors of the free parameters
-  Dependence dependence_[7];    ///< dependence of the errors of each observable whose noise is not given
+  Dependence dependence_[7];    ///< dependence of the errors of each observable whose standard deviation is not given
   double variance_ = 1;         ///< factor of all variances in a robust fit, else 1
   double quantile_ = normal_quantile;
   Fit fit_;

@@ -78,7 +78,7 @@ void Search::choose_free() {
     add(Parameter::slip, request.free.slip);
     add(Parameter::spin, request.free.spin);
     add(Parameter::direction, along_x && along_y);
-    // The slip of a body that lies flat is its velocity.
+    // The slip of a body that lies flat equals its velocity.
     const bool rolls = !request.ball.ball.body.lies_flat();
     add(Parameter::vx, along_x && rolls && !resisted);
     add(Parameter::vy, along_y && rolls && !resisted);
@@ -116,7 +116,7 @@ VectorXd Search::carried(VectorXd parameters) const {
 }
 
 VectorXd Search::solve() {
-  // Solve for a part of a long film first, then for the whole film.
+  // Fit a part of a long film first, then the whole film.
   std::vector<Track> part = with_noise(thinned(request.tracks, max_of_first_solution));
   FitRequest smaller = request;
   smaller.tracks = std::move(part);

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Returns r such that half its square is Huber's loss of the residual. `softened_slope` returns its derivative.
+/// Returns r such that r^2/2 is Huber's loss of the residual. `softened_slope` returns the derivative of r.
 double softened(double residual) {
   const double size = std::abs(residual);
   return size <= huber_bend ? residual
@@ -24,7 +24,7 @@ double softened_slope(double residual) {
   return std::abs(residual) <= huber_bend ? 1 : huber_bend / std::abs(softened(residual));
 }
 
-/// The residuals as a function of the free parameters.
+/// The residuals as a function of the free parameters, in the form that the minimiser needs.
 struct Functor {
   using Scalar = double;
   using InputType = VectorXd;
@@ -32,10 +32,10 @@ struct Functor {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  /// The line on which ln f and ln eps keep a held combination. The first input of the functor is the position on it.
+  /// The line on which ln f and ln eps keep a held combination. The functor's first input is the position on it.
   struct Line {
     Eigen::Vector2d direction;
-    double low = -std::numeric_limits<double>::infinity(), high = -low;  ///< between these both are within limits
+    double low = -std::numeric_limits<double>::infinity(), high = -low;  ///< positions that keep both within limits
   };
 
   const Search& search;
@@ -135,12 +135,12 @@ std::vector<Index> Search::pushed_out(const VectorXd& parameters) const {
 
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
   if (request.each_search) request.each_search();
-  // A parameter that the sum of squares pushes beyond its limit stays there, until it is pushed back, while the others
-  // are improved. Otherwise steps cut off at a limit are refused, and shorter ones end the search too early.
+  // If the sum of squares pushes a parameter beyond its limit, the parameter stays there while the others are improved,
+  // until it is pushed back. Otherwise steps that a limit cuts off are refused, and shorter ones end the search early.
   constexpr int most_rounds = 5;
   std::vector<Index> kept;
   for (int i = 0; i < most_rounds; ++i) {
-    // The line of a held combination has its own limits of friction and patch radius.
+    // A held combination has its own limits of friction and patch radius: those of its line.
     VectorXd limited = model.limited(parameters);
     if (held != nullptr && held->of_contact()) limited.head<2>() = parameters.head<2>();
     std::vector<Index> pushed = pushed_out(limited);

@@ -20,7 +20,7 @@ namespace {
 constexpr Index max_of_guess = 30;
 constexpr double accuracy_of_score = 1e-4, tolerance_of_guess = 1e-5;
 
-/// The first values of a series, and their times.
+/// The first values of a series and their times.
 struct Beginning {
   double value = NAN;
   double slope = NAN;
@@ -87,7 +87,7 @@ VectorXd Search::placed(VectorXd parameters) const {
         Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(weights.asDiagonal() * columns).solve(weights.cwiseProduct(right)));
   };
   if (turns) {
-    // Along any direction, what friction takes of x and y is this times its cosine, and that times its sine.
+    // For any direction, friction changes x by this amount times the cosine and y by this amount times the sine.
     VectorXd weights = VectorXd::Zero(weight.size());
     for (Observable observable : {Observable::x, Observable::y, Observable::vx, Observable::vy}) {
       for (Index row : rows_of[static_cast<std::size_t>(observable)]) weights[row] = weight[row];
@@ -118,7 +118,7 @@ VectorXd Search::improved_from_guesses() {
   if (request.free.patch_radius) {
     for (double ratio : {1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5}) patches.push_back(std::log(ratio * radius));
   }
-  // Each track by itself, of few instants.
+  // Fit each track by itself, with few instants.
   const std::vector<Track> few = with_noise(thinned(request.tracks, max_of_guess));
   std::vector<FitRequest> requests;
   for (const Track& track : few) {
@@ -157,7 +157,7 @@ VectorXd Search::improved_from_guesses() {
   const VectorXd given_placed = scored.front().second;
   std::ranges::sort(scored, {}, [](const auto& guess) { return guess.first; });
   for (const auto& [cost, parameters] : scored) guesses.push_back(parameters);
-  // The ball's own values are the first to be improved, and kept where others are no better to speak of.
+  // The ball's own values are improved first. They are kept unless another start is clearly better.
   constexpr double no_better = 0.1;
   VectorXd best = improved(given_placed, nullptr, tolerance_of_guess);
   double least = cost(best) - no_better;

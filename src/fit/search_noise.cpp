@@ -17,7 +17,7 @@ constexpr Index min_of_unknown_noise = 10;
 /// Smallest standard deviation of an observable, as a share of its largest value.
 constexpr double least_sd = 1e-9;
 
-/// The step that all differences of values are multiples of, by Euclid's algorithm; 0 where no values differ.
+/// Returns the step of which all differences of values are multiples, by Euclid's algorithm; 0 if all values are equal.
 double resolution(const VectorXd& data, const std::vector<Index>& rows) {
   const VectorXd values = data(rows);
   constexpr double sharp = 1e-9;
@@ -33,7 +33,7 @@ double resolution(const VectorXd& data, const std::vector<Index>& rows) {
   return step;
 }
 
-/// Errors of a series by how far values are off the line between their neighbours.
+/// Returns the errors of a series, estimated from the distance of each value to the line through its neighbours.
 std::vector<double> local_errors(const Track& track, const Series& series) {
   std::vector<Index> known;
   for (Index i = 0; i < track.t.size(); ++i) {
@@ -88,7 +88,7 @@ void Search::begin_noise() {
     }
     rounding[place] = resolution(data, rows_of[place]);
     if (rounding[place] == 0) {
-      // A column with a single value takes the standard deviation of the other axis, seen by the same camera.
+      // If all values of a column are equal, it takes the standard deviation of the other axis (same camera).
       const std::size_t other = other_axis(place);
       const bool varies = other != place && !rows_of[other].empty() && resolution(data, rows_of[other]) > 0;
       if (!varies) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double min_ln_friction = -9.2, max_ln_friction = 2.3, min_ln_ratio = -14, max_rolling_friction = 1;
 
-/// The largest mu up to 1 under which the law has no invariant ray: gamma mu^2 k Psi < chi Phi for all k.
+/// Returns the largest mu <= 1 for which the law has no invariant ray: gamma mu^2 k Psi < chi Phi for all k.
 double max_ratio(const reduction::Law& law, reduction::Inertia inertia) {
   double least = 1;
   for (double ln_k = -20; ln_k <= 20; ln_k += 0.1) {
@@ -26,13 +26,13 @@ double max_ratio(const reduction::Law& law, reduction::Inertia inertia) {
   return least;
 }
 
-/// Converts integrals over T = f g t into integrals over t; speeds do not change.
+/// Converts integrals over T = f g t into integrals over t. Speeds do not change.
 /// @param rate  f g, m/s^2, > 0
 Speeds over_rate(const Speeds& by, double rate) {
   return {by.v, by.u, by.slid / rate, by.turned / rate, by.centre, by.way / rate};
 }
 
-/// The motion of one track.
+/// The motion of one track, given by its parameters.
 struct Motion {
   const VectorXd& parameters;
   std::size_t number;
@@ -41,7 +41,7 @@ struct Motion {
 
   double of(Parameter parameter) const { return parameters[TrackModel::place(parameter, number)]; }
 
-  /// Returns the share of the orbit in an observable. It is linear in `by`, which may be a derivative of the orbit.
+  /// Returns the part of an observable that the orbit determines. It is linear in `by`, which may be a derivative.
   double of_orbit(Observable observable, const Speeds& by) const {
     switch (observable) {
       case Observable::slip:
@@ -80,7 +80,7 @@ struct Motion {
     return itself ? 1 : 0;
   }
 
-  /// A series at t.
+  /// Returns the value of a series at the time t.
   double value(Observable observable, const Speeds& now, double t) const {
     double result = of_orbit(observable, now);
     for (Parameter parameter : {Parameter::vx, Parameter::vy, Parameter::x, Parameter::y, Parameter::angle}) {
@@ -101,7 +101,7 @@ TrackModel::TrackModel(const si::Experiment& ball, const reduction::Law& law, co
       radius_(ball.ball.radius),
       gravity_(ball.environment.gravity),
       accuracy_(accuracy),
-      // A ball that rolling friction keeps from turning slides like a puck: chi = 1.
+      // A ball that rolling friction keeps from turning slides like a puck, with chi = 1.
       max_ln_patch_radius_(std::log(
           (kind_ == Kind::flat ? 1 : max_ratio(law, resisted ? reduction::Inertia{1, inertia_.gamma} : inertia_)) *
           radius_)),
@@ -195,10 +195,10 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
     const FilmOrbit& orbit = orbit_of(i, parameters);
     const double rate = std::exp(parameters[0]) * gravity_;
     const Motion motion{parameters, i, radius_};
-    /// The number of the orbit that a parameter changes, and its derivative.
+    /// Returns the number of the orbit that a parameter changes, and the derivative of this number by the parameter.
     const auto number_of = [&](Parameter parameter) -> std::pair<FilmOrbit::Number, double> {
       switch (parameter) {
-        case Parameter::friction:  // it also stretches time: see below
+        case Parameter::friction:  // friction also stretches time: see below
           return {FilmOrbit::drive, -orbit_numbers(i, parameters)[FilmOrbit::drive]};
         case Parameter::rolling_friction:
           return {FilmOrbit::drive, 1 / std::exp(parameters[0])};
@@ -214,7 +214,7 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
           return {FilmOrbit::rolling, 0};
       }
     };
-    // The columns that change this track; beyond a limit a parameter changes nothing.
+    // The parameters that change this track. A parameter beyond its limit changes nothing.
     std::vector<std::pair<Index, Parameter>> columns;
     for (std::size_t column = 0; column < wanted.size(); ++column) {
       const Index at = wanted[column];

@@ -10,14 +10,14 @@
 
 namespace contensou::fit {
 
-/// The motion of tracks under a law as a function of parameters, and its derivatives with respect to them.
+/// The motion of tracks under a law as a function of parameters, and its derivatives by the parameters.
 ///
 /// A vector of parameters contains ln f, ln eps and u_r. For each track the numbers of its start follow, in the order
-/// of Parameter. A negative slip is a slip in the opposite direction; with rolling friction the slip is >= 0.
+/// of Parameter. A negative slip is a slip in the opposite direction. With rolling friction the slip is >= 0.
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
-  /// @param accuracy  accuracy of orbits, as in FilmOrbit
+  /// @param accuracy  accuracy of orbits, as for FilmOrbit
   /// @param resisted  true if there is rolling friction
   TrackModel(const si::Experiment& ball, const reduction::Law& law, const std::vector<Track>& tracks, double accuracy,
              bool resisted = false);
@@ -39,8 +39,8 @@ class TrackModel {
         place < shared_parameters ? place : shared_parameters + (place - shared_parameters) % start_parameters);
   }
 
-  /// Returns the track to which a place of a start belongs.
-  /// @param place  >= shared_parameters
+  /// Returns the track to which a number of a start belongs.
+  /// @param place  place of the number in the parameters, >= shared_parameters
   static std::size_t track_of(Eigen::Index place) {
     return static_cast<std::size_t>((place - shared_parameters) / start_parameters);
   }
@@ -48,10 +48,11 @@ class TrackModel {
   /// Returns the values of the model row by row: the series of the first track, its stop time, then the next track.
   Eigen::VectorXd values(const Eigen::VectorXd& free) const;
 
-  /// Returns the derivatives of the values with respect to the wanted parameters, one column each.
+  /// Returns the derivatives of the values by the wanted parameters, one column for each.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
   /// Limits of a parameter. eps is at most R, and so small that a ball has no invariant ray. Slip and R spin are at
+  /// most max_speed.
   /// most max_speed.
   struct Range {
     double low, high;
@@ -63,7 +64,7 @@ class TrackModel {
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:
-  /// Returns the orbit of track i up to its last instant; the orbit of the last call if the numbers are the same.
+  /// Returns the orbit of track i up to its last instant. It is kept for calls with the same numbers.
   const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
   FilmOrbit::Numbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;

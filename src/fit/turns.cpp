@@ -16,10 +16,10 @@ using Eigen::Index;
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-/// Difference of Akaike's criterion up to which two fits count as equally good.
+/// Two fits count as equally good if their Akaike criteria differ by at most this.
 constexpr double no_preference = 4;
-/// Largest speed, m/s, of the surface by spin that is tried, unless the spin of the ball as given is faster. A
-/// table-tennis ball that turns 150 times a second, one of the fastest, has 19.
+/// Largest surface speed by spin, m/s, that is tried, unless the given spin of the ball is faster. A table-tennis ball
+/// with 150 turns per second, one of the fastest, has 19 m/s.
 constexpr double fastest_spin = 20;
 
 /// Two successive measured values: the time between them, s, and the growth of the angle, rad, up to whole turns.
@@ -43,7 +43,7 @@ double usual_time(const std::vector<Step>& steps) {
   return median(std::move(times));
 }
 
-/// Returns the rate, rad/s, at which the angle grows in the first steps of the usual time. Each is at most half a turn.
+/// Returns the rate, rad/s, at which the angle grows in the first steps of usual length, at most half a turn each.
 double slow_rate(const std::vector<Step>& steps, double usual) {
   constexpr int most = 10;
   std::complex<double> sum = 0;
@@ -57,7 +57,7 @@ double slow_rate(const std::vector<Step>& steps, double usual) {
   return std::arg(sum) / usual;
 }
 
-/// Adds whole turns to the angles of a track, given the rate, rad/s, at which the angle grows at first.
+/// Adds whole turns to the angles of a track. @param rate  rate, rad/s, at which the angle grows at first
 void unwrap(const Track& track, Series& angle, double rate) {
   constexpr double share_of_last = 0.3;  // weight of the last step in the smoothed rate
   Index last = -1;
@@ -73,7 +73,7 @@ void unwrap(const Track& track, Series& angle, double rate) {
   }
 }
 
-/// Returns true if the track contains a value of the spin, which then determines the turns of the angle.
+/// Returns true if the track contains a measured spin, which then determines the turns of the angle.
 bool seen_by_spin(const Track& track) {
   const Series* spin = series_of(track, Observable::spin);
   return spin != nullptr && !spin->value.isNaN().all();
@@ -117,11 +117,11 @@ Turns set_turns(const FitRequest& request, Track& track) {
     try {
       const Eigen::VectorXd found = search.solve();
       trials.push_back({std::move(tried), search.criterion(found), found[TrackModel::place(Parameter::spin)]});
-    } catch (const std::runtime_error&) {  // no fit has these turns
+    } catch (const std::runtime_error&) {  // no fit converges with these turns
     }
   }
   if (trials.empty()) throw std::runtime_error("fit: the search for the parameters did not converge");
-  // Among the fits as good as the best, take the one with the slowest spin.
+  // Among the fits that are as good as the best, take the one with the slowest spin.
   const double best = std::ranges::min(trials, {}, &Trial::criterion).criterion;
   std::erase_if(trials, [&](const Trial& trial) { return trial.criterion >= best + no_preference; });
   std::ranges::stable_sort(trials, {}, [](const Trial& trial) { return std::abs(trial.spin); });

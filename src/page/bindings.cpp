@@ -1,4 +1,4 @@
-// The functions of the library that the page calls, in JavaScript. An error of the library becomes an Error with its
+// The functions of the library that the page calls from JavaScript. An error of the library becomes an Error with its
 // message. Columns are Float64Array.
 #include <algorithm>
 #include <array>
@@ -86,7 +86,7 @@ std::vector<State> states_of(const val& points) {
   return states;
 }
 
-/// Returns a state in the window on the motion from one start: the start, or the entry into the window.
+/// Returns a state of the motion from one start that lies in the window: the start, or the entry into the window.
 State inside(const Flow& flow, State start, const Eigen::Vector2d& sides) {
   const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= sides[0] && state.v <= sides[1]; };
   if (is_inside(start)) return start;
@@ -98,7 +98,7 @@ State inside(const Flow& flow, State start, const Eigen::Vector2d& sides) {
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
 }
 
-/// Returns the program's description of a portrait for a request of portrait_request.js.
+/// Converts a request of portrait_request.js to the program's description of a portrait.
 answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   const auto has = [&](const char* key) { return !asked[key].isNull(); };
   std::optional<si::Experiment> experiment;
@@ -121,7 +121,7 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
     if (i == chosen || orbits[i].u == 0 || orbits[i].v == 0) continue;
     request.through.push_back(request.sides ? inside(question.flow, orbits[i], *request.sides) : orbits[i]);
   }
-  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // else the program's default number
+  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // otherwise the program's default number applies
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
   const auto field = asked["field"].as<std::string>();
   using Field = portraits::PortraitStyle::Field;
@@ -142,8 +142,8 @@ class Plane {
     return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
   }
 
-  /// Draws the portrait that the program draws for a request. The requested orbits are left to the page: the result
-  /// contains their motions from start to stop, and for each panel the line and the place of its arrow.
+  /// Draws the portrait that the program draws for a request. The page draws the requested orbits itself. For them the
+  /// result contains the motions from start to stop and, for each panel, the line and the place of its arrow.
   /// @param behind  true to draw everything behind these orbits again; false if it is unchanged, in the same window
   val portrait(const val& asked, bool behind) {
     answers::PortraitSpec question = question_of(asked, flow());
@@ -233,9 +233,9 @@ class Plane {
                                                                        : val::null();
   }
 
-  /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, and its change of
-  /// direction in degrees; also the time at which slip and spin end. A ball ceases to slide when its slip falls to
-  /// `least` m/s, a body that lies flat when it stops.
+  /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, its change of
+  /// direction in degrees, and the time at which slip and spin end. A ball ceases to slide when its slip has fallen to
+  /// `least` m/s; a body that lies flat, when it stops.
   /// @param fields  fields, see ride
   val slide(const val& fields, double rolling_friction, double least) const {
     const si::Motion motion = motion_of(fields, rolling_friction);
@@ -274,7 +274,7 @@ class Plane {
       states.push_back({scale * direction.u, scale * direction.v});
     };
     add({.u = 1, .v = 0});
-    // The angles are equal in a plane in which both speeds take the same time to stop, and there are some at small k.
+    // Directions are equidistant as angles in coordinates in which both speeds take the same time to stop. Add small k.
     for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
     const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
     constexpr int pieces = 96;
@@ -334,8 +334,9 @@ class Plane {
     return result;
   }
 
-  /// Returns a requested orbit, as portrait describes it.
-  /// @param drawn  the portrait's orbit through the start, if there is one; it may begin earlier, or in the window
+  /// Returns a requested orbit in the form that `portrait` describes.
+  /// @param drawn  orbit of the portrait through the start, if there is one; it may begin earlier, or at the window's
+  ///               border
   val own_orbit(State start, const portraits::PortraitOrbit* drawn, const portraits::Window& window) const {
     const Orbit orbit = flow().orbit(start);
     const double stop = orbit.stop_time();
@@ -357,7 +358,7 @@ class Plane {
     const auto in_panel = [&](const portraits::PanelMap& map) {
       const portraits::Panel& axes = drawn_.figure.panels[panel++];
       const auto line = drawn ? portraits::visible(axes, {map.line(rows)}) : std::vector<portraits::Polyline>();
-      constexpr double shortest = 0.06;  // a fraction of a side
+      constexpr double shortest = 0.06;  // a fraction of a side of the panel
       const auto length = [&](const portraits::Polyline& part) { return portraits::paper_length(axes, part); };
       const auto longest = std::ranges::max_element(line, {}, length);
       std::vector<double> arrow;
@@ -372,7 +373,7 @@ class Plane {
     return own;
   }
 
-  std::optional<Flow> flow_, level_;  ///< level_: without a drive
+  std::optional<Flow> flow_, level_;  ///< level_: the flow without a drive
   portraits::MappedFigure drawn_;     ///< the last portrait
 };
 
@@ -408,8 +409,8 @@ std::string complaint(const std::string& body, double mu) {
   return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }
 
-/// Returns {name, layered: true with isochrones and a field, moments: true if points are times and not states} of each
-/// view. The view of beta is left out, because a click there has no time.
+/// Returns for each view {name, layered: true if it has isochrones and a field, moments: true if its points are times,
+/// not states}. The view of beta is left out, because a click there determines no time.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
   std::erase(shown, portraits::View::regularised);
@@ -435,8 +436,8 @@ val catalogue() {
   });
 }
 
-/// Returns the reason why the plane has no such motion; empty if it has. Rolling friction may turn the slip, or keep
-/// the ball from turning at first.
+/// Returns the reason why the plane does not contain the motion; empty if it does. Rolling friction may turn the slip,
+/// or at first keep the ball from turning.
 std::string without_rolling_friction(const si::Experiment& experiment, const Law& law) {
   const double u_r = experiment.contact.rolling_friction;
   const State start = si::reduced_start(experiment);
@@ -450,7 +451,7 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// Returns the plane's data of a ball. Its drive is of slope and rolling friction; `without` says why it is left out.
+/// Returns the data of the plane for a ball. Its drive includes slope and rolling friction; else `without` says why.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));

@@ -1,4 +1,4 @@
-// A film that the reader gives to the page: finds friction and patch of the chosen ball, as `contensou fit` does.
+// A film that a reader gives to the page. The page finds friction and patch of the ball, like `contensou fit`.
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,10 +17,10 @@ namespace contensou::page {
 
 namespace {
 
-/// Returns the fit of the best law: {report, notes on columns that are not read, law, friction, patch, slip, spin,
-/// velocityX and velocityY of the centre, along and across the slip, measured: {t; for each observable of the film its
-/// column, and with _fitted the column of the fitted motion}, figure of `contensou fit`}.
-/// @param laws  names with commas between them
+/// Returns the fit of the best law: {report, notes about columns that are not read, law, friction, patch, slip, spin,
+/// velocityX and velocityY of the centre along and across the slip, measured: {t, and for each observable of the film
+/// its column, and with _fitted the column of the fitted motion}, figure of `contensou fit`}.
+/// @param laws  names of laws, separated by commas
 val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
   si::Experiment experiment = experiment_of(ball);
   experiment.ball.name = ball["title"].as<std::string>();

@@ -108,7 +108,7 @@ portraits::Figure outline_of(const val& figure) {
   return outline;
 }
 
-/// Returns mm per pixel: the library's narrowest panel is 50 mm wide.
+/// Returns mm per pixel. The narrowest panel of the library is 50 mm wide.
 double scale_of(const val& figure) { return 50 / figure["narrowest"].as<double>(); }
 
 constexpr double narrowest = 230;  // width of the narrowest panel, pixels

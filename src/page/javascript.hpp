@@ -21,8 +21,8 @@ namespace contensou::page {
 
 using emscripten::val;
 
-/// Returns the result of a call. An exception becomes an Error with its message, because JavaScript cannot read
-/// exceptions of C++. An error of the library itself has the name Fault; the page adds the request to its message.
+/// Returns the result of a call. An exception becomes an Error with its message, because JavaScript cannot read C++
+/// exceptions. A fault of the library becomes an Error with the name Fault; the page adds the request to its message.
 template <class Call>
 auto answer(Call call) {
   std::string problem;
@@ -38,7 +38,7 @@ auto answer(Call call) {
   error.throw_();
 }
 
-/// A function, or a method, that calls another one through `answer`.
+/// Wraps a function, or a method, so that it is called through `answer`.
 template <auto function>
 inline constexpr auto answering = nullptr;
 
@@ -59,7 +59,7 @@ inline constexpr auto answering<method> = +[](const Class& self, Given... given)
 /// @throws std::domain_error  if there is no such law
 reduction::Law law_of(const std::string& name);
 
-/// Returns the experiment of the fields: a body, and quantities (si/quantity.hpp) by their names, in SI units.
+/// Returns the experiment that has the given fields: a body, and quantities (si/quantity.hpp) by name, in SI units.
 si::Experiment experiment_of(const val& fields);
 
 /// Returns numbers as a Float64Array.
@@ -68,10 +68,10 @@ val column(const Numbers& values) {
   return val(emscripten::typed_memory_view(static_cast<std::size_t>(values.size()), values.data())).call<val>("slice");
 }
 
-/// Returns lines one after the other, with NaN between them: x0, y0, x1, y1, ...
+/// Returns the points of all lines in one column, with NaN between lines: x0, y0, x1, y1, ...
 val column(const std::vector<portraits::Polyline>& lines);
 
-/// Returns an array of the function's value of each entry.
+/// Returns an array with the function's value for each entry.
 template <class Range, class Function>
 val list(const Range& range, Function value) {
   val result = val::array();
@@ -80,7 +80,7 @@ val list(const Range& range, Function value) {
   return result;
 }
 
-/// Returns the runs of a text: {words, italic, level} of each.
+/// Returns for each run of a text {words, italic, level}.
 val text_value(const portraits::Text& text);
 
 inline void set_fields(val&) {}
@@ -98,7 +98,7 @@ void set_fields(val& object, const char* key, const Value& value, const Rest&...
   set_fields(object, rest...);
 }
 
-/// Returns an object of keys and values in turn. Values are texts, strings, numbers, columns or values of JavaScript.
+/// Returns an object from keys and values that alternate. Values are texts, strings, numbers, columns or vals.
 template <class... KeysAndValues>
 val object(const KeysAndValues&... keys_and_values) {
   val result = val::object();
@@ -106,10 +106,10 @@ val object(const KeysAndValues&... keys_and_values) {
   return result;
 }
 
-/// Returns the fields of figure.hpp by their names; colours as in CSS, and the visible parts of lines as columns.
+/// Returns the fields of portraits/figure.hpp by name. Colours are as in CSS; the visible parts of lines are columns.
 val figure_value(const portraits::Figure& figure);
 
-/// Returns the number of rows of panels in a figure (figure_value) of a width in pixels.
+/// Returns the number of rows of panels in a figure (figure_value) that has the given width in pixels.
 int rows_of(const val& figure, double width);
 
 /// Returns the layout of a figure (figure_value) in pixels: {texts: {x, y, text, size, align, turned, bold}, panels:

@@ -1,5 +1,5 @@
-// Included in every file that is compiled for the page. It keeps the page small, and adds the parts of C++20 that this
-// library needs and the C++ library of Debian 12's emscripten (LLVM 14) lacks.
+// Included in every file that is compiled for the page. It keeps the page small. It adds those parts of C++20 that this
+// library needs and that the C++ library of Debian 12's emscripten (LLVM 14) lacks.
 #pragma once
 
 // Leave out streams and locales, a tenth of the page, and long doubles, which WebAssembly computes in software.
@@ -37,7 +37,7 @@ constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
 }
 
-/// The algorithms of std::ranges are those of range-v3, which they are modelled on.
+/// The algorithms of std::ranges, replaced by their models in range-v3.
 namespace ranges {
 using namespace ::ranges;
 }

@@ -4,10 +4,10 @@
 
 namespace contensou::platform {
 
-/// Handles the signals that end the program, and in Windows Ctrl-C and the end of the console. The handler removes the
-/// unfinished file, prints a message, and ends the program in the usual way: with status 130 in a shell after Ctrl-C,
-/// also as process 1 of a container. Ignored signals, such as SIGHUP under nohup, stay ignored. Exceeding a limit on
-/// file sizes becomes an error of write().
+/// Handles the signals that end the program, and in Windows Ctrl-C and the closing of the console. The handler removes
+/// the unfinished file, prints a message, and ends the program as the signal would: in a shell with status 130 after
+/// Ctrl-C, also as process 1 of a container. Signals that are ignored, such as SIGHUP under nohup, stay ignored. If a
+/// file exceeds its size limit, write() returns an error.
 void handle_ending_signals();
 
 /// Delays the signals that end the program as long as an object of this class exists.

@@ -55,7 +55,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     if (file_ < 0) fail(errno);
     return;
   }
-  // A file without permission to write is not replaced, even if its folder allows it, and not by root.
+  // A file that must not be written is not replaced, not even by root, and not if its folder allows it.
   if (is_there && ((there.st_mode & writable) == 0 || ::access(path_.c_str(), W_OK) != 0)) fail(EACCES);
   mode_ = is_there ? there.st_mode : standard_mode();
   target_ = text_of(followed(path_of(path_)));
@@ -86,7 +86,7 @@ void OutputFile::reserve(std::uintmax_t bytes) {
 
 void OutputFile::write(std::string_view content) {
   while (!content.empty()) {
-    constexpr std::size_t most = 1 << 30;  // Windows takes an unsigned number
+    constexpr std::size_t most = 1 << 30;  // in Windows the size is an unsigned int
     const auto written = ::write(file_, content.data(), static_cast<unsigned>(std::min(content.size(), most)));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);

@@ -6,9 +6,9 @@
 
 namespace contensou::platform {
 
-/// A file for results. It appears whole or not at all: it is written under another name in the same folder, then
-/// renamed. Links stay and lead to the new file, with the old permissions. Standard output, devices and pipes are
-/// written directly.
+/// A file for results. Either the whole file appears or nothing: it is written under another name in the same folder,
+/// then renamed. Links are kept and lead to the new file, which has the old permissions. Standard output, devices and
+/// pipes are written directly.
 class OutputFile {
  public:
   /// @param path  "-" is standard output

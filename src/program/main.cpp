@@ -57,7 +57,7 @@ std::string footer() {
          help_paragraph(exit_statuses);
 }
 
-/// The verbs as parts of the program's command line. Options are given to a verb when they are needed.
+/// The verbs of the program's command line. The options of a verb are added when they are needed.
 class Verbs {
  public:
   explicit Verbs(CLI::App& root) {
@@ -73,14 +73,14 @@ class Verbs {
   const std::vector<std::string>& names() const { return names_; }
   bool has(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
 
-  /// The verb of that name, with its options.
+  /// Returns the verb with a name, after its options have been added.
   Verb& complete(const std::string& name) {
     Part& part = *std::ranges::find(parts_, name, [](const Part& of) { return of.entry->name; });
     if (!part.verb) {
       part.app->footer("Example:\n  " + part.entry->example);
       part.verb = part.entry->make();
       part.verb->add_options(*part.app);
-      part.app->set_help_flag();  // remove it and add it again: it becomes the last option
+      part.app->set_help_flag();  // removed and added again, so that it is the last option
       part.app->set_help_flag("-h,--help", "print this help");
     }
     return *part.verb;
@@ -99,7 +99,7 @@ class Verbs {
   std::vector<std::string> names_;
 };
 
-/// Rejects words that CLI11 could not place: an unknown verb or option, or a word too many.
+/// Throws for words that CLI11 could not place: an unknown verb or option, or a word too many.
 /// @param names  names of the verbs if one was expected, else empty
 /// @throws BadInput  if there is such a word
 void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::string>& names) {
@@ -127,7 +127,7 @@ void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::strin
       fmt::format("unknown verb {}{}; verbs: {}", quotation(typed), suggestion(typed, names), fmt::join(names, ", ")));
 }
 
-/// CLI11 takes any word for the value of a flag, and a last -- for nothing.
+/// Throws for two uses that CLI11 accepts but that mean nothing: a value of a flag, and -- as the last word.
 void reject_what_means_nothing(const CLI::App& app, const std::vector<std::string>& arguments) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_items_expected_max() > 0) continue;
@@ -140,7 +140,7 @@ void reject_what_means_nothing(const CLI::App& app, const std::vector<std::strin
 }
 
 void parse(CLI::App& app, std::vector<std::string> arguments) {
-  std::ranges::reverse(arguments);  // CLI11 takes them in reverse order
+  std::ranges::reverse(arguments);  // CLI11 expects the words in reverse order
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ArgumentMismatch& error) {
@@ -157,7 +157,7 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
   }
 }
 
-/// @param verb  becomes the name of the verb, once it is known
+/// @param verb  receives the name of the verb as soon as it is known
 ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
   CLI::App app("Motion of a ball or puck that slides and spins on a plane with dry friction.\n", "contensou");
   app.formatter(std::make_shared<HelpFormatter>());

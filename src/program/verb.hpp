@@ -12,15 +12,15 @@
 
 namespace contensou::program {
 
-/// One verb of the program. A new verb is a file with a Verb and its registration.
+/// A verb (a command) of the program. A new verb is a file with a class derived from Verb and its registration.
 class Verb {
  public:
   virtual ~Verb() = default;
 
   virtual void add_options(CLI::App& app) = 0;
 
-  /// Runs the verb with its options. It writes results only when all of them are computed.
-  /// @throws  exceptions that main.cpp turns into an exit status
+  /// Runs the verb with its options. It writes results only after all of them have been computed.
+  /// @throws  exceptions that main.cpp converts to an exit status
   virtual ExitStatus run() = 0;
 };
 
@@ -36,10 +36,10 @@ struct VerbEntry {
   std::unique_ptr<Verb> (*make)();
 };
 
-/// Returns every verb that is linked.
+/// Returns every verb that is linked into the program.
 std::vector<VerbEntry>& verbs();
 
-/// Registers a verb, by a constant in its file.
+/// Registers a verb by the definition of a constant in its file.
 template <class AVerb>
 struct RegisteredVerb {
   RegisteredVerb(Purpose purpose, std::string name, std::string summary, std::string example,

@@ -200,7 +200,7 @@ void bind_planar(py::module_& module) {
           try {
             x = interruptible([&] { return orbit.at(time); });
           } catch (const std::domain_error&) {
-            if (!(time >= 0)) throw;  // else it has gone to infinity, or beyond a border
+            if (!(time >= 0)) throw;  // otherwise the motion has gone to infinity, or beyond a border
           }
           us.mutable_data()[i] = x[0];
           vs.mutable_data()[i] = x[1];

@@ -12,7 +12,7 @@
 
 namespace contensou::python {
 
-/// A signal during a call of a field. It is no std::exception, which the library would take for a point without value.
+/// A signal during a call of a field. It is not a std::exception, which would mean a point without value.
 struct Interrupted {
   py::error_already_set error;
 };

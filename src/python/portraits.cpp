@@ -119,7 +119,7 @@ using Sides = std::pair<double, double>;
 /// (U, V), or both ends of each side.
 using AskedWindow = std::variant<Sides, std::pair<Sides, Sides>>;
 
-/// A number of isochrones, or their times.
+/// A number of isochrones, or the times of isochrones.
 using AskedIsochrones = std::variant<int, std::vector<double>>;
 
 /// Returns the request that portraits of all systems share.

@@ -58,7 +58,7 @@ class FunctionLaw {
   }
 
  private:
-  std::shared_ptr<py::function> function_;  ///< deleted under the lock, wherever the last copy ends
+  std::shared_ptr<py::function> function_;  ///< deleted under Python's lock, in whichever thread the last copy ends
   std::string name_;
   std::vector<double> kinks_;
 };
@@ -96,7 +96,7 @@ Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
   return reduction::ReducedSystem(law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia, drive);
 }
 
-/// Writes the stop times to `out`, which is contiguous with an entry for each start; NaN for an invalid start.
+/// Writes the stop times to `out`, a contiguous array with one entry for each start; NaN for an invalid start.
 void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_t<double>& out, unsigned threads) {
   const auto count = static_cast<std::size_t>(out.size());
   const double* const us = u.data();
@@ -106,8 +106,8 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
-/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, a row each: NaN for an invalid start, derivatives
-/// at rest.
+/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, one row each. All are NaN for an invalid start;
+/// the derivatives are NaN at rest.
 py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, const Numbers& v) {
   const py::ssize_t count = u.size();
   py::array_t<double> result({py::ssize_t{7}, count});
@@ -128,7 +128,7 @@ py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, cons
   return result;
 }
 
-/// Computes stop times like stop_times, with a mu for each start. The flow gives law and body; its mu is not used.
+/// Computes stop times like stop_times, with a mu for each start. Law and body are the flow's; its mu is not used.
 void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, const Numbers& v,
                        py::array_t<double>& out) {
   const auto count = static_cast<std::size_t>(out.size());

@@ -49,7 +49,7 @@ Instant instant_of(const si::MotionPoint& point) {
   return {t, position.x(), position.y(), velocity.x(), velocity.y(), w.x(), w.y(), w.z(), slip, energy};
 }
 
-/// Returns the caller's value for a message; an array as its shape.
+/// Returns a value of the caller as text for a message; for an array, its shape.
 std::string words_of(const py::handle& value) {
   if (py::hasattr(value, "shape")) return "an array of shape " + py::repr(value.attr("shape")).cast<std::string>();
   constexpr std::size_t most = 60;
@@ -58,8 +58,9 @@ std::string words_of(const py::handle& value) {
 }
 
 /// Writes the friction of contacts to `values`, and its slopes to `slopes` unless it is empty; NaN if a number is NaN.
-/// @param given  loads, and friction, radius and creep of the patches: for each contact, or one for all
-/// @throws std::domain_error  of the first contact with a wrong number, with its index
+/// @param given  loads, then friction, radius and creep of the patches; each has one value for each contact, or one for
+///               all
+/// @throws std::domain_error  for the first contact with a wrong number, with its index in the message
 void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 4>& given, py::array_t<double>& values,
               py::array_t<double>& slopes) {
   const double* const speeds = motions.data();
@@ -93,8 +94,9 @@ void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 
   }
 }
 
-/// Calls `work` for each of `count` rows on some threads.
-/// @throws std::domain_error, std::runtime_error  of the first row that fails, with its number; others unchanged
+/// Calls `work` for each of `count` rows on several threads.
+/// @throws std::domain_error, std::runtime_error  with the number of the first row that fails; other exceptions
+///                                                unchanged
 template <class Work>
 void for_rows(py::ssize_t count, unsigned threads, const Work& work) {
   std::atomic<py::ssize_t> next = 0;
@@ -179,7 +181,7 @@ double number_in(const py::handle& value, const std::string& what) {
   }
 }
 
-/// Returns text in the form of a run file.
+/// Returns a value as text in the form of a run file.
 std::string line_in(const py::handle& value, const std::string& what) {
   if (!py::isinstance<py::str>(value))
     throw py::type_error(fmt::format("{}: text is needed; got {}", what, words_of(value)));

@@ -21,7 +21,7 @@ namespace contensou::python {
 
 namespace py = pybind11;
 
-/// Releases Python's lock while the library computes. A law in Python takes it for each call.
+/// Releases Python's lock while the library computes. A law in Python takes the lock for each call.
 using Released = py::call_guard<py::gil_scoped_release>;
 
 /// Numbers of any shape, in C order.
@@ -45,7 +45,7 @@ class Interruption {
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 
-/// Returns an array of the shape of `given` with the function's value of each number.
+/// Returns an array of the shape of `given` with the function's value for each number.
 template <class Value, class Function>
 py::array_t<Value> mapped(const Numbers& given, Function function) {
   py::array_t<Value> result(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
@@ -61,9 +61,9 @@ py::array_t<Value> mapped(const Numbers& given, Function function) {
   return result;
 }
 
-/// Returns the value of a name.
+/// Returns the value that a name stands for.
 /// @param kinds  plural of the kind of names, such as "laws"
-/// @throws std::domain_error  listing the names, if it is none of them
+/// @throws std::domain_error  with a list of the names, if the name is not among them
 template <class Value>
 Value one_of(std::string_view kind, std::string_view kinds, const std::vector<std::pair<std::string, Value>>& choices,
              const std::string& typed, const std::vector<std::string>& more = {}) {

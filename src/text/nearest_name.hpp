@@ -6,11 +6,11 @@
 
 namespace contensou {
 
-/// Returns the name that the fewest edits (insert, delete, replace, swap neighbours) lead to. Empty if it needs edits
-/// of more than half of its letters.
+/// Returns the name that is the fewest edits (insert, delete, replace, swap neighbours) away from a typed text. Empty
+/// if the edits are more than half of its letters.
 std::string nearest_name(std::string_view typed, std::span<const std::string> names);
 
-/// Returns that name as the end of a message, " (did you mean 'NAME'?)"; empty if there is none.
+/// Returns that name as the end of a message, " (did you mean 'NAME'?)"; empty if there is no such name.
 std::string suggestion(std::string_view typed, std::span<const std::string> names);
 
 }  // namespace contensou

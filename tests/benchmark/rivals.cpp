@@ -32,13 +32,13 @@ using State = std::array<double, 2>;
 
 constexpr double tolerance = 1e-12;
 
-/// Below this fraction of its start |u| falls linearly.
+/// Below this fraction of its value at the start, |u| falls linearly.
 constexpr double rest = 1e-8;
 
-/// What is negligible beside the speeds of a start.
+/// Returns a speed that is negligible compared with the speeds of a start.
 double negligible(double mu, double u0, double v0) { return 1e-14 * (mu * u0 + v0); }
 
-/// (2.6) for the Pade ball, u >= 0.
+/// The equations of motion (2.6) of a ball under the Pade law, u >= 0.
 struct Field {
   double mu;
   long evaluations = 0;
@@ -50,7 +50,7 @@ struct Field {
   }
 };
 
-/// Steps until |u| is small, halving what goes through the stop. try_step(tau, x, dt) moves them on if it accepts.
+/// Steps until |u| is small. A step through the stop is halved. try_step(tau, x, dt) advances tau and x if it accepts.
 template <class Step>
 double halving(double mu, double u0, double v0, Step try_step) {
   double tau = 0;
@@ -80,7 +80,7 @@ RivalResult by_odeint(double mu, double u0, double v0) {
   const double tau = halving(mu, std::abs(u0), v0, [&](double& time, State& x, double& dt) {
     stepper.try_step(system, x, time, dt);
     if constexpr (requires { stepper.reset(); }) {
-      if (!(x[0] > 0)) stepper.reset();  // it remembers the rate where it left off
+      if (!(x[0] > 0)) stepper.reset();  // the stepper keeps the rate of the last step
     }
   });
   return {tau, field.evaluations};

@@ -1,4 +1,4 @@
-// What a stop time costs: this library beside others and beside the bandwidth of the machine, in one run.
+// The cost of a stop time: this library, other libraries, and the memory bandwidth of the machine, measured in one run.
 //   benchmark_stop_times            prints the tables of README.md in Markdown
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ namespace {
 using namespace contensou::reduction;
 using contensou::tests::ReferenceRow;
 
-/// Least time of one call, in nanoseconds, by name: of the processor, or of the clock where threads share the work.
+/// Least time of one call in nanoseconds, by name. It is processor time, or clock time if threads share the work.
 class Times : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -69,7 +69,7 @@ void measure(const std::string& name, std::function<void()> call, double seconds
       ->UseRealTime();
 }
 
-/// What memory decides, and others use, too: more often.
+/// Registers a call whose time depends on memory, which other programs use, too. So it is repeated more often.
 void measure_in_memory(const std::string& name, std::function<void()> call) {
   measure(name, std::move(call), 0.03, 15);
 }
@@ -93,7 +93,7 @@ std::vector<Start> starts() {
   return found;
 }
 
-/// One start after the other by one method: how many evaluations it took, how wrong it was.
+/// The results of one method for one start after the other: number of evaluations and error.
 struct Answers {
   double evaluations = 0;  ///< mean
   double error = 0;        ///< worst, relative
@@ -110,7 +110,7 @@ Answers answers(const std::vector<Start>& all, const Method& method) {
   return sum;
 }
 
-/// Aligned as the streaming stores of the bandwidth loop need it.
+/// An array with the alignment that the streaming stores of the bandwidth loop need.
 class Array {
  public:
   explicit Array(std::size_t size) : data_(new (std::align_val_t{64}) double[size]), size_(size) {}
@@ -125,7 +125,7 @@ class Array {
   std::size_t size_;
 };
 
-/// out = u + v with stores past the caches: what reading and writing alone cost.
+/// A loop out = u + v with stores that bypass the caches: the cost of reading and writing alone.
 using BareLoop = void(const double* u, const double* v, double* out, std::size_t size);
 
 #ifdef __SSE2__
@@ -173,7 +173,7 @@ int main() {
   const unsigned cores = std::min(2U, std::thread::hardware_concurrency());
   const std::vector<Start> table = starts();
 
-  // One start at a time.
+  // Measurements with one start at a time.
   std::vector<std::pair<std::string, Method>> methods;
   std::map<double, StopTimeTable> tables;
   for (const Start& start : table) tables.try_emplace(start.mu, ReducedSystem(PadeLaw{}, start.mu));
@@ -202,7 +202,7 @@ int main() {
         slow ? 0.001 : 0.05, slow ? 2 : 7);
   }
 
-  // Arrays.
+  // Measurements with arrays.
   const Array u(points), v(points), tau(points);
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> ln(-3, 3);
@@ -216,7 +216,7 @@ int main() {
     measure_in_memory("pade" + on, [&, threads] { pade.evaluate(u.span(), v.span(), tau.span(), threads); });
     measure_in_memory("hertz" + on, [&, threads] { hertz.evaluate(u.span(), v.span(), tau.span(), threads); });
   }
-  // The loop alone, on panels that all hold one polynomial.
+  // The loop alone, on panels that all contain the same polynomial.
   const std::vector<StopTimePanels::Panel> panels(StopTimePanels::branches * StopTimePanels::per_branch,
                                                   {{1, 0.5, 0.25}});
   const StopTimePanels plain{10, 32, panels.data(), {}};
@@ -224,7 +224,7 @@ int main() {
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });
   measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(HertzLaw{}, 0.1))); });
 
-  // A mu of its own for each start: log-uniform in 1e-4 .. 1, as v0/(mu u0) is in 1e-3 .. 1e5.
+  // Each start has its own mu, log-uniform in 1e-4 .. 1; v0/(mu u0) is log-uniform in 1e-3 .. 1e5.
   constexpr std::size_t own = std::size_t{1} << 16;
   const Array own_mu(own), own_v(own);
   std::uniform_real_distribution<double> ln_mu(std::log(1e-4), 0), ln_k(std::log(1e-3), std::log(1e5));
@@ -261,7 +261,7 @@ int main() {
     }
   }
 
-  // What is compared is measured in turn, so that a slow minute of the machine falls on all.
+  // Calls that are compared are measured in turn, so that a slow minute of the machine affects all of them.
   std::array<std::string, 2> options{"benchmark_stop_times", "--benchmark_enable_random_interleaving=true"};
   std::array<char*, 2> arguments{options[0].data(), options[1].data()};
   int count = arguments.size();

@@ -1,4 +1,4 @@
-// The cost of the wrench of a patch, by law: of the C interface, and of the header alone.
+// The cost of the wrench of a patch, for each law, through the C interface and through the header alone.
 //   benchmark_wrench            prints the table of README.md in Markdown
 #include <algorithm>
 #include <array>
@@ -24,9 +24,9 @@ using namespace contensou;
 constexpr contensou_patch patch{0.2, 3e-3, 1e-4};
 constexpr double load = 1.7;
 
-/// Returns the ns of one call, the least of many rounds.
-/// @param k     sliding over rim speed; 0: of each call its own, log-uniform in 1e-3 .. 1e3
-/// @param call  gets vx, vy and omega
+/// Returns the time of one call in ns, the least of many rounds.
+/// @param k     sliding speed divided by rim speed; 0: each call has its own, log-uniform in 1e-3 .. 1e3
+/// @param call  function of vx, vy and omega
 template <class T, class Call>
 double nanoseconds(double k, const Call& call) {
   constexpr std::size_t calls = 4096;
@@ -51,7 +51,7 @@ double nanoseconds(double k, const Call& call) {
   return least;
 }
 
-/// Prints a cell: ns of calls with random k, and of those with the slowest k.
+/// Prints a cell of the table: ns of calls with random k, and of calls with the slowest k.
 template <class T, class Call>
 void cell(const Call& call) {
   double slowest = 0;

@@ -45,7 +45,7 @@ class Ball {
   bool is_negative() const { return arb_is_negative(value_) != 0; }
   double approximately() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
 
-  /// Bits to which the ball is known, at least.
+  /// Returns the number of bits to which the ball is known, at least.
   slong accuracy() const { return arb_rel_accuracy_bits(value_); }
 
   friend Ball operator+(const Ball& a, const Ball& b) { return of(arb_add, a, b, precision); }
@@ -68,17 +68,17 @@ class Ball {
 
 thread_local slong Ball::precision = 128;
 
-/// Bits that an enclosure has at least: 25 decimals and a thousandth of an ulp.
+/// Smallest number of bits of an enclosure: 25 decimals and a thousandth of an ulp.
 constexpr slong wanted_bits = 90;
 constexpr slong max_bits = 1 << 16;
 
-/// (R28) in balls. begin and end are exact, or 5/r.
+/// The numbers of (R28) in ball arithmetic. begin and end are exact, or 5/r.
 struct Relaxation {
   Ball begin, end, p, q, excess, T;
 };
 
-/// The relaxation of a start with both speeds positive. alpha = 2 chi - gamma mu^2 and beta = 5 chi - gamma mu^2 are
-/// exact, so the regime is known for certain.
+/// Returns the relaxation of a start with both speeds positive. alpha = 2 chi - gamma mu^2 and beta = 5 chi - gamma
+/// mu^2 are exact, so the regime is certain.
 Relaxation relaxation(const ReducedSystem& system, State start) {
   const Ball chi = system.inertia().chi;
   const Ball g = Ball::exact_product(system.inertia().gamma, Ball::exact_product(system.mu(), system.mu()));
@@ -111,8 +111,8 @@ Relaxation relaxation(const ReducedSystem& system, State start) {
   return {ray, 2.5, p, Ball(-2) * chi / alpha, Ball(-5) * alpha / (Ball(3) * g), alpha * distance / z};
 }
 
-/// G by the continued fraction (R29). Its terms are positive, so the first number left out lies between its own first
-/// term and that with one more, and every later step keeps the enclosure.
+/// Returns G by the continued fraction (R29). Its terms are positive. So the omitted rest lies between its first two
+/// approximations, and every later step keeps the enclosure.
 Ball by_fraction(const Relaxation& at) {
   const auto b = [&](slong n) { return Ball(1) + at.p * static_cast<double>(n); };
   const auto a = [&](slong n) {
@@ -132,7 +132,7 @@ Ball by_fraction(const Relaxation& at) {
   return G;
 }
 
-/// G by Arb's own functions: 2F1, or at p = 0 Tricomi's U.
+/// Returns G by Arb's own functions: 2F1, or Tricomi's U for p = 0.
 Ball by_hypergeometric(const Relaxation& at) {
   Ball G;
   if (at.p.is_zero()) {
@@ -148,7 +148,7 @@ Ball by_hypergeometric(const Relaxation& at) {
   return G;
 }
 
-/// m at a start with both speeds positive.
+/// Returns the sliding coefficient m for a start with both speeds positive.
 Ball sliding_coefficient(const ReducedSystem& system, State start) {
   const Relaxation at = relaxation(system, start);
   const double T = at.T.approximately();
@@ -164,7 +164,7 @@ Ball enclosure(const ReducedSystem& system, State start) {
   return pivoting + sliding * sliding_coefficient(system, start);
 }
 
-/// log2 of the unit in the last place of doubles of a number's size.
+/// Returns log2 of the unit in the last place of doubles as large as a number.
 int last_place(const Ball& truth) {
   if (truth.is_zero()) return std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
   const slong exponent = arf_abs_bound_lt_2exp_si(arb_midref(truth.get()));
@@ -174,7 +174,7 @@ int last_place(const Ball& truth) {
          digits;
 }
 
-/// |tau + more - truth| in units in the last place; infinity counts as 2^1024.
+/// Returns |tau + more - truth| in units in the last place; infinity counts as 2^1024.
 double error_in_ulps(const Ball& truth, double tau, double more = 0) {
   Ball value = std::isinf(tau) ? Ball(1) : Ball(tau) + more;
   if (std::isinf(tau)) arb_mul_2exp_si(value.get(), value.get(), std::numeric_limits<double>::max_exponent);

@@ -4,26 +4,27 @@
 
 namespace contensou::reduction {
 
-/// What ball arithmetic proves that a stop time misses the true one by, in units of the last place of a double of the
-/// true size: the closed form (R28) of the Pade law, every term enclosed, the inputs taken as the exact numbers that
-/// the doubles are.
+/// Returns a proved bound of the error of a stop time under the Pade law, in units in the last place of the true value.
+/// The closed form (R28) is evaluated in ball arithmetic, in which every term is enclosed. The doubles of the input
+/// count as exact numbers.
 ///
-/// @param tau   the stop time to judge; infinity counts as 2^1024
-/// @param more  is added to tau, for one that is known to more digits than a double has
+/// @param tau   stop time to be judged; infinity counts as 2^1024
+/// @param more  added to tau, for a stop time that is known to more digits than a double has
 /// @throws std::domain_error  if start is not a state (finite, v >= 0), or the law is not pade
 double certify_stop_time(const ReducedSystem& system, State start, double tau, double more = 0);
 
-/// What a computed m(k) of the Pade law misses the exact one for these r and k by, in units of the last place.
+/// Returns the error of a computed m(k) of the Pade law for these r and k, in units in the last place.
 /// @param r, k  positive and finite; not checked
 double certify_sliding_share(double r, double k, double m);
 
-/// What a computed Resistance misses the exact Hertz law by, in units of the last place.
+/// The errors of a computed Resistance relative to the exact Hertz law, in units in the last place.
 struct ResistanceError {
   double force_ulp;
   double moment_ulp;
 };
 
-/// Judges a value of the exact law at sliding k over pivoting 1, k > 0 and finite: Zh98 (1.3) up to k = 1, beyond
+/// Judges a value of the exact law at sliding k and pivoting 1, k > 0 and finite, by Zh98 (1.3) up to k = 1, and beyond
+/// by
 ///   Phi = 2F1(-1/2, 1/2; 5/2; 1/k^2),  Psi = 2F1(1/2, 1/2; 7/2; 1/k^2)/(5 k).
 /// @throws std::domain_error  for any other k
 ResistanceError certify_hertz_law(double k, Resistance computed);

@@ -1,4 +1,4 @@
-// Steps a reference motion with contensou/wrench_kernel.h alone: explicit steps of 0.1 ms. Each line is 5 ms later.
+// Integrates a reference motion with contensou/wrench_kernel.h alone, in explicit steps of 0.1 ms; prints each 50th.
 //   stepper CASE.toml SECONDS [elliptic]     prints t, vx, vy, wx, wy, wz; with the elliptic cone in place of the law
 #include <contensou/wrench_kernel.h>
 
@@ -15,7 +15,7 @@
 
 namespace kernel = contensou::kernel;
 
-/// All load on the rim of a ring. The law is the mean over the points of the rim.
+/// A ring whose whole load is on its rim. The law is the mean over points of the rim.
 struct Rim {
   template <class T>
   kernel::Friction<T> operator()(const kernel::Slip<T>& at) const {

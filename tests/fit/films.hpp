@@ -8,7 +8,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/motion.hpp"
 
-/// A film of a ball as it would be without errors.
+/// A film of a ball without errors.
 struct Film {
   contensou::si::Experiment ball;
   contensou::reduction::Law law = contensou::reduction::HertzLaw{};
@@ -65,8 +65,8 @@ struct Seen {
 inline const std::vector<Seen> slip_and_spin{{contensou::fit::Observable::slip, 0.01},
                                              {contensou::fit::Observable::spin, 1}};
 
-/// A track of a ball without errors.
-/// @param with_sd  whether it says its standard deviations
+/// Returns a track of a ball without errors.
+/// @param with_sd  true: the track contains its standard deviations
 inline contensou::fit::Track track_of(const Film& film, const Eigen::ArrayXd& t, const std::vector<Seen>& seen,
                                       bool with_sd = true) {
   contensou::fit::Track track{.name = "film", .t = t};
@@ -78,7 +78,7 @@ inline contensou::fit::Track track_of(const Film& film, const Eigen::ArrayXd& t,
   return track;
 }
 
-/// The same track with normal errors.
+/// Returns the same track with normal errors.
 inline contensou::fit::Track noisy(contensou::fit::Track track, const std::vector<Seen>& seen,
                                    std::mt19937_64& random) {
   std::normal_distribution<double> normal;

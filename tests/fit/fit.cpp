@@ -18,7 +18,7 @@ using Eigen::ArrayXd;
 
 namespace {
 
-/// A ball of somebody who knows neither friction nor patch.
+/// Returns a ball whose friction and patch radius are unknown, as first guesses.
 si::Experiment unknown_ball() {
   si::Experiment ball = pool_ball();
   ball.contact = {.friction = 0.5, .patch = si::PatchRadius{1e-3}};
@@ -80,7 +80,7 @@ TEST_CASE("positions and the angle alone give the ball, in any axes", "[route]")
 
 namespace {
 
-/// A hockey puck, a curling stone on its band, and a ball of other inertia.
+/// Returns a hockey puck, a curling stone on its band, or a ball, with another moment of inertia.
 si::Experiment body_named(const char* name, double factor) {
   si::Experiment body = si::find_ball(name)->experiment;
   body.ball.body = body.ball.body.with_factor(factor);
@@ -146,7 +146,7 @@ TEST_CASE("of a puck the way says slip and friction, whose velocity is the slip"
 }
 
 TEST_CASE("an interval has every value with which a fit anew is as good", "[route]") {
-  // x and y alone decide little: slip and friction change together over decades, to the limits of the model.
+  // x and y alone determine little: slip and friction can change together by decades, up to the limits of the model.
   const si::Experiment gel = gel_ball();
   const std::vector<Seen> seen{{Observable::x, 0.001}, {Observable::y, 0.001}};
   const Track film = track_of({gel}, ArrayXd::LinSpaced(120, 0, 119 / 120.0), seen);
@@ -169,7 +169,7 @@ TEST_CASE("an interval has every value with which a fit anew is as good", "[rout
 }
 
 TEST_CASE("standard errors are Cramer and Rao's bound, for films of every kind", "[table]") {
-  // By another program: the exact law, f = 0.2, eps = 2.827 mm, v0 = 1 m/s, 100 rad/s, errors 1 cm/s and 1 rad/s.
+  // Data of another program: the exact law, f = 0.2, eps = 2.827 mm, v0 = 1 m/s, 100 rad/s, errors 1 cm/s and 1 rad/s.
   struct Row {
     double end, rate;
     bool slip, spin;

@@ -29,7 +29,7 @@ struct Films {
   Track film;  ///< without errors
   std::vector<Seen> seen;
   bool robust = false;
-  std::function<void(Track&, std::mt19937_64&)> spoil = {};  ///< what else happens to a film
+  std::function<void(Track&, std::mt19937_64&)> spoil = {};  ///< adds another disturbance to a film
 };
 
 inline Scores scores(const Films& films) {
@@ -65,14 +65,14 @@ inline Scores scores(const Films& films) {
 
 inline const Eigen::ArrayXd half_second = Eigen::ArrayXd::LinSpaced(60, 0, 0.5);
 
-/// The intervals hold the truth in 95 of 100 films, as far as so many films can tell: to three standard deviations.
+/// Checks that the intervals contain the truth in 95 % of the films, within three standard deviations of such a count.
 inline void check_covered(const Scores& scores) {
   for (const Score& score : {scores.friction, scores.patch}) {
     CHECK(score.covered == Approx(0.95).margin(3 * std::sqrt(0.95 * 0.05 / trials)));
   }
 }
 
-/// The same, and the errors are as large as they are said to be.
+/// Checks the same, and that the errors are as large as reported.
 inline void check(const Scores& scores) {
   check_covered(scores);
   const double n = trials;

@@ -25,14 +25,14 @@ void check_derivatives(const TrackModel& model, const VectorXd& parameters, Inde
   const Eigen::MatrixXd derivatives = model.derivatives(parameters, all);
   for (Index place : all) {
     const double size = std::abs(parameters[place]);
-    // Of a number that is bounded by 0 a share of it.
+    // The step of a number that is bounded by 0 is a share of the number.
     const bool bounded = size > 0 && model.range(place).low == 0;
     const double step = 1e-4 * (bounded ? size : std::max(1.0, size));
     const VectorXd more = parameters + step * VectorXd::Unit(parameters.size(), place);
     const VectorXd less = parameters - step * VectorXd::Unit(parameters.size(), place);
     const VectorXd expected = (model.values(more) - model.values(less)) / (2 * step);
     INFO("parameter " << place);
-    // Series by series: what one says of the patch is small beside what another does.
+    // Compare series by series, because the effect of the patch on one series is small compared with another.
     for (Index first = 0; first < model.rows();) {
       const Index count = first % (7 * of_series + 1) == 7 * of_series ? 1 : of_series;
       INFO("rows from " << first);
@@ -43,7 +43,7 @@ void check_derivatives(const TrackModel& model, const VectorXd& parameters, Inde
   }
 }
 
-/// Thirty instants at which all is seen, from 0.3 s on.
+/// Returns a track with all observables at thirty instants from 0.3 s on.
 Track all_seen_until(double last) {
   Track track{.name = "model", .t = ArrayXd::LinSpaced(30, 0.3, last), .start = 0.3};
   for (const ObservableKind& kind : observable_kinds()) track.series.push_back({kind.observable, track.t, {}});
@@ -73,7 +73,7 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
 
 TEST_CASE("derivatives of a ball with rolling friction are those of differences, also when it no longer turns",
           "[route]") {
-  // The centre rests after some 7 s, the spin ends later.
+  // The centre rests after about 7 s. The spin ends later.
   const Track track = all_seen_until(8.7);
   const std::vector<Track> tracks{track};
   for (const reduction::Law& law : reduction::paper_laws()) {
@@ -83,7 +83,7 @@ TEST_CASE("derivatives of a ball with rolling friction are those of differences,
       VectorXd parameters(model.parameters());
       parameters << std::log(0.2), std::log(2e-3), 0.01, slip, spin, 0.7, 0, 0, 4, 5, 6, rolling;
       INFO(law.name() << ", slip " << slip << ", spin " << spin << ", rolling " << rolling);
-      // Where it no longer turns, its slip fades in a hundredth of a second.
+      // When the ball no longer turns, its slip vanishes in a hundredth of a second.
       check_derivatives(model, parameters, track.t.size(), 3e-4);
     }
   }

@@ -1,4 +1,4 @@
-// What becomes of estimates where a film is not what it says: outliers, times that are late, pictures that are lost.
+// Estimates from films that differ from their description: outliers, wrong times, lost pictures.
 #include <array>
 #include <cmath>
 #include <random>
@@ -17,8 +17,8 @@ using Eigen::ArrayXd;
 
 namespace {
 
-/// Counts the films of a motion that are told not to fit, or to determine neither friction nor patch radius nor a
-/// combination.
+/// Counts the films of a motion for which the fit reports a misfit, or determines neither friction nor patch radius nor
+/// a combination of both.
 struct Told {
   int misfits = 0, open = 0;
 };
@@ -76,7 +76,7 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
   SECTION("a speed that falls as exp(-2 t): x and y alone do not tell it from a ball whose patch is wide") {
     const Told slowing =
         told("pool", place, films, [&](double t) { return with_errors(1 - std::exp(-2 * t), 1e-3, 0, 1e-3); });
-    // It is a motion of the model, that of a fast spin: some films say how fast by one of the combinations.
+    // The model contains such a motion with a fast spin. Some films show how fast it is by one of the combinations.
     CHECK(slowing.misfits + slowing.open >= 0.85 * films);
   }
   SECTION("a slip 2/(1 + t) beside a spin that falls as exp(-t/2)") {
@@ -104,7 +104,7 @@ TEST_CASE("films of the ball itself fit, with errors and without", "[invariant]"
 }
 
 TEST_CASE("intervals grow where errors depend on their neighbours", "[invariant]") {
-  // c_j = c^j, so that a mean of many has (1 + c)/(1 - c) times the variance.
+  // c_j = c^j, so the mean of many values has (1 + c)/(1 - c) times the variance.
   const double c = 0.3;
   const auto spoil = [&](Track& track, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
@@ -137,7 +137,7 @@ TEST_CASE("how errors depend on each other is found from their residuals", "[rou
     CHECK(found.neighbours == Approx(c).margin(0.01));
     CHECK(found.growth == Approx((1 + c) / (1 - c)).epsilon(0.1));
   }
-  // A line through white noise: as if the errors themselves were there.
+  // A line is fitted to white noise, so the residuals are nearly the errors themselves.
   double neighbours = 0, growth = 0;
   constexpr int films = 1000;
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, -1, 1);
@@ -207,7 +207,7 @@ TEST_CASE("what a film that is wrong makes of friction and patch radius", "[inva
   SECTION("the law is another one") {
     const Film other{pool_ball(), reduction::PressureLaw::uniform()};
     const Scores wrong = scores({track_of(other, half_second, slip_and_spin), slip_and_spin});
-    // What this film shows is f and f eps Psi(0), which is kept; so it does not tell that the law is wrong.
+    // This film shows only f and f eps Psi(0). The wrong law fits both, so the film does not show that it is wrong.
     const double factor = other.law.pivoting_moment() / reduction::Law(reduction::HertzLaw{}).pivoting_moment();
     CHECK(std::abs(wrong.friction.error) < 0.01);
     CHECK(wrong.patch.error == Approx(std::log(factor)).margin(0.02));

@@ -19,21 +19,21 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Ends the fuzzer, which writes down the input, unless this holds.
+/// Ends the fuzzer unless the condition holds. The fuzzer then saves the input.
 inline void require(bool holds, std::string_view what) {
   if (holds) return;
   fmt::print(stderr, "FOUND: {}\n", what);
   std::abort();
 }
 
-/// A message can be shown on a terminal: no control characters, and no longer than the names of 20 columns.
+/// Requires that a message can be shown on a terminal: it has no control characters and is not too long.
 inline void require_readable(std::string_view message) {
   const auto is_control = [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n') || c == '\x7f'; };
   require(!message.empty() && message.size() < 8000, message);
   require(std::ranges::none_of(message, is_control), message);
 }
 
-/// A file of its own in memory.
+/// A file in memory.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view text) : file_(::memfd_create("fuzz", MFD_CLOEXEC)) {

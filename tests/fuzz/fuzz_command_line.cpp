@@ -1,5 +1,5 @@
-// A command line, one word a line, is answered or refused in a readable message: no other exception leaves it. What
-// takes long, and what calls gnuplot, is parsed and not run.
+// A command line, one word a line, must give an answer or a readable error message, and no other exception. Commands
+// that take long or call gnuplot are parsed but not run.
 #define main program_main
 #include "main.cpp"
 #undef main
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using namespace contensou;
 using program::Verb;
 
-/// Whether the verbs are to be run as well as parsed.
+/// True if verbs are run after they have been parsed.
 bool running = false;
 
 template <std::size_t place>
@@ -44,7 +44,7 @@ void guard() {
   }
 }
 
-/// No number with more than two digits in a row, and no exponent.
+/// Returns true if a word has no number of more than two digits and no exponent.
 bool is_tiny(const std::string& word) {
   int digits = 0;
   for (const char letter : word) {
@@ -78,7 +78,7 @@ void write_files() {
         "spin = 100\n");
 }
 
-/// Begins to run in an empty folder of its own; the paths that the fuzzer was given keep their meaning.
+/// Changes to an empty folder of its own. The fuzzer's own paths are made absolute before.
 void move_to_own_folder(int count, char** arguments) {
   static std::list<std::string> absolute;
   constexpr std::string_view prefix = "-artifact_prefix=";
@@ -111,7 +111,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream lines{std::string(fuzz::text_of(data, size))};
   std::vector<std::string> words;
   for (std::string word; std::getline(lines, word);) {
-    // No other folder's files, and no command line has a null character.
+    // Reject files in other folders, and null characters, which no command line contains.
     if (word.find('/') != std::string::npos || word.find('\0') != std::string::npos) return 0;
     words.push_back(word);
   }

@@ -1,5 +1,5 @@
-// A table is the same rows, line numbers and complaint whether its text comes at once, in pieces cut anywhere or from a
-// file, whose blocks the first byte of the input moves against the text.
+// A table must give the same rows, line numbers and error message however its text arrives: at once, in pieces cut
+// anywhere, or from a file. The first byte of the input shifts the text relative to the blocks of the file.
 #include <optional>
 #include <vector>
 
@@ -40,7 +40,7 @@ std::string message_of(const BadLine& error, std::string_view name, long lines_b
   return fmt::format("{}{}", line - lines_before, message.substr(name.size() + 1 + digits));
 }
 
-/// @param cut  the size of the next piece, 1 or more
+/// @param cut  returns the size of the next piece, 1 or more
 template <class Cut>
 Table parsed(std::string_view text, Cut cut) {
   Table table;
@@ -108,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   fuzz::require(!from_file.rows.empty(), from_file.complaint);
-  from_file.rows.front().text = whole.rows.front().text;  // a reader does not tell that of the header
+  from_file.rows.front().text = whole.rows.front().text;  // the reader does not return the text of the header
   fuzz::require(from_file.rows == whole.rows, "rows from a file");
   fuzz::require(whole.complaint.empty() || from_file.complaint == whole.complaint, from_file.complaint);
   return 0;

@@ -1,5 +1,5 @@
-// A text is a formula whose value is the same with slopes and without, or is refused in a readable message at one of
-// its characters.
+// A text must be a formula whose value is the same with and without slopes, or give a readable error message that names
+// one of its characters.
 #include <array>
 #include <bit>
 #include <charconv>

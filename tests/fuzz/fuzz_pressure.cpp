@@ -1,4 +1,4 @@
-// A table of pressures is a law with finite Phi and Psi in their range, or refused in a readable message.
+// A table of pressures must give a law with finite Phi and Psi in their range, or a readable error message.
 #include <cmath>
 #include <stdexcept>
 #include <typeinfo>

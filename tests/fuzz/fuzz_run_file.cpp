@@ -1,5 +1,4 @@
-// A run file is an experiment or refused in a readable message, and an experiment that was printed is read back as the
-// same.
+// A run file must give an experiment or a readable error message. An experiment written and read back is the same.
 #include "contensou/si/run_file.hpp"
 #include "finding.hpp"
 

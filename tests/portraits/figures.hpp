@@ -13,7 +13,7 @@
 
 namespace contensou::portraits {
 
-/// Of the panel's lines, those with a legend that begins so.
+/// Returns those lines of a panel whose legend begins with the given text.
 inline const Lines& layer(const Panel& panel, std::string_view legend) {
   const auto found =
       std::ranges::find_if(panel.lines, [&](const Lines& lines) { return lines.legend.words().starts_with(legend); });
@@ -25,7 +25,7 @@ inline bool inside(const Panel& panel, const Point& point) {
   return point.x >= panel.x.low && point.x <= panel.x.high && point.y >= panel.y.low && point.y <= panel.y.high;
 }
 
-/// An empty folder that is removed with all that is in it.
+/// A new empty folder, which is removed with its contents at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -24,7 +24,7 @@ namespace {
 
 portraits::Figure sample() { return portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, 0.05}}, {})); }
 
-/// A variable of the environment, as it was again afterwards.
+/// Sets a variable of the environment and restores its value afterwards.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -47,7 +47,7 @@ class Variable {
   std::optional<std::string> before_;
 };
 
-/// A folder for one test; PATH, TMPDIR and HOME point into it while it lives.
+/// A folder for one test. PATH, TMPDIR and HOME point into it as long as the object exists.
 class Sandbox {
  public:
   Sandbox() {
@@ -61,7 +61,7 @@ class Sandbox {
     fs::permissions(file, fs::perms::owner_all);
   }
   void fake_gnuplot(const std::string& body) const { install_gnuplot("#!/bin/sh\n" + body); }
-  /// gnuplot, but with commands of the test around it.
+  /// Installs the real gnuplot, with commands of the test before and after it.
   void real_gnuplot(const std::string& before, const std::string& after) const {
     fake_gnuplot("PATH='" + path_.before().value() + "'\n" + before + " gnuplot \"$@\" " + after);
   }
@@ -91,7 +91,7 @@ TEST_CASE("A script is whole: it needs no file, has no gaps, and is the same eac
   CHECK(script.find("set terminal svg") != std::string::npos);
   CHECK(script.find("nan") == std::string::npos);
   CHECK(script.find("inf") == std::string::npos);
-  // As many blocks of data as plots that ask for one.
+  // The script has as many blocks of data as plots that read one.
   const auto count = [&](const std::string& text) {
     int found = 0;
     for (std::size_t at = 0; (at = script.find(text, at)) != std::string::npos; at += text.size()) ++found;
@@ -118,7 +118,7 @@ TEST_CASE("A film has all its frames, and a mark is as wide on paper in every fo
   for (const int i : {1, 2}) frames[i].panels[0].marks[0].points = {{0.3 * i, 0.8}};
   const std::string film = portraits::render_film(frames);
   CHECK_THAT(film, Catch::StartsWith("GIF89a"));
-  // Each begins with its delay of 4 hundredths of a second.
+  // Each frame begins with its delay of 4 hundredths of a second.
   int delays = 0;
   for (std::size_t at = 0; (at = film.find("\x21\xF9\x04", at)) != std::string::npos; ++at) delays += film[at + 4] == 4;
   CHECK(delays == 3);
@@ -250,7 +250,7 @@ TEST_CASE("Any text is XML in SVG", "[domain]") {
 
 TEST_CASE("A picture has the size of its figure and no date: the same bytes at any time", "[invariant]") {
   CHECK(portraits::render(sample(), PictureFormat::svg).find("width=\"190mm\" height=\"125mm\"") != std::string::npos);
-  // Whatever the time of day in a picture, it is not what cairo wrote.
+  // The date in the picture is fixed, whatever date Cairo writes.
   CHECK(portraits::render(sample(), PictureFormat::pdf).find("/CreationDate (D:19700101000000") != std::string::npos);
   CHECK(portraits::render(sample(), PictureFormat::eps).find("%%CreationDate: Thu Jan  1 00:00:00 1970") !=
         std::string::npos);

@@ -46,7 +46,7 @@ TEST_CASE("a document of JSON", "[table]") {
 }
 
 TEST_CASE("numbers of JSON have the shortest digits that read back", "[invariant]") {
-  // Where nlohmann's own text has one digit more.
+  // A number for which nlohmann's own text has one digit more.
   CHECK(text_of(0.11979881415871) == "0.11979881415871");
   std::mt19937_64 random(1);
   for (int i = 0; i < 100000; ++i) {

@@ -98,7 +98,7 @@ bool overlap(const Box& a, const Box& b) {
          b.bottom < a.bottom + a.height;
 }
 
-/// All that a figure of that width has beside its panels.
+/// Returns the boxes of all parts beside the panels of a figure.
 std::vector<Box> parts(const Figure& figure, const Layout& layout) {
   std::vector<Box> all;
   for (const PlacedText& text : layout.texts) all.push_back(around(text, layout.letter));

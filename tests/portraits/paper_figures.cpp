@@ -23,7 +23,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Whether everything that is drawn lies inside the frame.
+/// Checks that everything drawn lies inside the frame.
 void check_framed(const Figure& figure) {
   REQUIRE(figure.panels.size() == 1);
   const Panel& panel = figure.panels.front();
@@ -38,7 +38,7 @@ void check_framed(const Figure& figure) {
   CHECK(panel.arrows.size() >= 5);
 }
 
-/// A circle of radius 1 is one on paper, too: as wide as high in millimetres.
+/// Checks that a circle of radius 1 is a circle on paper: as wide as high in millimetres.
 void check_scale(const Figure& figure) {
   const Panel& panel = figure.panels.front();
   const Box box = lay_out(figure).panels.front().box;
@@ -91,7 +91,7 @@ TEST_CASE("Fig. 2 draws force and moment of each law from the law itself", "[tab
   check(lines[2].lines[0], reduction::HertzLaw{}, &reduction::Resistance::moment);
   check(lines[3].lines[0], reduction::PadeLaw{}, &reduction::Resistance::force);
   check(lines[4].lines[0], reduction::PadeLaw{}, &reduction::Resistance::moment);
-  // As the paper draws them: F from 0 with slope 3 pi/8, M from 3 pi/16.
+  // The curves are those of the paper: F starts at 0 with the slope 3 pi/8, M at 3 pi/16.
   const auto& force = lines[1].lines[0];
   CHECK(force[1].y / force[1].x == Approx(3 * std::numbers::pi / 8).epsilon(1e-4));
   CHECK(lines[2].lines[0].front().y == Approx(3 * std::numbers::pi / 16).epsilon(1e-15));
@@ -110,7 +110,7 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
     CHECK(line.back().y == Approx(1));
     for (const Point& point : line) CHECK(std::hypot(point.x, point.y) < 1.1);
   }
-  // Coulomb friction lies above the chord, (R6); the Pade pair below it.
+  // Coulomb friction lies above the chord, (R6), and the Pade law below it.
   const auto& hertz = panel.lines[2].lines.front();
   const auto& pade = panel.lines[3].lines.front();
   for (std::size_t i = 1; i + 2 < hertz.size(); ++i) {

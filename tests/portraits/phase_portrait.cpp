@@ -82,7 +82,7 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
     if (!portrait.scale.linear()) return;
     const double U = portrait.window.u(), V = portrait.window.v();
-    // Distance across the flow from the left end of the right half of the border, integrated anew by midpoints.
+    // The distance across the flow from the left end of the right half of the border, by the midpoint rule.
     const auto across = [&](const PortraitOrbit& orbit) {
       const auto fraction = [&](State at, bool top) {
         const auto rate = system.field(at);
@@ -213,7 +213,7 @@ TEST_CASE("A window that is given is kept; a highlighted start lies in the windo
     CHECK(portrait.highlight[0].v[0] == Approx(start.v).epsilon(1e-13));
     CHECK(portrait.highlight[0].tau_left[0] == Approx(flow.orbit(start).stop_time()).epsilon(1e-13));
   }
-  // Rest is no motion.
+  // A start at rest has no motion.
   CHECK(phase_portrait(flow, {.highlight = State{0, 0}}).highlight.empty());
 }
 
@@ -263,7 +263,7 @@ TEST_CASE("What cannot be drawn is rejected", "[domain]") {
   bad.push_back({.window = Window{{0, -1}, {1, 1}}});
   bad.push_back({.window = Window{{1, 0}, {0, 1}}});
   bad.push_back({.view = portraits::View::disc, .window = Window{{0, 0}, {1, 1}}});
-  // On an axis, or outside the window.
+  // Points on an axis, or outside the window, are refused.
   for (const State point : {State{0, 1}, State{1, 0}, State{1.5, 0.5}, State{0.5, 1.5}}) {
     bad.push_back({.sides = {{1, 1}}, .through = {point}});
   }
@@ -289,7 +289,7 @@ TEST_CASE("Numbers of orbits and isochrones are those asked for", "[table]") {
   const PhasePortrait many = phase_portrait(flow, {.orbits = 0, .isochrones = 20});
   CHECK(many.orbits.empty());
   CHECK(many.isochrones.size() >= 14);
-  // Each is in one or two pieces.
+  // Each isochrone consists of one or two pieces.
   for (int count : {1, 2, 3, 4, 5, 6, 7, 10, 15, 30, 100}) {
     for (double mu : {0.01, 0.3, 1.0}) {
       std::set<double> times;
@@ -334,7 +334,7 @@ TEST_CASE("An orbit through a state given by logarithms passes through it, witho
     CHECK(flow.orbit({orbit.u[0], orbit.v[0]}).at_log_ratio(0).v == Approx(2).epsilon(1e-9));
     for (Eigen::Index i = 1; i + 1 < orbit.rows(); ++i) {
       CHECK(orbit.tau_left[i] < orbit.tau_left[i - 1]);
-      // No gap that a stretched view would show.
+      // There is no gap that a stretched view would show.
       const double turn = std::atan(std::exp(orbit.ln_k[i - 1])) - std::atan(std::exp(orbit.ln_k[i]));
       CHECK(turn < 0.05);
       if (orbit.ln_k[i] > -15) CHECK(orbit.ln_k[i - 1] - orbit.ln_k[i] < 0.6);

@@ -45,10 +45,10 @@ portraits::PhasePortrait portrait_of(double mu, const PortraitRequest& request =
 
 Figure figure_of(double mu, const PortraitRequest& request = {}) { return draw(portrait_of(mu, request)); }
 
-/// One layer for all orbits.
+/// A style in which all orbits are one layer.
 const PortraitStyle plain{.colour_by_time = false};
 
-/// The lines that are orbits: all that are not in the legend.
+/// Returns the lines that are orbits: all lines without a legend.
 std::vector<portraits::Polyline> coloured(const Panel& panel) {
   std::vector<portraits::Polyline> lines;
   for (const auto& layer : panel.lines) {
@@ -63,7 +63,7 @@ double length(const Panel& panel, const std::vector<portraits::Polyline>& lines)
   return sum;
 }
 
-/// The stop time of a point of a portrait's plane, by the quadrature.
+/// Computes the stop time at a point of a portrait's plane, by quadrature.
 class Clock {
  public:
   explicit Clock(const portraits::PhasePortrait& portrait)
@@ -78,7 +78,7 @@ class Clock {
   portraits::SpeedScale scale_;
 };
 
-/// Relative luminance of WCAG 2.
+/// Returns the relative luminance as WCAG 2 defines it.
 double luminance(portraits::Colour colour) {
   double sum = 0;
   for (const auto& [shift, weight] : {std::pair{16, 0.2126}, {8, 0.7152}, {0, 0.0722}}) {
@@ -88,7 +88,7 @@ double luminance(portraits::Colour colour) {
   return sum;
 }
 
-/// Heads of arrows on orbits: those on the axes have the axes' colour.
+/// Returns the arrow heads on orbits. Heads on the axes have the colour of the axes and are left out.
 std::vector<portraits::Arrow> heads_on_orbits(const Panel& panel) {
   std::vector<portraits::Arrow> heads;
   for (const auto& layer : panel.arrows) {
@@ -213,7 +213,7 @@ TEST_CASE("Colours by time cut orbits into pieces and lose none", "[invariant]")
     const auto whole = layer(draw(portrait, {}, plain).panels.front(), "orbits").lines;
     CHECK(length(panel, coloured(panel)) == Approx(length(panel, whole)).epsilon(1e-9));
     REQUIRE(figure.colour_bar);
-    // As many colours as bands, from dark to light: legible in grey.
+    // There are as many colours as bands, from dark to light, so that they are legible in grey.
     double before = -1;
     for (portraits::Colour colour : figure.colour_bar->colours) {
       CHECK(luminance(colour) > before);
@@ -484,7 +484,7 @@ TEST_CASE("The state at a point of a panel lies there, in every view", "[invaria
             if (!at) continue;
             ++states;
             const portraits::Point again = maps[i].place(*at, *at);
-            // Rounding is that of the coordinates, and small mu shows a narrow slice of them.
+            // The rounding is that of the coordinates. For small mu the panel shows a narrow range of them.
             const double rounding = 1e-15 / std::min(panel.x.high - panel.x.low, panel.y.high - panel.y.low);
             REQUIRE(portraits::paper_distance(panel, again, point) < 1e-11 + rounding);
             REQUIRE(at->ln_v == Approx(at->ln_k + std::log(mu * std::abs(at->u))).epsilon(1e-12).margin(1e-9));
@@ -506,7 +506,7 @@ TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
       const auto drawn = layer(figure.panels[i], "this one").lines.front();
       const auto line = maps[i].line(portrait.highlight[0]);
       if (view == View::regularised) {
-        // At its own places: each row of the orbit lies on the line between two of them.
+        // Compare at the points of the line: each row of the orbit must lie between two of them.
         const auto on = [&](Point at) { return portraits::on_paper(figure.panels[i], at); };
         for (const Point& row : line) {
           const auto after = std::ranges::lower_bound(drawn, row.x, {}, &Point::x);
@@ -550,7 +550,7 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
     const auto portrait = portraits::phase_portrait({{law, 1, {.chi = 1, .gamma = gamma}}}, {.view = View::similarity});
     REQUIRE(portrait.plane.tangents[0].direction == reduction::InvariantDirection::ray);
     const Panel panel = draw(portrait, {}, plain).panels.at(1);
-    // In eighths of the panel's width: the ray is in the middle.
+    // Count lines by eighths of the panel's width. The ray is in the middle.
     std::map<int, int> lines;
     for (const auto& line : layer(panel, "orbits").lines) {
       std::set<int> eighths;
@@ -582,7 +582,7 @@ TEST_CASE("Every sector between two invariant half-lines has its orbits in every
       {View::disc, {speeds}},
       {View::pair, {speeds, up}}};
   const reduction::Law uniform = *reduction::find_law("uniform"), octic = contensou::tests::OcticLaw{};
-  // One ray; two; one that touches, where v = 0 is degenerate.
+  // Cases: one ray; two rays; one ray that touches, for which v = 0 is degenerate.
   for (const auto& [law, gamma] : {std::pair{uniform, 2.0}, std::pair{octic, 1.995}, std::pair{octic, 2.0}}) {
     const reduction::Flow flow({law, 1, {.chi = 1, .gamma = gamma}});
     const auto sector = [&](double at) {
@@ -672,7 +672,7 @@ TEST_CASE("The blown-up origin is a circle of its own, with a node and a saddle"
   REQUIRE(stable->points.size() == 2);
   CHECK(std::abs(stable->points[0].x) == Approx(hole));
   CHECK(std::ranges::find(panel.marks, "saddle", &portraits::Marks::legend)->points.size() == 3);
-  // Both circles turn towards v = 0.
+  // On both circles the motion turns towards v = 0.
   const auto& turning = panel.arrows.back().arrows;
   CHECK(turning.size() == 4);
   for (const auto& arrow : turning) CHECK(arrow.direction.y < 0);
@@ -708,7 +708,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
     reduction::Inertia body;
     double mu, power_of_u, power_of_v;
   };
-  // Of the exact law: v ~ beta^(-14/(5 mu^2)); a ray; r K = 8/5.
+  // Powers of the exact law: v ~ beta^(-14/(5 mu^2)); a ray; r K = 8/5.
   for (const auto& [law, body, mu, power_of_u, power_of_v] :
        {Regime{"exact", {3.5, 2.5}, 1, 1, 2.8}, Regime{"exact", {3.5, 2.5}, 0.05, 1, 1120},
         Regime{"uniform", {1, 2}, 1, 1, 1}, Regime{"exact", {1, 8}, 1, 1.6, 1}}) {
@@ -729,7 +729,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
       CHECK(tau.back().y > 0.99);
       CHECK(tau.back().y < 1);
     }
-    // beta by stepping (2.7): 1/beta_1 is 2 chi/(3 pi) times 128 r Psi(0) w + 45 pi^2 v.
+    // beta is computed by steps of (2.7). 1/beta_1 is 2 chi/(3 pi) times 128 r Psi(0) w + 45 pi^2 v.
     constexpr double pi = std::numbers::pi;
     const State start{1, 3 * mu};
     const auto stepped = reduction::integrate_regularised(flow.system(), start).points;
@@ -791,7 +791,7 @@ TEST_CASE("The field points along the motion, and its needles lengthen with the 
 
 TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
   using reduction::PressureLaw;
-  // The puck's orbits end on a ray under the first law, along the axis u = 0 under the other.
+  // Orbits of the puck end on a ray under the first law, and along the axis u = 0 under the other law.
   const reduction::ReducedSystem ball(reduction::HertzLaw{}, 0.3),
       puck(PressureLaw::uniform(), 1, {.chi = 1, .gamma = 2});
   for (const auto& [system, other] : {std::pair<reduction::ReducedSystem, reduction::Law>{ball, reduction::PadeLaw{}},
@@ -923,7 +923,7 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
 }
 
 TEST_CASE("Against time the estimate for small mu is dashed beside each motion, and nears it as mu^2", "[invariant]") {
-  // The largest difference in each panel of an estimate from its motion, where neither is at rest.
+  // Returns for each panel the largest difference between an estimate and its motion before either is at rest.
   const auto difference = [](double mu, std::size_t panel) {
     const auto portrait = portrait_of(mu, {.view = View::time});
     const Figure without = draw(portrait), figure = draw(portrait, {}, {.estimate = true});

@@ -27,7 +27,7 @@ PlanarPortrait portrait_of(const PlanarField& field, const PortraitRequest& requ
   return planar_portrait(PlanarReduction(field, *found.scaling, around, found.residual), "a system", request);
 }
 
-/// That every step of the orbits goes along the field, in the window and in the time that it says.
+/// Checks that every step of the orbits follows the field, lies in the window and takes the stated time.
 void check_motions(const PlanarField& field, const PlanarPortrait& portrait) {
   REQUIRE(portrait.orbits.size() >= 8);
   for (const PortraitOrbit& orbit : portrait.orbits) {
@@ -38,7 +38,7 @@ void check_motions(const PlanarField& field, const PlanarPortrait& portrait) {
       CHECK((portrait.window.high - here).minCoeff() >= -1e-9);
       if (i == 0) continue;
       const Vector2d last(orbit.u[i - 1], orbit.v[i - 1]), step = here - last, rate = field((here + last) / 2);
-      // Where a field is not smooth a chord may cut a corner.
+      // A chord may cut a corner at a place where the field is not smooth.
       if (step.norm() < 1e-5 || here.norm() < 0.1 || here[0] * last[0] <= 0 || here[1] * last[1] <= 0) continue;
       INFO("from " << last.transpose() << " to " << here.transpose());
       CHECK(step.dot(rate) > 0.99 * step.norm() * rate.norm());
@@ -70,7 +70,7 @@ TEST_CASE("orbits of any planar system go along its field, in its time", "[physi
 }
 
 TEST_CASE("isochrones of dry friction of degree -1/2 are circles", "[physics]") {
-  // x' = -x |x|^(-3/2): |x|^(3/2) falls at the rate 3/2.
+  // x' = -x |x|^(-3/2), so |x|^(3/2) falls at the rate 3/2.
   const PlanarPortrait portrait =
       portrait_of([](const Vector2d& x) -> Vector2d { return -x * std::pow(x.norm(), -1.5); });
   CHECK(portrait.plane.kind() == "stable star");
@@ -84,7 +84,7 @@ TEST_CASE("isochrones of dry friction of degree -1/2 are circles", "[physics]") 
     }
   }
   CHECK(portrait_of(portrait.plane.field(), {.isochrones = 0}).isochrones.empty());
-  // A linear system takes for ever.
+  // A linear system never reaches its centre.
   CHECK(portrait_of([](const Vector2d& x) -> Vector2d { return -x; }).isochrones.empty());
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("the data of a planar portrait say what it is", "[output]") {
   CHECK(json["orbits"][0]["tau_left"][0] == "inf");
   CHECK(json["isochrones"].empty());
   for (const auto& orbit : json["orbits"]) {
-    // v/u^3 is constant.
+    // v/u^3 is constant along orbits.
     const double first = orbit["v"][0].get<double>() / std::pow(orbit["u"][0].get<double>(), 3);
     const std::size_t middle = orbit["u"].size() / 2;
     const double u = orbit["u"][middle], v = orbit["v"][middle];

@@ -17,7 +17,7 @@ using std::numbers::ln2, std::numbers::pi;
 
 namespace {
 
-/// The lines of one orbit and its copies, from the smallest on; the start's own is the fourth.
+/// Returns the lines of an orbit and its copies in the order of size. The orbit of the start is the fourth.
 std::vector<const Lines*> by_size(const Panel& panel) {
   std::vector<const Lines*> all;
   const auto first = &layer(panel, "its copies");
@@ -28,7 +28,7 @@ std::vector<const Lines*> by_size(const Panel& panel) {
   return all;
 }
 
-/// That the strip's lines are shifts by ln 2, and of one colour with those of the plane.
+/// Checks that the lines of the strip are shifts by ln 2 and have the colours of the lines in the plane.
 void check_shifts(const Figure& figure) {
   REQUIRE(figure.panels.size() >= 2);
   const auto in_plane = by_size(figure.panels[0]), in_strip = by_size(figure.panels[1]);
@@ -47,7 +47,7 @@ void check_shifts(const Figure& figure) {
   }
 }
 
-/// Of a linear system, which SVD has nothing to do with.
+/// Returns the figure of a linear system, whose scaling is given and not found by a decomposition.
 Figure figure_of(const Eigen::Matrix2d& matrix, const Vector2d& start) {
   const reduction::PlanarField field = [matrix](const Vector2d& x) { return Vector2d(matrix * x); };
   const reduction::Generator scaling{0, Eigen::Matrix2d::Identity(), Vector2d::Zero()};
@@ -141,7 +141,7 @@ TEST_CASE("an orbit comes to the stop for any mu and any start", "[limit]") {
 }
 
 TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of them", "[exact]") {
-  // u = v^2, u v = 1 and r = exp(-a angle), up to a constant on each orbit.
+  // Up to a constant on each orbit, u = v^2, u v = 1 and r = exp(-a angle).
   const auto check = [](const Figure& figure, auto integral, bool inwards) {
     check_shifts(figure);
     const auto lines = by_size(figure.panels[0]);
@@ -170,7 +170,7 @@ TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of the
 }
 
 TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
-  // u' = v, v' = -sign(u): |u| + v^2/2 is constant, and X = t d/dt + 2 u d/du + v d/dv.
+  // For u' = v, v' = -sign(u), |u| + v^2/2 is constant, and X = t d/dt + 2 u d/du + v d/dv.
   const reduction::PlanarField field = [](const Vector2d& x) {
     return Vector2d(x[1], x[0] > 0 ? -1 : x[0] < 0 ? 1 : 0);
   };

@@ -15,7 +15,7 @@ using namespace contensou::portraits;
 
 namespace {
 
-/// A ball that goes along x, is pushed along y until it rolls at 1, and spins until 2.
+/// A ball that moves along x, is pushed along y until it rolls at t = 1, and spins until t = 2.
 RollCurve curve(double push, double last) {
   RollCurve c;
   c.t = Eigen::ArrayXd::LinSpaced(101, 0, last);
@@ -36,7 +36,7 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   REQUIRE(figure.panels.size() == 2);
   const Panel& path = figure.panels[0];
   REQUIRE(path.lines.size() == 2);
-  // As far as 1.6 times the time of rolling; every point in the panel.
+  // The path extends to 1.6 times the time of rolling. Every point lies in the panel.
   CHECK(path.lines[0].lines[0].back().x == Approx(1.6).margin(0.03));
   for (const Lines& layer : path.lines) {
     for (const Point& point : layer.lines[0]) CHECK(inside(path, point));
@@ -50,7 +50,7 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   CHECK_FALSE(speeds.x.logarithmic);
   CHECK(speeds.x.high == 2.2);
   CHECK(std::ranges::count_if(speeds.lines, [](const Lines& layer) { return layer.stroke.dashed; }) == 3);
-  // In grey, too, each of the three is told by its marks, which lie on it.
+  // The three speeds are also distinct in grey, by their marks, which lie on the curves.
   REQUIRE(speeds.marks.size() == 3);
   for (int i = 0; i < 3; ++i) {
     CHECK(speeds.marks[i].shape == static_cast<Marks::Shape>(i));
@@ -64,7 +64,7 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
 }
 
 TEST_CASE("a path is to scale; a flat one is stretched a round number of times, and says so", "[limit]") {
-  // How many times as long a unit of y is on the page as one of x.
+  // Returns the length of a unit of y on the page, divided by the length of a unit of x.
   const auto stretched = [](const Figure& figure) {
     const Panel& path = figure.panels[0];
     const Box box = lay_out(figure).panels[0].box;
@@ -158,7 +158,7 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
   }
   RollCurve ball = curve(0.5, 2.2), textbook = curve(0.6, 2.2);
   textbook.rolls = 1.5;
-  // A quarter of a turn about the vertical.
+  // Both balls turn by a quarter turn about the vertical.
   for (RollCurve* of : {&ball, &textbook}) {
     of->angular_velocity = Eigen::Vector3d(0, 0, 3.14159265 / 2 / 2.2).replicate(1, of->t.size());
   }
@@ -170,7 +170,7 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
     REQUIRE(panels.size() == 4);
     CHECK(panels[0].lines[0].lines[0].size() == i + 1);
     CHECK_THAT(panels[1].title.words(), Catch::Contains("slowed 20 times"));
-    // Textbook, then this ball, each where it is and where it began to roll.
+    // Marks of the uncoupled model first, then of this ball: the current position, and the beginning of rolling.
     REQUIRE(panels[0].marks.size() == 4);
     CHECK(panels[0].marks[2].points[0].x == Approx(ball.t[static_cast<Eigen::Index>(i)]));
     CHECK(panels[0].marks[3].points.size() == (i >= 46 ? 1 : 0));
@@ -180,7 +180,7 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
   const Point before = frames[0].panels[2].marks[0].points[0], after = frames[100].panels[2].marks[0].points[0];
   CHECK(after.x == Approx(-before.y).margin(1e-7));
   CHECK(after.y == Approx(before.x));
-  // A half of one circle alone is thick: a turn is told from its opposite up to half a turn a frame.
+  // Only half of one circle is thick, so that opposite positions differ.
   CHECK(frames[0].panels[2].lines[1].stroke.width > 2 * frames[0].panels[2].lines[0].stroke.width);
   CHECK(frames[0].panels[2].lines[1].lines[0][36].x == Approx(1));
   CHECK(frames[100].panels[2].lines[1].lines[0][36].y == Approx(1));

@@ -23,7 +23,7 @@ namespace {
 
 Eigen::ArrayXd even(Eigen::Index count, double low, double high) { return Eigen::ArrayXd::LinSpaced(count, low, high); }
 
-/// From 10^low to 10^high.
+/// Returns numbers from 10^low to 10^high.
 Eigen::ArrayXd decades(Eigen::Index count, double low, double high) {
   return (even(count, low, high) * std::numbers::ln10).exp();
 }
@@ -53,7 +53,7 @@ TEST_CASE("A map in units of its own is the same picture", "[route]") {
   const Flow flow({reduction::HertzLaw{}, 0.3});
   const MapAxes axes{even(7, 0, 2), even(5, 0, 4)};
   const Figure plain = draw(stop_time_map(flow, axes));
-  // u in units of 0.5, times in units of 10.
+  // The unit of u is 0.5 and the unit of time 10.
   const Figure figure = draw(stop_time_map(flow, axes, 10),
                              {.title = "ball", .time = "t", .u_unit = 0.5, .time_unit = 10}, {.width_mm = 85});
   CHECK(figure.size.width_mm == 85);
@@ -96,7 +96,7 @@ TEST_CASE("An isochrone runs from border to border", "[limit]") {
       const double gap = std::min({2 - std::abs(u), v, 3 - v});
       CHECK(gap == Approx(0).margin(1e-9));
     }
-    // And without a jump on the way.
+    // The isochrone has no jump.
     for (Eigen::Index i = 1; i < isochrone.u.size(); ++i) {
       CHECK(std::hypot(isochrone.u[i] - isochrone.u[i - 1], isochrone.v[i] - isochrone.v[i - 1]) < 0.1);
     }
@@ -109,7 +109,7 @@ TEST_CASE("Isochrones are at round times", "[table]") {
     for (const Isochrone& isochrone : map_of(0.32, axes).isochrones) result.push_back(isochrone.tau_stop);
     return result;
   };
-  // From 0 to 16 * 1/(5 * 0.32) = 10.
+  // Stop times run from 0 to 16 * 1/(5 * 0.32) = 10.
   CHECK(times({even(3, 0, 1), even(2, 0, 1e-3)}) == std::vector<double>{2, 4, 6, 8, 10});
   const std::vector<double> wide = times({even(2, 1e-3, 1), even(2, 1e-9, 1e-6), true});
   REQUIRE(wide.size() == 9);

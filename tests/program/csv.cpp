@@ -16,7 +16,7 @@ using Catch::Matchers::Equals;
 
 namespace {
 
-/// What a parser finds in a text: for each record its line, text and fields; at the end, what it refuses.
+/// Returns the results of a parser for a text: line, text and fields of each record, and the error message at the end.
 std::vector<std::string> records_of(const std::vector<std::string_view>& pieces) {
   std::vector<std::string> found;
   CsvParser parser("f");
@@ -49,7 +49,7 @@ std::vector<std::string_view> letters(std::string_view text) {
   return pieces;
 }
 
-/// The text with the line ends, taken in turn, in place of each \n.
+/// Returns the text with each \n replaced by the given line ends in turn.
 std::string with_line_ends(std::string_view text, const std::vector<std::string>& ends) {
   std::string result;
   std::size_t count = 0;
@@ -57,7 +57,7 @@ std::string with_line_ends(std::string_view text, const std::vector<std::string>
   return result;
 }
 
-/// The text with all line ends \n.
+/// Returns the text with all line ends replaced by \n.
 std::string with_feeds(std::string_view text) {
   std::string result;
   for (char letter : text) {
@@ -81,7 +81,7 @@ TEST_CASE("records do not depend on the line ends, nor on where the text is cut"
     const std::vector<std::string> whole = records_of({file});
     INFO(escaped(file));
     REQUIRE(whole.size() == 5);
-    if (with_feeds(file) == text) {  // else a return and a feed of two lines have met, and end one
+    if (with_feeds(file) == text) {  // otherwise \r and \n of two lines have met and are one line end
       const auto starts_at = [&](std::size_t record) { return std::stol(whole[record]); };
       CHECK(whole[0] == "3: mu,u0,v0 [mu] [u0] [v0]");
       CHECK(whole[1] == "4: 0.1,1,1 [0.1] [1] [1]");
@@ -128,7 +128,7 @@ TEST_CASE("a message shows what was typed, but not all of it, and nothing that a
   CHECK(quotation("0.1x") == "'0.1x'");
   CHECK(quotation(std::string("a\0b\n\x7F\x1B[2J", 9)) == "'a\\x00b\\n\\x7f\\x1b[2J'");
   CHECK(quotation("\xC3\xA9 \xE2\x88\x9E \xF0\x9F\x8E\xB1") == "'\xC3\xA9 \xE2\x88\x9E \xF0\x9F\x8E\xB1'");
-  // Latin-1, a lone continuation byte, an overlong slash, a surrogate, a C1 control, cut off.
+  // Latin-1, a lone continuation byte, an overlong slash, a surrogate, a C1 control, an incomplete character.
   CHECK(quotation("\xE9"
                   "a \x80 \xC0\xAF \xED\xA0\x80 \xC2\x9B \xE2\x88") ==
         "'\\xe9a \\x80 \\xc0\\xaf \\xed\\xa0\\x80 \\x9b \\xe2\\x88'");

@@ -17,12 +17,12 @@ TEST_CASE("stop with a drive: by every route one time, within its bounds", "[cli
     CHECK(json_of(start + " --route " + route).at("tau_stop").get<double>() == Approx(tau).epsilon(1e-10));
   CHECK(best.at("bounds")[0].get<double>() <= tau);
   CHECK(tau <= best.at("bounds")[1].get<double>());
-  // It takes longer than without, and without says nothing of a drive.
+  // With the drive the stop takes longer. Without it, the answer contains no drive.
   const auto free = json_of("stop --mu 0.1 --u0 1 --v0 1 --format json");
   CHECK(tau > free.at("tau_stop").get<double>());
   CHECK_FALSE(free.contains("drive"));
   CHECK(json_of("stop --mu 0.1 --u0 1 --v0 1 --drive 0 --format json") == free);
-  // Without spin it is (3 pi/7) v0/(1 - rho).
+  // Without spin the stop time is (3 pi/7) v0/(1 - rho).
   CHECK(json_of("stop --mu 0.1 --u0 0 --v0 1 --drive 0.05 --format json").at("tau_stop").get<double>() ==
         Approx(3 * M_PI / 7 / 0.95).epsilon(1e-14));
   CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1 --drive 0.05").out,
@@ -35,7 +35,7 @@ TEST_CASE("orbit, terminal and check take a drive", "[cli]") {
   CHECK(ends.at("drive") == 0.05);
   const double k = ends.at("k_star").get<double>();
   CHECK(json_of("terminal --mu 0.1 --drive 0.9999 --format json").at("limit") == "infinity");
-  // What only spins creeps, to that ratio.
+  // A body that only spins begins to creep, at this ratio.
   const auto rows = rows_of(run_program("orbit --mu 0.1 --u0 1 --v0 0 --drive 0.05 --samples 20").out);
   REQUIRE(rows.size() == 21);
   CHECK(std::stod(rows[1][4]) == 0);
@@ -64,7 +64,7 @@ TEST_CASE("portraits with a drive: orbits begin at v = 0, isochrones end there, 
     from_below += orbit.at("v")[0] == 0;
   }
   CHECK(from_below > 4);
-  // What only spins creeps: its speed grows, and its time is that of stop.
+  // A body that only spins begins to creep: its speed grows, and its stop time is that of `stop`.
   const auto& creeping = data.at("highlight");
   CHECK(creeping.at("v")[0] == 0);
   CHECK(creeping.at("v")[20].get<double>() > 0);
@@ -93,7 +93,7 @@ TEST_CASE("sweep, stop --batch and reduce with a drive", "[cli]") {
   REQUIRE(rows.size() == 10);
   CHECK(std::stod(rows[1][3]) == stop("--mu 0.3 --u0 -1 --v0 0"));
   CHECK(std::stod(rows[9][3]) == stop("--mu 0.3 --u0 1 --v0 2"));
-  // Many mu, for which there is a table without a drive.
+  // So many mu that a table would be used without a drive.
   const auto many = rows_of(run_program("sweep --mu 0.1:0.3:1001 --u0 1 --v0 1 --drive 0.2").out);
   CHECK(std::stod(many[1][3]) == stop("--mu 0.1 --u0 1 --v0 1"));
   CHECK(std::stod(many[1001][3]) == stop("--mu 0.3 --u0 1 --v0 1"));

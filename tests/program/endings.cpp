@@ -18,7 +18,7 @@ struct Output {
 
 const std::vector<std::string> of_answers{"txt", "csv", "json"};
 
-/// Every verb, in every way of writing something else.
+/// Every verb, with every kind of output that it has.
 const std::vector<Output> outputs{
     {"stop --ball pool", "a stop time", of_answers},
     {"stop --batch -", "a table of stop times", {"csv"}},

@@ -1,4 +1,4 @@
-// Whatever goes wrong while a file is written: it is the old one or the new one, whole, and nothing lies beside it.
+// If anything goes wrong while a file is written, the old or the new file is there, complete, and no other file.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct Writer {
   std::string option = "-o";
 };
 
-/// One for each way in which a verb writes.
+/// One command line for each way in which a verb writes files.
 const std::vector<Writer> writers{
     {"stop --mu 0.1 --u0 1 --v0 1", {"stop.csv"}},
     {"stop --batch table", {"batch.csv"}},
@@ -62,7 +62,7 @@ const std::vector<Writer> writers{
 };
 
 /// Runs the program in a folder.
-/// @param prepare  is called in the program's process
+/// @param prepare  function that is called in the program's process
 Run run_in(const fs::path& folder, const Writer& writer, const std::function<void()>& prepare) {
   std::istringstream given(writer.words);
   std::vector<std::string> words(std::istream_iterator<std::string>(given), {});
@@ -78,7 +78,7 @@ Run run_in(const fs::path& folder, const Writer& writer, const std::function<voi
   });
 }
 
-/// Paths of everything in a folder.
+/// Returns the paths of everything in a folder.
 std::vector<std::string> all_in(const fs::path& folder) {
   std::vector<std::string> paths;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -88,7 +88,7 @@ std::vector<std::string> all_in(const fs::path& folder) {
   return paths;
 }
 
-/// A folder in which one command line is run again and again. What gnuplot draws in it is drawn once, then repeated.
+/// A folder in which one command line is run repeatedly. gnuplot draws its picture once; later runs repeat the result.
 class Bench {
  public:
   explicit Bench(Writer writer) : writer_(std::move(writer)) {
@@ -110,10 +110,10 @@ class Bench {
   std::size_t size() const { return std::ranges::max(whole_, {}, &std::string::size).size(); }
   std::string tool(const std::string& name) const { return tools_.file(name); }
 
-  /// Writes instead into another folder, which is empty.
+  /// Changes to another folder, which is empty.
   void move_to(const fs::path& folder) { folder_ = folder; }
 
-  /// The folder as it is before a run: with an old file or without.
+  /// Restores the folder to its state before a run, with or without an old file.
   void refresh(bool old) {
     for (const auto& entry : fs::directory_iterator(folder_)) fs::remove_all(entry);
     write_file(folder_ / "table", read_file(tools_.file("table")));
@@ -134,7 +134,7 @@ class Bench {
     });
   }
 
-  /// Each file is the old one or, which success means for all of them, the new one; nothing else is there.
+  /// Requires that each file is the old one or the new one (after success all are new), and no other file exists.
   void require_old_or_new(const Run& ended) const {
     INFO(writer_.words << ", status " << ended.status << ", signal " << ended.signal << "\n" << ended.err);
     std::vector<std::string> before = before_;
@@ -178,13 +178,13 @@ void limit_file_size(std::size_t bytes) {
   ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-/// What can go wrong at a call; see preload/fault.cpp.
+/// A fault at one of the program's calls; see preload/fault.cpp.
 struct Fault {
   char kind;
   int value;
 };
 
-/// Preloads the library of faults, in the program's process, and tells it what to do.
+/// Preloads the library of faults in the program's process, and sets the fault.
 void preload(const char* variable, const std::string& value) {
   ::setenv("LD_PRELOAD", CONTENSOU_FAULT_LIBRARY, 1);
   ::setenv(variable, value.c_str(), 1);
@@ -194,7 +194,7 @@ void preload_fault(int call, Fault fault) {
   preload("CONTENSOU_FAULT", std::to_string(call) + " " + fault.kind + " " + std::to_string(fault.value));
 }
 
-/// Lets each of the program's calls go wrong, or one of so many, one in each run.
+/// Runs the program with a fault at each of its calls in turn; with `one_of` at a part of the calls.
 void try_faults(const Writer& writer, const std::vector<Fault>& faults, int one_of = 1) {
   Bench bench(writer);
   bench.refresh(true);
@@ -213,7 +213,7 @@ void try_faults(const Writer& writer, const std::vector<Fault>& faults, int one_
 const std::vector<Fault> errors{{'e', ENOSPC}, {'e', EINTR}, {'s', 0}};
 const std::vector<Fault> signals{{'b', SIGTERM}, {'a', SIGHUP}, {'b', SIGPIPE}, {'t', SIGTERM}, {'u', SIGTERM}};
 
-/// Every signal that ends a program, but SIGKILL.
+/// Returns every signal that ends a program, except SIGKILL.
 std::vector<Fault> all_signals() {
   std::vector<Fault> faults;
   for (int signal = 1; signal <= SIGRTMAX; ++signal) {
@@ -228,7 +228,7 @@ const Writer& batch = writers[1];
 const Writer& picture = writers[8];
 const Writer& map = writers[16];
 
-/// A file system of some bytes in a folder of its own, where root may mount one.
+/// A small file system of its own in a folder, if root may mount one.
 class SmallDisk {
  public:
   explicit SmallDisk(std::size_t bytes) {
@@ -249,7 +249,7 @@ class SmallDisk {
   bool there_ = false;
 };
 
-/// Runs with a limit on the size of files, and on a disk, of so many bytes.
+/// Runs with a limit of so many bytes for files, and on a disk of this size.
 void try_room(Bench& bench, std::size_t bytes) {
   CAPTURE(bytes);
   bench.refresh(bytes % 2 == 0);
@@ -345,7 +345,7 @@ TEST_CASE("Ctrl-C amid a sweep leaves the old file and says so", "[cli]") {
     const TemporaryDirectory folder;
     write_file(folder.file(file), "old");
     const Run ended = run_in(folder.path(), {"sweep --mu 0.1 --u0 0:1:1000 --v0 0:1:100 --threads 2", {file}}, [] {
-      preload_fault(3, {'b', SIGINT});  // the new file is there, and something of it written
+      preload_fault(3, {'b', SIGINT});  // the new file exists and is partly written
     });
     CHECK(ended.signal == SIGINT);
     CHECK(ended.err == "contensou: interrupted: " + file + " was not written, nothing is left of it\n");
@@ -391,7 +391,7 @@ TEST_CASE("gnuplot ends with the program, however that ends", "[cli]") {
   CHECK(ended.signal == SIGKILL);
   CHECK(folder.names() == std::vector<std::string>{"bin", "running"});
   const pid_t drawing = std::stoi(read_file(folder.file("running")));
-  constexpr int many = 60000;  // ten minutes: only one that stays takes so long
+  constexpr int many = 60000;  // ten minutes, which pass only if it does not end
   for (int i = 0; i < many && ::kill(drawing, 0) == 0; ++i) ::usleep(10000);
   CHECK(::kill(drawing, 0) != 0);
 }

@@ -16,9 +16,9 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// The names that help lists for a verb.
+/// The names in the help of a verb.
 struct Listed {
-  Names json, csv, any;  ///< by the word before them; any without one
+  Names json, csv, any;  ///< names by the word before them; `any` has no such word
   Names parts;           ///< members of objects without a word, which are columns of CSV
   Names words;           ///< all words of the list
 };
@@ -46,7 +46,7 @@ void add_names(Listed& listed, const std::string& names) {
   }
 }
 
-/// The lists of `help fields`, by the verb and its option.
+/// Returns the lists of `help fields`, by the verb and its option.
 std::map<std::string, Listed> lists_of_help() {
   const std::string heading = "Columns and fields of ";
   std::map<std::string, Listed> lists;
@@ -69,12 +69,12 @@ std::map<std::string, Listed> lists_of_help() {
   return lists;
 }
 
-/// The names that a verb writes.
+/// The names in the output of a verb.
 struct Written {
   Names members, nested, columns;
 };
 
-/// Adds the names of all members; the parameters of an engine have its own names.
+/// Adds the names of all members, except parameters of an engine, whose names are the engine's.
 void add_members(Names& all, const nlohmann::json& json) {
   for (const auto& [name, value] : json.items()) {
     if (json.is_object()) all.insert(name);
@@ -127,7 +127,7 @@ bool any_matches(const Names& names, const std::string& pattern) {
   return std::ranges::any_of(names, [&](const std::string& name) { return has({pattern}, name); });
 }
 
-/// Words of a command line between blanks; ' keeps blanks together.
+/// Splits a command line at blanks. Text between ' is one word.
 std::vector<std::string> words(const std::string& line) {
   std::vector<std::string> all{""};
   bool quoted = false;
@@ -150,7 +150,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
   const std::string load = scratch.file("load.csv"), film = scratch.file("film.csv"), spins = scratch.file("spins.csv");
   write_file(load, "t,load\n0,2\n1,4\n1.2,1\n");
   write_file(film, run_program("roll --ball pool --rolling-friction 0.01 --until 0.6 --samples 60 --format csv").out);
-  // A film of the spin alone: it determines a combination of two numbers.
+  // A film of the spin alone determines a combination of two numbers.
   std::string spin_alone = "t,spin,angle\n";
   for (int i = 0; i < 40; ++i) {
     const double t = 0.1 * i;
@@ -159,7 +159,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
   write_file(spins, spin_alone);
   const std::string against = "check --ball pool --rolling-friction 0.01 --against " + film;
   const std::string start = " --mu 0.3 --u0 1 --v0 1", system = " --u0 1 --v0 1 --system ";
-  // Each title of a list with commands that write all of its names.
+  // For each title of a list, commands whose output contains all names of the list.
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
       {"stop",
        {"stop --ball pool --gradient --uncertainty slip=1%", "stop --estimate" + start,
@@ -223,7 +223,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
     }
     const std::string table = title == "roll --batch" || lines.size() > 1 ? "mu,u0,v0,slip,spin\n0.3,1,1,1,1\n" : "";
     const auto& [members, nested, columns] = written_by(runs, table);
-    // Columns that pass through.
+    // These columns of the input are copied to the output.
     const Names inputs = title.ends_with("--batch") ? Names{"mu", "u0", "v0", "slip", "spin"} : Names{};
     for (const std::string& name : members) {
       INFO("JSON member that help does not list: " << name);

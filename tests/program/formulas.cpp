@@ -1,4 +1,4 @@
-// Formulas against trees that are evaluated without their text, and against differences of 33 digits.
+// Formulas are compared with trees that are evaluated without a text, and with differences of 33 digits.
 #include "answers/input/formulas.hpp"
 
 #include <array>
@@ -54,7 +54,7 @@ double between(Random& random, double from, double to) {
   return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// A function by another route than the library's: slopes in long double, from other identities.
+/// A function and its slopes in long double, computed by other identities than the library uses.
 struct Known {
   std::string name;
   std::function<double(double)> value;
@@ -96,7 +96,7 @@ const std::vector<Known>& known() {
 
 struct Result {
   double value;
-  std::array<long double, 2> slopes{}, scales{};  ///< the scale of a sum is that of its terms without their signs
+  std::array<long double, 2> slopes{}, scales{};  ///< scales: slopes with all terms without signs
   std::array<bool, 2> depends{};
   bool moderate = true;  ///< no derivative so far is tiny, huge or missing
 
@@ -214,12 +214,12 @@ Tree random_tree(Random& random, int depth) {
   }
 }
 
-/// A tree typed by somebody: with brackets where they are needed, and some more, and blanks anywhere.
+/// Writes a tree as a user would: with necessary and some unnecessary brackets, and blanks anywhere.
 class Typist {
  public:
   explicit Typist(Random& random) : random_(random) {}
 
-  /// @param level    the loosest binding that needs no brackets
+  /// @param level    loosest binding that needs no brackets
   std::string operator()(const Tree& tree, int level = 0, bool in_bars = false) {
     const int own = level_of(tree);
     if (own < level || (in_bars && tree.op == "||") || below(random_, 8) == 0) {

@@ -23,7 +23,7 @@ namespace {
 const std::vector<std::string> topics{"ball",  "laws",  "picture", "output", "views",
                                       "units", "files", "fields",  "theory"};
 
-/// The options that a text names at the beginning of its lines.
+/// Returns the options that stand at the beginning of a text's lines.
 std::set<std::string> options_of(const std::string& help) {
   std::set<std::string> options;
   const std::regex lines("\n +(-[^\n]*)"), names("--[a-z][a-z0-9-]*");
@@ -102,7 +102,7 @@ TEST_CASE("topics of help", "[cli]") {
 }
 
 TEST_CASE("every kind and every end that reduce prints stands in its help", "[cli]") {
-  // The part on columns, with single blanks.
+  // Take the part of the help about columns, with single blanks.
   std::string help = run_program("help reduce").out;
   help = std::regex_replace(help.substr(help.find("Columns and fields of reduce:")), std::regex("\\s+"), " ");
   const auto listed = [&](const std::string& field) {
@@ -125,7 +125,7 @@ TEST_CASE("help theory is one screen, whose equations are those of the program",
   const std::string text = run_program("help theory").out;
   CHECK(std::ranges::count(text, '\n') <= 70);
   CHECK(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
-  // The equations of one number, as `reduce --system` reads them: du/dtau = -5 mu^2 u/(...) becomes u' =
+  // Convert the equations of `help` to the form that `reduce --system` reads: du/dtau = -5 mu^2 u/(...) becomes u' =
   // -5*mu^2*u/(...).
   const auto reduced = [&](const std::string& time) {
     std::smatch lines;

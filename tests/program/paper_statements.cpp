@@ -40,7 +40,7 @@ Verdict verdict_of(Statement::Number printed, Statement::Number computed, double
   return statement.examine().verdict;
 }
 
-/// The statement that begins with these words.
+/// Returns the statement that begins with the given words.
 Statement statement_of(const std::vector<Statement>& statements, std::string_view equation, std::string_view says) {
   for (const Statement& statement : statements) {
     if (statement.equation == equation && statement.says.starts_with(says)) return statement;
@@ -143,7 +143,7 @@ TEST_CASE("the printed equations of the plane are the reduced system of the Pade
   }
 }
 
-// A statement that is as recorded whatever is printed or found says nothing.
+// A statement whose verdict does not depend on its numbers would test nothing.
 TEST_CASE("another number, printed or found, changes the verdict of every statement") {
   static Statement::Number right;
   const Statement::Number off = [](double at) { return 1.002 * right(at) + 1e-3; };

@@ -10,7 +10,7 @@ using contensou::program::ShowProgress;
 
 namespace {
 
-/// A clock that stands still until it is set, and what progress writes as it is read.
+/// A clock that stands still until it is set, and the text that progress has written.
 struct Watch {
   double time = 1000;  ///< s
   std::FILE* file = std::tmpfile();
@@ -24,7 +24,7 @@ struct Watch {
     return Progress(
         "rows", when, [this] { return time; }, file);
   }
-  /// What was written since the last call.
+  /// Returns the text written since the last call.
   std::string written() {
     std::fflush(file);
     const long end = std::ftell(file);

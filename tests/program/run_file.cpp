@@ -20,7 +20,7 @@ TEST_CASE("what counts as a file", "[cli]") {
 
 namespace {
 
-/// A ball as a run file; each key as it is written there.
+/// A ball as the keys of a run file.
 struct RunFile {
   std::string radius = "radius = 0.03", mass = "mass = 0.2", friction = "friction = 0.4",
               patch = "spin_deceleration = 10", law = {}, start = "slip = 0.7\nspin = 60", environment = {}, body = {};
@@ -31,14 +31,14 @@ struct RunFile {
   }
 };
 
-/// A run of a verb that takes a ball.
+/// A command of a verb that takes a ball.
 struct BallRun {
   std::string options, input = {};
-  bool starts = true;  ///< takes --slip and --spin
-  bool rolls = false;  ///< takes no body that lies flat
+  bool starts = true;  ///< true: the verb takes --slip and --spin
+  bool rolls = false;  ///< true: the verb rejects a body that lies flat
 };
 
-/// Every one: a verb that is new belongs here.
+/// Returns a command for every verb with a ball. A new verb must be added here.
 const std::vector<BallRun>& ball_runs() {
   static const std::vector<BallRun> runs{
       {"stop --format json"},
@@ -57,8 +57,8 @@ const std::vector<BallRun>& ball_runs() {
   return runs;
 }
 
-/// What two run files and the options to the second give, verb by verb: it must be the same, and differ from what the
-/// second gives by itself.
+/// Compares, verb by verb, the output for the first run file with the output for the second run file plus options. Both
+/// must be equal, and differ from the output for the second run file alone.
 void check_key(const RunFile& with, const RunFile& without, const std::string& options, bool of_start = false) {
   const TemporaryDirectory scratch;
   const std::string first = scratch.file("with.toml"), second = scratch.file("without.toml");
@@ -109,7 +109,7 @@ TEST_CASE("a run file's law as formulas: its parameters, and mistakes at their l
     return nlohmann::json::parse(run.out)["t_stop"];
   };
   write_file(file, RunFile{.law = "law = \"" + formulas + "\"\n[contact.param]\nc = 0.6\n[contact]"}.text());
-  CHECK(run_program("stop --ball " + file).status == 2);  // [contact] twice is no TOML
+  CHECK(run_program("stop --ball " + file).status == 2);  // a file with [contact] twice is not TOML
   write_file(file, RunFile{.law = "law = \"" + formulas + "\"\nparam.c = 0.6"}.text());
   const auto own = stop({"--ball", file});
   CHECK(stop({"--ball", file, "--law", formulas + "; c = 0.6"}) == own);
@@ -168,10 +168,10 @@ TEST_CASE("a start is given in one way", "[cli]") {
   CHECK_THAT(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,6\n").err,
              StartsWith("<stdin>:3: spin 5 and wz 6 are one angular velocity, and differ"));
   CHECK(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,5\n").status == 1);
-  // A start by velocities, in every verb.
+  // A start by velocities works with every verb.
   CHECK(json_of("stop --format json --ball pool --velocity 0,2 --angular-velocity 0,0,9").at("t_stop") ==
         json_of("stop --format json --ball pool --slip 2 --spin 9").at("t_stop"));
-  // A number that fits a double in SI units fits one.
+  // A number in another unit is allowed if it fits a double in SI units.
   CHECK(json_of("stop --format json --ball pool --slip 1e308km/h").at("v0") == 1e308 / 3.6);
 }
 
@@ -197,7 +197,7 @@ TEST_CASE("rolling friction and a slope are taken or refused by name, by every v
       const Run level = run_program(run.options + " --ball " + second, run.input);
       CHECK(by_file.status == by_option.status);
       CHECK(by_file.out == by_option.out);
-      // An option takes the file's back.
+      // An option replaces the value of the file.
       const std::string none = slopes ? " --slope 0" : " --rolling-friction 0";
       CHECK(run_program(run.options + none + " --ball " + first, run.input).out == level.out);
       if (by_file.status == 2) {

@@ -71,7 +71,7 @@ Run run_command(std::vector<std::string> words, std::string_view input, const st
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::tmpfile(), std::fclose);
   int out[2], err[2];
   REQUIRE((in && ::pipe2(out, O_CLOEXEC) == 0 && ::pipe2(err, O_CLOEXEC) == 0));
-  if (!input.empty()) std::fwrite(input.data(), 1, input.size(), in.get());  // no text has no address
+  if (!input.empty()) std::fwrite(input.data(), 1, input.size(), in.get());  // an empty text may have a null address
   std::rewind(in.get());
   const pid_t child = ::fork();
   REQUIRE(child >= 0);

@@ -12,7 +12,7 @@ namespace {
 
 double number(const nlohmann::json& of, const char* name) { return of.at(name).get<double>(); }
 
-/// The number at that row and column of a CSV.
+/// Returns the number in a row and a column of a CSV.
 double cell(const std::vector<std::vector<std::string>>& rows, std::size_t row, std::size_t column) {
   return std::stod(rows.at(row).at(column));
 }

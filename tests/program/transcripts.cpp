@@ -42,7 +42,7 @@ std::string text_of(const Lines& lines) {
   return text;
 }
 
-/// Compares a line, in which dots stand for any text.
+/// Returns true if two lines are equal. Dots in the shown line stand for any text.
 bool same_line(std::string_view shown, std::string_view printed) {
   const std::size_t dots = shown.find("...");
   if (dots == shown.npos) return shown == printed;
@@ -53,7 +53,7 @@ bool same_line(std::string_view shown, std::string_view printed) {
   return false;
 }
 
-/// Compares lines, among which a line of dots stands for any number of them.
+/// Returns true if two lists of lines are equal. A shown line of dots stands for any number of lines.
 bool same(const Lines& shown, const Lines& printed, std::size_t i = 0, std::size_t j = 0) {
   for (; i < shown.size(); ++i, ++j) {
     if (shown[i] == "...") {
@@ -67,7 +67,7 @@ bool same(const Lines& shown, const Lines& printed, std::size_t i = 0, std::size
   return j == printed.size();
 }
 
-/// Returns what is to stand below a command.
+/// Returns the lines that must stand below a command.
 Lines session(const std::string& command, const std::filesystem::path& folder, bool with_notes) {
   const std::string path = std::filesystem::path(CONTENSOU_PROGRAM).parent_path().string() + ":" + std::getenv("PATH");
   const Run run = run_command({"/bin/sh", "-c", command}, {}, [&] {

@@ -1,5 +1,5 @@
-// `stop` and `roll --uncertainty`: against differences of the program's own stop times, and against quantiles that need
-// no samples.
+// `stop` and `roll --uncertainty` are compared with differences of the program's own stop times, and with quantiles
+// that need no samples.
 #include <cmath>
 #include <string>
 
@@ -33,7 +33,7 @@ TEST_CASE("the first order of --uncertainty is that of differences", "[cli]") {
                              {"steel", "mass", "--mass", 0.5},
                              {"steel", "radius", "--radius", 0.02},
                              {"puck", "radius", "--radius", 0.0381}}) {
-    // No structured binding: clang 14 does not capture one.
+    // No structured binding is used, because clang 14 cannot capture one in a lambda.
     const std::string ball = known.ball, name = known.name, option = known.option;
     const double value = known.value;
     const std::string start =
@@ -56,7 +56,7 @@ TEST_CASE("the quantiles of one number are the stop times at its quantiles", "[c
   for (const auto& [i, z] : {std::pair{0, 1.959964}, {1, 0.994458}, {2, 0.0}, {3, -0.994458}, {4, -1.959964}}) {
     CHECK(json[static_cast<std::size_t>(i)].at("value").get<double>() == Approx(at(0.1 * (1 + 0.2 * z))).epsilon(4e-3));
   }
-  // A patch of its own in each sample, between solutions of some mu.
+  // Each sample has its own mu; solutions are interpolated between some values of mu.
   for (const std::string law : {"exact", "ring"}) {
     const std::string start = "--ball pool --slip 2 --spin 30 --law " + law + " --patch-radius ";
     const auto wide = uncertainty(start + "3mm --uncertainty patch-radius=30%");
@@ -73,7 +73,7 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
   CHECK(uncertainty("--ball pool --uncertainty spin-deceleration=30%").at("first_order_holds") == false);
   CHECK_THAT(run_program("stop --ball pool --uncertainty spin_deceleration=30%").out,
              Contains("the first order fails here"));
-  // Independent numbers add by their squares; units; the same samples each time.
+  // Errors of independent numbers add by their squares. Units are allowed. The samples are the same each time.
   const auto json = uncertainty("--ball pool --uncertainty slip=1cm/s,spin=2rad/s");
   const auto& shares = json.at("shares");
   CHECK(json.at("standard").get<double>() ==
@@ -84,7 +84,7 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
 }
 
 TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
-  // Friction and patch that go together entirely are one number: its quantiles are at the quantiles of both.
+  // If friction and patch radius are completely correlated, they are one number. Its quantiles are those of both.
   const TemporaryDirectory directory;
   const std::string ball = run_program("balls gel").out;
   const auto with = [&](const std::string& correlation) {
@@ -104,14 +104,14 @@ TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
     constexpr double step = 1e-3;
     CHECK(known.at("standard").get<double>() ==
           Approx(std::abs(at(step, sign) - at(-step, sign)) / (2 * step)).epsilon(1e-5));
-    CHECK(known.at("shares").size() == 2);  // the spin is another than the file's
+    CHECK(known.at("shares").size() == 2);  // the spin is not the one in the file
     const bool falls = at(1, sign) < at(-1, sign);
     for (const auto& [i, z] : {std::pair{0, -1.959964}, {1, -0.994458}, {2, 0.0}, {3, 0.994458}, {4, 1.959964}}) {
       CHECK(known.at("quantiles")[static_cast<std::size_t>(i)].at("value").get<double>() ==
             Approx(at(falls ? -z : z, sign)).epsilon(3e-3));
     }
     if (sign < 0) continue;
-    // What is named replaces what the ball has, and is independent of it.
+    // A spread on the command line replaces the spread of the ball and is independent of the others.
     const auto named = uncertainty(start + "--uncertainty fit,radius=1mm");
     const auto& shares = named.at("shares");
     CHECK(shares == known.at("shares"));
@@ -137,7 +137,7 @@ TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
     return nlohmann::json::parse(run_program(fit + " --format json").out);
   };
   const auto found = seen("--velocity 0.4,0.3 --angular-velocity 2,-1,80");
-  // By velocities in the file, and by slip and spin to the stop time: with the errors that the fit says of these.
+  // The file has velocities; the stop time uses slip and spin. Their errors are those that the fit reports.
   const auto known = uncertainty("--ball " + ball + " --uncertainty fit");
   std::string errors;
   for (const std::string name : {"friction", "patch_radius", "slip", "spin"})
@@ -149,7 +149,7 @@ TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
   CHECK_THAT(read_file(ball), Contains("[uncertainty.correlation]\n") && Contains("wy = {friction = "));
   const auto roll = json_of("roll --format json --samples 2 --ball " + ball + " --uncertainty fit").at("uncertainty");
   CHECK(roll.at("t_stop").at("standard").get<double>() == Approx(known.at("standard").get<double>()).epsilon(1e-5));
-  // A film that leaves a number open has no spread that tells it.
+  // A film that does not determine a number gives no spread of it.
   write_file(film, "t,spin\n0,100\n0.1,99\n0.2,98.02\n0.3,97\n");
   CHECK(run_program("fit " + film + " --ball pool --noise spin=0.1 -o " + ball).status == 0);
   CHECK_THAT(read_file(ball), !Contains("[uncertainty]\n") && Contains("no [uncertainty]"));
@@ -181,7 +181,7 @@ TEST_CASE("roll --uncertainty: each number of an event against differences and i
             Approx(slope * varied.relative).epsilon(1e-4).margin(1e-9));
     }
   }
-  // Of one number, with a mu of its own for each of its values.
+  // One number has a spread; each of its values has its own mu.
   const auto path = roll(start(vx, wz, radius) + " --uncertainty radius=20%").at("uncertainty").at("path");
   CHECK(path.at("first_order_holds") == false);
   for (const auto& [i, z] : {std::pair{1, -0.994458}, {2, 0.0}, {3, 0.994458}}) {

@@ -1,4 +1,4 @@
-// The reversed question: (R59) and (R60) of reduction/README.md.
+// The start that has a given result: (R59) and (R60) of reduction/README.md.
 #include <cmath>
 #include <random>
 #include <string>
@@ -25,7 +25,8 @@ struct Case {
   Flow flow;
 };
 
-/// Laws and bodies, mu from small to where k grows in place of falling, and between, where there is a ray.
+/// Laws and bodies with mu from small values, for which k falls, to values for which k grows; in between there is a
+/// ray.
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string& name : names) {
@@ -39,7 +40,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or whose Psi grows first: what (R59) does not allow.
+/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or whose Psi grows first. The hypothesis of (R59) excludes both.
 struct WavyLaw {
   double force = 6, moment = 0;
 
@@ -94,7 +95,7 @@ TEST_CASE("distance over turning and over time squared, and time squared over tu
         INFO(fmt::format("{} k {}", text, std::exp(ln_k)));
         CHECK(here.distance / here.turned > last.distance / last.turned);
         CHECK(here.distance / (here.tau * here.tau) > last.distance / (last.tau * last.tau));
-        // Where Psi is all but constant the last one grows by less than a double shows.
+        // If Psi is nearly constant, the last ratio may grow by less than the rounding of a double.
         CHECK(here.tau * here.tau / here.turned > last.tau * last.tau / last.turned * (1 - 1e-13));
       }
       last = here;
@@ -103,7 +104,7 @@ TEST_CASE("distance over turning and over time squared, and time squared over tu
 }
 
 TEST_CASE("what a motion comes to is what its steps sum up to", "[aim][invariant]") {
-  // By the midpoint rule.
+  // Integrate by the midpoint rule.
   for (const char* name : {"exact", "pade", "ring"}) {
     for (const Inertia& body : {homogeneous_ball, Inertia{1, 2}}) {
       const Flow flow({*find_law(name), 0.4, body});
@@ -142,12 +143,12 @@ TEST_CASE("the reversed question on the axes", "[aim][edge]") {
   same(aimed(flow, {pivots.tau, 0, {}}), {3, 0});
   same(aimed(flow, {pivots.tau, {}, pivots.turned}), {3, 0});
   same(aimed(flow, {{}, 0, pivots.turned}), {3, 0});
-  // Out of reach: sooner than by pure sliding, or pivoting.
+  // A time below that of pure sliding, or of pure pivoting, is out of reach.
   CHECK_FALSE(aimed(flow, {slides.tau * 0.999, slides.distance, {}}));
   CHECK_FALSE(aimed(flow, {pivots.tau * 0.999, {}, pivots.turned}));
   CHECK(least_time(flow, {1e9, slides.distance, {}}) == Approx(slides.tau).epsilon(1e-14));
   CHECK(least_time(flow, {1e9, {}, pivots.turned}) == Approx(pivots.tau).epsilon(1e-14));
-  // Far apart.
+  // Demands may be far apart.
   for (double far : {1e-200, 1e-20, 1e20, 1e200}) {
     const auto found = aimed(flow, {{}, far, 1});
     REQUIRE(found);
@@ -164,11 +165,11 @@ TEST_CASE("what the reversed question refuses", "[aim][edge]") {
   CHECK_THROWS_AS(aimed(flow, {1, -1, {}}), std::domain_error);
   CHECK_THROWS_AS(aimed(flow, {1, std::nan(""), {}}), std::domain_error);
   CHECK_THROWS_AS(aimed(Flow({PadeLaw{}, 0.2, homogeneous_ball, 0.1}), {1, 1, {}}), std::domain_error);
-  // What the plane does not reach at its edge, in doubles.
+  // Demands at the edge of the range of doubles cannot be reached.
   CHECK_THROWS_AS(aimed(flow, {1e200, 1, {}}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {1e200, {}, 1}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {{}, 1e300, 1e-300}), TooFarApart);
-  // It goes farther in a time with spin than without.
+  // With spin a body goes farther in a given time than without.
   using Catch::Matchers::Contains;
   const Flow falls({WavyLaw{}, 1, {1, 2}});
   const Reached spinning = reached(falls, {0.823, 2.38}), straight = reached(falls, {0, 1});

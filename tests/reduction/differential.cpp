@@ -1,4 +1,4 @@
-// Random questions, each asked at every door of the library: what two doors say may differ by no more than the
+// Random starts and systems are computed by every route of the library. Results of two routes may differ by at most the
 // accuracies that they state.
 #include <algorithm>
 #include <array>
@@ -35,12 +35,12 @@ class Questions {
   ReducedSystem system() {
     const Law law = this->law();
     const double r = this->r(law);
-    if (one_of(2) == 0) return {law, 1, {.chi = 1, .gamma = r}};  // exactly this r
+    if (one_of(2) == 0) return {law, 1, {.chi = 1, .gamma = r}};  // the system has exactly this r
     const double chi = log_uniform(-6, 6), gamma = log_uniform(-6, 6);
     return {law, std::sqrt(r * chi / gamma), {.chi = chi, .gamma = gamma}};
   }
 
-  /// With a drive of any size, next to 1, and next to the border beyond which k grows without bound.
+  /// Returns a system with a drive of any size, also next to 1 and next to the border above which k has no bound.
   ReducedSystem driven_system() {
     const ReducedSystem free = system();
     const double border = 1 - free.r() / terminal_ratios(free.law(), free.r()).high;
@@ -58,7 +58,7 @@ class Questions {
     const double sign = one_of(2) == 0 ? 1 : -1;
     switch (one_of(8)) {
       case 0:
-        return {sign * log_uniform(-700, 700), log_uniform(-700, 700)};  // all of the double range
+        return {sign * log_uniform(-700, 700), log_uniform(-700, 700)};  // the whole range of doubles
       case 1:
         return one_of(2) == 0 ? State{0, log_uniform(-200, 200)} : State{sign * log_uniform(-200, 200), 0};
       case 2:
@@ -79,7 +79,7 @@ class Questions {
   std::size_t one_of(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
   double log_uniform(double low, double high) { return std::exp(std::uniform_real_distribution<>(low, high)(random_)); }
 
-  /// The number itself, its neighbours, or beside it at any distance.
+  /// Returns the number itself, a neighbour, or a number at any distance from it.
   double nearly(double x) {
     const std::size_t side = one_of(4);
     if (side == 0) return x;
@@ -94,7 +94,7 @@ class Questions {
     return PressureLaw(std::uniform_real_distribution<>(-0.95, 25)(random_));
   }
 
-  /// Of any size, on and beside the borders of the regimes, and where the ray is at k = 1.
+  /// Returns an r of any size, also on and next to the borders of the regimes, and such that the ray is at k = 1.
   double r(const Law& law) {
     const TerminalRatios ratios = terminal_ratios(law, 1);
     const auto [force, moment] = law({1, 1});
@@ -107,14 +107,14 @@ class Questions {
   std::mt19937_64 random_;
 };
 
-/// How well a state agrees with a stepper's at the same time: u, v and beta, each on its scale.
+/// Returns the largest difference of two states at the same time in u, v and beta, each divided by its scale.
 double difference(const OrbitPoint& a, const OrbitPoint& b, State start) {
   const auto relative = [](double x, double y, double scale) { return x == y ? 0 : std::abs(x - y) / scale; };
   return std::max({relative(a.u, b.u, std::abs(start.u)), relative(a.v, b.v, std::max(start.v, b.v)),
                    relative(a.beta, b.beta, b.beta)});
 }
 
-/// What two doors differ by, over what they may.
+/// Returns the difference of two results divided by the allowed difference.
 double excess(double a, double b, double accuracy) {
   if (a == b) return 0;
   const double larger = std::max(std::abs(a), std::abs(b));
@@ -129,7 +129,7 @@ struct Door {
   double accuracy;
 };
 
-/// Asks so many starts of each of so many systems.
+/// Compares the routes for some starts of each of some systems.
 void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) {
   constexpr int starts = 40;
   int asked = 0;
@@ -152,7 +152,7 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
                               {"orbit", orbit.stop_time(), orbit.accuracy()},
                               {"mirrored", flow.stop_time({-start.u, start.v}).tau, 0}};
       if (table) doors.push_back({"table", (*table)(start.u, start.v), 4 * eps});
-      // The creeping of a small r is stiff.
+      // For a small r creeping is stiff.
       const bool steps = system.drive() == 0 || system.r() > 1e-4;
       if (j == 0 && steps) {
         for (Route route : {Route::direct, Route::regularised}) {
@@ -176,7 +176,7 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
           const double ln_k0 = std::log(start.v / system.mu() / std::abs(start.u));
           const bool on_ray = std::ranges::any_of(
               flow.terminal().rays, [&](const InvariantRay& ray) { return std::abs(std::log(ray.k) - ln_k0) < 1e-3; });
-          const double blunt = 1e4 * eps / (1 - system.drive());  // what rounding of Phi leaves of Phi - rho
+          const double blunt = 1e4 * eps / (1 - system.drive());  // rounding of Phi - rho
           if (!(error <= (on_ray ? 1e-5 : 1e-8) + blunt)) {
             FAIL_CHECK(fmt::format("at half time: u = {}, v = {}, beta = {} instead of {}, {}, {}: {}", half.u, half.v,
                                    half.beta, stepped.points.u[0], stepped.points.v[0], stepped.points.beta[0],
@@ -203,14 +203,15 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
   CHECK(asked == systems * starts);
 }
 
-/// The scaled stop time over w, T(k), of a driven body with a ray: dT/dk = (1 - r Psi T)/D from (R2) and (R48), in
-/// steps from the ray's tangent, in more digits than a double has. It shares no code with the library, nor its laws.
+/// The scaled stop time divided by w, T(k), of a body with a drive and a ray: dT/dk = (1 - r Psi T)/D from (R2) and
+/// (R48). It is integrated in steps from the ray's tangent, with more digits than a double has. It shares no code with
+/// the library, not even the laws.
 class ByTheRay {
  public:
   using Wide = std::conditional_t<(std::numeric_limits<long double>::digits > 60), long double,
                                   boost::multiprecision::cpp_bin_float_quad>;
 
-  /// @param ellipse  C of the elliptic law; 0: Pade
+  /// @param ellipse  C of the elliptic law; 0: the Pade law
   ByTheRay(double ellipse, const ReducedSystem& system, double ray)
       : c_(ellipse), r_(system.r()), drive_(system.drive()), ray_(ray) {
     const auto slope = [&](auto function) {
@@ -228,7 +229,7 @@ class ByTheRay {
     using std::abs, std::ceil, std::exp, std::log;
     using Values = std::array<Wide, 1>;
     const int side = k < ray_ ? -1 : 1;
-    // In steps of ln |k - k*| above the ray, and below it of ln(k*/k - 1), which resolves k where it is small, too.
+    // Steps in ln |k - k*| above the ray. Below it, steps in ln(k*/k - 1), which resolve small k, too.
     const Wide from = side > 0 ? log(near * ray_) : log(near / (1 - near)),
                to = log(abs(k - ray_) / (side > 0 ? 1 : k));
     Values value{at_ray_ + side * tangent_ * near * ray_};
@@ -247,7 +248,7 @@ class ByTheRay {
   }
 
  private:
-  static constexpr double near = 1e-7;  // its square is what is left out
+  static constexpr double near = 1e-7;  // the error is the square of this
 
   Wide force(Wide k) const {
     using std::sqrt;

@@ -6,8 +6,8 @@ namespace contensou::reduction {
 
 /// The power that friction takes, v Phi + w Psi, per N f: for Slip{k, 1} it is R(k) = k Phi + Psi.
 ///
-/// For Coulomb friction it is also a potential: Phi = dR/dv and Psi = dR/dw, that is Phi = R'(k), Psi = R - k R' and
-/// Psi' = -k Phi'. Every law of this library has it but the Pade pair. Homogeneous of degree 1 in the speeds.
+/// For Coulomb friction it is also a potential: Phi = dR/dv and Psi = dR/dw, so that Phi = R'(k), Psi = R - k R' and
+/// Psi' = -k Phi'. Every law of this library has it, except the Pade law. R is homogeneous of degree 1 in the speeds.
 ///
 /// @throws std::domain_error  as the law
 template <FrictionLaw L>

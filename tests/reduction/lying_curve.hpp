@@ -8,7 +8,7 @@
 
 namespace contensou::tests {
 
-/// What a curve tells instead of the truth.
+/// False values that a curve returns in place of the true ones.
 struct CurveLie {
   using Lie = std::function<double(double ln_k, double truth)>;
   Lie ln_w = [](double, double truth) { return truth; };
@@ -16,7 +16,7 @@ struct CurveLie {
   Lie beta_coefficient = [](double, double truth) { return truth; };
 };
 
-/// A curve with functions that are not its own.
+/// A curve that returns false values of its functions.
 class LyingCurve final : public reduction::SimilarityCurve {
  public:
   LyingCurve(reduction::SimilaritySolution::Curve truth, CurveLie lie)
@@ -30,7 +30,7 @@ class LyingCurve final : public reduction::SimilarityCurve {
   double beta_coefficient(double ln_k) const override {
     return lie_.beta_coefficient(ln_k, truth_->beta_coefficient(ln_k));
   }
-  double linear_below() const override { return -1e6; }  // it never comes there: every ln k is asked for
+  double linear_below() const override { return -1e6; }  // so low that every ln k is evaluated
   double time_rate(double ln_k) const override { return truth_->time_rate(ln_k); }
   double accuracy() const override { return truth_->accuracy(); }
 
@@ -39,7 +39,7 @@ class LyingCurve final : public reduction::SimilarityCurve {
   CurveLie lie_;
 };
 
-/// The flow of a ball with mu < 1, lied about.
+/// Returns the flow of a ball with mu < 1 whose curve returns false values.
 inline reduction::Flow lying_flow(const reduction::ReducedSystem& system, CurveLie lie) {
   const auto truth = reduction::Flow(system).solution().through(0);
   return {system, std::make_shared<LyingCurve>(truth, std::move(lie))};

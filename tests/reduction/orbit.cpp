@@ -26,7 +26,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// 1e-12 in eps.
+/// The promised accuracy 1e-12 in units of eps.
 constexpr double promised = 4503;
 
 double beta_unit(double mu, State start) { return 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v); }
@@ -46,7 +46,7 @@ void check_trajectories(const std::string& table, const Law& law) {
     if (row.result("k") > 1e-290L) k.add(std::log(row.result("k")), std::log(point.k), ln_v_scale, row.where());
     beta.add(row.result("beta"), point.beta, row.result("beta") + beta_unit(mu, start), row.where());
 
-    // The time left from the table, where it is known better than the difference of two doubles.
+    // The time left is taken from the table, which has more digits than the difference of two doubles.
     if (row.input("fraction") < 0.5) continue;
     const OrbitPoint from_stop =
         orbit.at_time_left(static_cast<double>(row.result("tau_stop") - static_cast<long double>(tau)));
@@ -61,8 +61,8 @@ void check_trajectories(const std::string& table, const Law& law) {
   CHECK_WITHIN_EPS(left_ln_v, promised);
 }
 
-/// The integral of a function of a state from where ln k is top to where it is bottom, by v d ln k/D along the orbit
-/// (R3).
+/// Returns the integral of a function of the state over time, from ln k = top to ln k = bottom, as an integral of v d
+/// ln k/D along the orbit (R3).
 template <class Function>
 double integral_between(const ReducedSystem& system, const Orbit& orbit, double bottom, double top, Function function) {
   const auto rate = [&](double ln_k) {
@@ -147,7 +147,7 @@ TEST_CASE("along an orbit u, v and k fall and beta grows", "[orbit][invariant]")
 }
 
 TEST_CASE("scaling by powers of two and u -> -u hold bit for bit", "[orbit][symmetry]") {
-  // ln v moves by a multiple of ln 2, which is rounded; everything else is the same digits.
+  // Under scaling ln v changes by a multiple of ln 2, which is rounded. Everything else has the same digits.
   for (const Law& law : paper_laws()) {
     for (const State start : {State{1.1, 0.3}, State{-0.01, 2}, State{5, 1e-12}, State{0, 3}, State{-3, 0}}) {
       const ReducedSystem system(law, 0.05);
@@ -218,8 +218,8 @@ TEST_CASE("on the axes one speed falls linearly", "[orbit][limit]") {
   }
 }
 
-// Found with mu = 0.1, u0 = 5e-324, v0 = 1 (mu u0 underflows, ln k0 was infinite) and with u0 = 1e-200, v0 = 1e200 (the
-// curve's b underflows, beta was 0).
+// Failures found with mu = 0.1, u0 = 5e-324, v0 = 1 (mu u0 underflows, ln k0 was infinite) and with u0 = 1e-200, v0 =
+// 1e200 (b of the curve underflows, beta was 0).
 TEST_CASE("a spin too faint for v0/(mu u0) leaves pure sliding", "[orbit][limit]") {
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
@@ -236,7 +236,7 @@ TEST_CASE("a spin too faint for v0/(mu u0) leaves pure sliding", "[orbit][limit]
         CAPTURE(share);
         CHECK(point.v == Approx(axis.v).epsilon(1e-12));
         CHECK(point.beta == Approx(axis.beta).epsilon(1e-11));
-        // u goes with the power r/5 of the time left, for both laws; a denormal u has few digits.
+        // Under both laws u is proportional to the power r/5 of the time left. A denormal u has few digits.
         const double power = std::pow(1 - share, system.r() / 5);
         CHECK(point.u == Approx(start.u * power).epsilon(1e-11).margin(5e-324));
         CHECK(std::signbit(point.u) == std::signbit(start.u));
@@ -265,7 +265,7 @@ TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") 
       const OrbitPoint point = orbit.at_time_left(left);
       const OrbitPoint closer = orbit.at_time_left(left / 2);
       CHECK(point.u == Approx(5 * mu / 16 * left).epsilon(1e-12));
-      // v goes with the power 14/(5 mu^2) of the time left.
+      // v is proportional to the power 14/(5 mu^2) of the time left.
       CHECK(point.ln_v - closer.ln_v == Approx(14 / (5 * mu * mu) * std::numbers::ln2).epsilon(1e-11));
     }
   }
@@ -300,11 +300,11 @@ TEST_CASE("the slip is the integral of v along the orbit", "[orbit][route]") {
     }
   }
   CHECK_WITHIN_EPS(whole, 200);
-  // The time of the middle is known to eps of the stop time only, which is long against the slip where mu is small.
+  // The middle time is accurate to eps of the stop time only, which is long compared with the slip if mu is small.
   CHECK_WITHIN_EPS(part, 1e6);
 }
 
-// The parts of k are those of the quadrature, so beyond a ray and towards infinity, too.
+// The sum uses panels of the quadrature in k, so it also covers motions beyond a ray and towards infinity.
 TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]") {
   WorstCase turned("turned"), slipped("slip");
   for (const char* name : {"exact", "pade", "ring"}) {
@@ -315,7 +315,7 @@ TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]
         const Orbit orbit = flow.orbit({-3, 0.9 * k0});
         const double ln_k0 = orbit.start_log_ratio();
         const double end = orbit.chart().log_ratio(orbit.start_coordinate() - 3);
-        // Over panels on either side of k = 1.
+        // Integrate over panels on both sides of k = 1.
         const auto [bottom, top] = std::minmax({ln_k0, end});
         const auto by_quadrature = [&, bottom = bottom, top = top](auto of_point) {
           const double kink = std::clamp(0.0, bottom, top);
@@ -329,7 +329,7 @@ TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]
       }
     }
   }
-  // The time of the end is known to eps of the stop time only, which is long against this part where r is small.
+  // The end time is accurate to eps of the stop time only, which is long compared with this part if r is small.
   CHECK_WITHIN_EPS(turned, 1e7);
   CHECK_WITHIN_EPS(slipped, 1e7);
 }
@@ -349,7 +349,7 @@ TEST_CASE("an instant is the state with the slip, by one root", "[orbit][route]"
         CHECK(at.turned * start.u >= 0);
       }
     }
-    // One speed alone falls linearly.
+    // If only one speed is not 0, it falls linearly.
     const Orbit pivoting = flow.orbit({-2, 0});
     CHECK(pivoting.instant(pivoting.stop_time()).turned == Approx(-pivoting.stop_time()).epsilon(1e-15));
     CHECK(pivoting.instant(pivoting.stop_time() / 2).turned == Approx(-0.75 * pivoting.stop_time()).epsilon(1e-15));
@@ -395,7 +395,7 @@ TEST_CASE("when a speed has fallen to a value", "[orbit][route]") {
 
 TEST_CASE("the integral of a function of v", "[orbit][route]") {
   for (const char* name : {"exact", "pade", "ring"}) {
-    if (!CONTENSOU_FULL_TESTS && name == std::string_view("ring")) continue;  // as long as the others together
+    if (!CONTENSOU_FULL_TESTS && name == std::string_view("ring")) continue;  // as slow as all others together
     for (double r : {1e-6, 5.0 / 7, 3.0, 6.0}) {
       const ReducedSystem system(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09});
       const Flow flow(system);
@@ -408,7 +408,7 @@ TEST_CASE("the integral of a function of v", "[orbit][route]") {
           const double end = std::min(tau, stop);
           CHECK(orbit.integral([](double) { return 3.0; }, tau) == Approx(3 * end).epsilon(1e-15));
           CHECK(orbit.integral([](double v) { return v; }, tau) == Approx(orbit.slip_length(tau)).epsilon(1e-10));
-          // |v - c|, by what slips on either side of it.
+          // The integral of |v - c| equals a combination of slip lengths on both sides of v = c.
           const double c = 0.3 * v0;
           const double turn = orbit.time_of_v(c);
           const double sides = 2 * orbit.slip_length(turn) - orbit.slip_length(end) - c * (2 * turn - end);
@@ -423,7 +423,7 @@ TEST_CASE("the integral of a function of v", "[orbit][route]") {
         Approx(4 * sliding.stop_time() / 3).epsilon(1e-12));
   CHECK_THROWS_AS(sliding.integral([](double v) { return v; }, -1), std::domain_error);
 
-  // The path of a shot: what it costs, past the kink of the exact law.
+  // Count the calls of the law for the path of a shot, which passes the kink of the exact law.
   long calls = 0;
   const Orbit shot = Flow(ReducedSystem(HertzLaw{}, 0.1)).orbit({1.5, 1.5});
   const auto speed = [&](double v) { return ++calls, std::hypot(v - 0.8, 0.6); };
@@ -442,7 +442,7 @@ TEST_CASE("the slip of pure sliding is v0^2/2 over its deceleration, and without
   CHECK(sliding.slip_length(0) == 0);
   CHECK(Flow(system).orbit({3, 0}).slip_length(1) == 0);
   CHECK(Flow(system).orbit({0, 0}).slip_length(1) == 0);
-  // Next to the axis.
+  // A start next to the axis.
   CHECK(Flow(system).orbit({1e-12, 3}).slip_length(1e3) == Approx(3 * stop / 2).epsilon(1e-11));
 }
 
@@ -490,12 +490,12 @@ TEST_CASE("at a regularised time the state is that of steps of (2.7) in beta", "
         CHECK(found.beta == wanted.beta);
         CHECK(found.u == Approx(wanted.u).epsilon(1e-7));
         CHECK(found.tau == Approx(wanted.tau).epsilon(1e-7).margin(1e-9 * unit * unit * orbit.stop_time()));
-        // Under a drive v begins at 0 and has, at first, the digits of tau.
+        // With a drive v begins at 0. At first its digits are those of tau.
         const bool begins = start.v == 0 && wanted.beta < 1e-6 * unit;
         if (std::isfinite(wanted.ln_v) && !begins)
           CHECK(std::abs(found.ln_v - wanted.ln_v) < 1e-6 * (1 + std::abs(wanted.ln_v)));
       }
-      // There and back, to the end.
+      // From tau to beta and back, up to the stop.
       for (double share : {1e-3, 0.1, 0.5, 0.9, 1 - 1e-6}) {
         const OrbitPoint wanted = orbit.at_time_left((1 - share) * orbit.stop_time()),
                          found = at_beta(flow, start, wanted.beta);

@@ -53,7 +53,7 @@ TEST_CASE("the axes are invariant and the plane is symmetric", "[reduced_system]
     CHECK(system.regularised_field({0, 0}).u == 0);
     CHECK(system.regularised_field({0, 0}).v == 0);
     CHECK(system.slope({2, 0}) == 0);
-    // Symmetric under u -> -u.
+    // The field is symmetric under u -> -u.
     const State right{1.5, 0.7}, left{-1.5, 0.7};
     CHECK(system.field(left).u == -system.field(right).u);
     CHECK(system.field(left).v == system.field(right).v);

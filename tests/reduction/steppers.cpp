@@ -1,4 +1,4 @@
-// What both steppers are asked in the same words.
+// Tests that both steppers must pass.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -35,7 +35,7 @@ struct Stepper {
 const Stepper steppers[]{{"integrate_regularised", integrate_regularised, Route::regularised},
                          {"integrate_directly", integrate_directly, Route::direct}};
 
-/// A law that breaks down on the way, between the ratios at which a Law is examined: 5e-4 > k > 2e-5 has no number.
+/// A law that fails between the ratios at which Law tests it: it is NaN for 5e-4 > k > 2e-5.
 struct BrokenLaw {
   Resistance operator()(Slip slip) const {
     const bool broken = slip.sliding < 5e-4 * slip.pivoting && slip.sliding > 2e-5 * slip.pivoting;
@@ -43,7 +43,7 @@ struct BrokenLaw {
   }
 };
 
-/// States of a stepper beside those of the orbit: each relative to itself where k tends to 0, else to the start.
+/// Compares states of a stepper with those of the orbit, relative to themselves if k tends to 0, else to the start.
 struct States {
   explicit States(const std::string& name) : name_(name) {}
 
@@ -91,7 +91,7 @@ struct States {
   WorstCase stop_{"stop time"}, itself_{"state relative to itself"}, start_{"state relative to the start"};
 };
 
-/// A flat puck whose mass is at its rim: r = mu^2, any patch.
+/// Returns a flat puck whose mass is at its rim: r = mu^2, with any patch ratio.
 ReducedSystem rim_puck(const Law& law, double r) { return {law, std::sqrt(r), {.chi = 1, .gamma = 1}}; }
 
 }  // namespace
@@ -176,7 +176,7 @@ TEST_CASE("the steppers on the axes and at rest", "[steppers][limit]") {
   }
 }
 
-// tau, u, v carry the unit of speed.
+// tau, u and v have the unit of speed.
 TEST_CASE("the unit of speed does not matter to the steppers", "[steppers][symmetry]") {
   for (const Stepper& stepper : steppers) {
     for (const Law& law : paper_laws()) {

@@ -110,7 +110,7 @@ TEST_CASE("stop times on the axes, at rest and at the ends of the double range",
       const State mirrored{-start.u, start.v};
       CAPTURE(law.name(), mu, start.u, start.v);
       for (Route route : routes(system)) {
-        // The steppers carry logarithms: 500 eps of the exponent are in the speed.
+        // The steppers use logarithms, so a speed has an error of 500 eps of its exponent.
         const double here = stop_time(system, start, route).tau;
         CHECK((here == tau || here == Approx(tau).epsilon(is_stepper(route) ? 1e-11 : 4e-16)));
         CHECK(stop_time(system, mirrored, route).tau == here);

@@ -1,4 +1,4 @@
-// How a stop time changes with all that it follows from: (R10), (R57) and (R58) of reduction/README.md.
+// The derivatives of the stop time: (R10), (R57) and (R58) of reduction/README.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,7 @@ struct Question {
   }
 };
 
-/// d tau/d ln x, by central differences of the fourth order: 1e-10 of tau.
+/// Returns d tau/d ln x by central differences of order 4, to 1e-10 of tau.
 double by_differences(const Law& law, const Question& asked, double Question::*x) {
   constexpr double step = 2e-3;
   const auto tau = [&](double times) {
@@ -47,7 +47,7 @@ double by_differences(const Law& law, const Question& asked, double Question::*x
   return (8 * (tau(1) - tau(-1)) - (tau(2) - tau(-2))) / (12 * step);
 }
 
-/// The largest error of a derivative by the logarithm of what it is by, over the stop time.
+/// Returns the largest error of a logarithmic derivative, divided by the stop time.
 double error_of(const Law& law, const Question& asked) {
   const StopTimeGradient found = asked.flow(law).stop_time_gradient({asked.u, asked.v});
   const auto error = [&](double derivative, double Question::*x) {
@@ -61,12 +61,12 @@ double error_of(const Law& law, const Question& asked) {
 using Precise = long double;
 using Quantities = std::array<Precise, 4>;  ///< u, v, slip length, turned
 
-/// Phi and Psi at v and w = mu |u|.
+/// Returns Phi and Psi at v and w = mu |u|.
 using PreciseLaw = std::array<Precise, 2> (*)(Precise v, Precise w);
 
 constexpr Precise precise_pi = std::numbers::pi_v<Precise>;
 
-/// (2.6) by 3000 Runge-Kutta steps of order 8 in long double: no code of the library.
+/// Integrates (2.6) by 3000 Runge-Kutta steps of order 8 in long double, without any code of the library.
 Quantities integrated(PreciseLaw law, const ReducedSystem& system, Precise u, Precise v, Precise tau) {
   const Precise mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma, rho = system.drive();
   Quantities x{u, v, 0, 0};
@@ -113,7 +113,7 @@ TEST_CASE("the gradient agrees with differences, for every law", "[gradient][rou
 }
 
 TEST_CASE("the first drive that there is changes the stop time as the gradient says", "[gradient][drive]") {
-  // Under Pade's law it is felt at the first order while the ball spins, too: it creeps at once.
+  // Under the Pade law the drive has an effect of first order also while the ball spins: it creeps at once.
   for (const Law& law : paper_laws()) {
     const Question at{.u = 1, .v = 1, .mu = 0.3, .chi = 3.5, .gamma = 2.5, .drive = 0};
     constexpr double step = 1e-5;
@@ -129,7 +129,7 @@ TEST_CASE("the first drive that there is changes the stop time as the gradient s
 
 TEST_CASE("on a ray, beside it and on its way the gradient has the same limit", "[gradient][ray]") {
   for (double drive : {0.0, 0.1}) {
-    // Without a drive r = 3 has the ray; with one every body creeps at one, here a pool ball.
+    // Without a drive there is a ray for r = 3. With a drive every body has one at which it creeps, here a pool ball.
     const Question asked{
         .u = 1, .v = 0, .mu = drive > 0 ? 0.03 : std::sqrt(3.0 * 3.5 / 2.5), .chi = 3.5, .gamma = 2.5, .drive = drive};
     for (const Law& law : paper_laws()) {
@@ -208,7 +208,7 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
         const std::array forth{moved(1), moved(2), moved(3)}, back{moved(-1), moved(-2), moved(-3)};
         Quantities result;
         for (std::size_t i = 0; i < result.size(); ++i) {
-          // A slip that has all but vanished is the exponential of what changes evenly.
+          // When the slip has nearly vanished, it is the exponential of a number that changes evenly.
           const auto change = [&](std::size_t n) {
             return i == 1 ? std::log(forth[n][1] / back[n][1]) : forth[n][i] - back[n][i];
           };
@@ -231,8 +231,8 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
   }
 }
 
-// Against differences, for all laws, both signs of u, with and without a drive, before the slip has ended, long after,
-// and past the stop; and two spans of time, one after the other, against both at once.
+// Compare with differences, for all laws, both signs of u, with and without a drive, before and long after the end of
+// the slip, and after the stop. Also compare two successive time spans with one span.
 TEST_CASE("the gradient of an instant is that of differences, and obeys the chain rule", "[gradient][route]") {
   using Part = InstantGradient::Part;
   const auto parts = [](const InstantGradient& all) {
@@ -242,7 +242,7 @@ TEST_CASE("the gradient of an instant is that of differences, and obeys the chai
     const char* law;
     double mu, drive, u, v;
   };
-  // The last but one is on a ray, the last beside it.
+  // The last start but one lies on a ray, the last one beside it.
   for (const Start& start : {Start{"exact", 0.1, 0, 1, 1},
                              {"exact", 0.3, 0.05, -1, 0.2},
                              {"pade", 0.3, 0, 1, 1},
@@ -290,7 +290,7 @@ TEST_CASE("the gradient of an instant is that of differences, and obeys the chai
           Approx(other.slip_length.by_u * one.u.by_v + other.slip_length.by_v * one.v.by_v).epsilon(1e-8).margin(1e-9));
   }
   const Flow flow({HertzLaw{}, 0.1});
-  // When it rolls, at a slip of 1e-3.
+  // The time at which the ball rolls, at a slip of 1e-3.
   const double rolls = flow.orbit({1, 1}).time_of_v(1e-3);
   const InstantGradient then = instant_gradient(flow, {1, 1}, rolls);
   constexpr double step = 1e-5;

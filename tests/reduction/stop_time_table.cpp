@@ -33,7 +33,7 @@ struct Starts {
   std::vector<double> u0, v0;
 };
 
-/// Starts at the k that a table tells apart: all sizes, and every distance from k = 1 and from another k.
+/// Returns starts with k of all sizes, and at every distance from k = 1 and from another k, which a table separates.
 Starts random_starts(double mu, std::size_t count, double other_k = 1) {
   std::mt19937_64 generator(17);
   std::uniform_real_distribution<double> ln_k(-45, 45), ln_u(-3, 3);
@@ -56,14 +56,14 @@ std::vector<double> evaluated(const StopTimeTable& table, const Starts& starts, 
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// How many places of two arrays of one size differ.
+/// Returns the number of places at which two arrays differ.
 std::size_t differ(std::span<const double> a, std::span<const double> b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) count += !same_bits(a[i], b[i]);
   return count;
 }
 
-/// A table against stop_time, also beside the given k.
+/// Compares a table with stop_time, also next to the given k.
 void compare(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
   const Flow flow(system);
   const StopTimeTable table(flow);
@@ -76,7 +76,7 @@ void compare(WorstCase& worst, const ReducedSystem& system, double k, std::size_
   }
 }
 
-/// A table on the invariant ray at k, where both speeds fall at one rate, and, of random starts, against stop_time.
+/// Compares a table with the exact result on the invariant ray at k, and with stop_time at random starts.
 void compare_ray(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
   const double v0 = system.mu() * k;
   const double tau = StopTimeTable(system)(1, v0);
@@ -85,13 +85,13 @@ void compare_ray(WorstCase& worst, const ReducedSystem& system, double k, std::s
   compare(worst, system, 1, count);
 }
 
-/// r of the system whose invariant ray lies at k.
+/// Returns r of the system whose invariant ray lies at k.
 double r_of_ray(const Law& law, double k) {
   const auto [force, moment] = law(slip_of_ratio(k));
   return force / (k * moment);
 }
 
-/// A law with a second kink, at k = 0.7: what a table's panels cannot follow.
+/// A law with a second kink, at k = 0.7, which the panels of a table cannot follow.
 struct KinkedLaw {
   Resistance operator()(Slip slip) const {
     const auto [force, moment] = HertzLaw{}(slip);
@@ -119,7 +119,7 @@ TEST_CASE("tables of balls are stop_time, and proved", "[stop_time_table][route]
 }
 
 TEST_CASE("tables are stop_time wherever the invariant ray lies", "[stop_time_table][route]") {
-  // Once up to 28 % wrong where the ray lay at k = 1 or at the edge of a panel, for every start or on the ray alone.
+  // Errors of up to 28 % were found if the ray lay at k = 1 or at the edge of a panel, on the ray or everywhere.
   WorstCase found("rays at the edges of panels, as they were found");
   const auto body = [](double r) { return Inertia{1, r}; };
   compare(found, {PressureLaw::ring(), 1, body(1)}, 1, 300);
@@ -132,7 +132,7 @@ TEST_CASE("tables are stop_time wherever the invariant ray lies", "[stop_time_ta
   for (double p : {-0.3, 2.0, 3.0, 4.5}) compare(found, {PressureLaw(p), 1, body(2 * p + 3)}, 1, 300);
   CHECK_WITHIN_EPS(found, 4);
 
-  // y = 1/2^n and what lies between is an edge on each of the four branches.
+  // The numbers y = 1/2^n and some numbers in between are edges of panels on each of the four branches.
   WorstCase edges("rays at edges of panels");
   for (const Law& law : {Law(HertzLaw{}), Law(PressureLaw::ring()), Law(PressureLaw::uniform()), Law(PadeLaw{})}) {
     for (double y : {0x1.5p-2, 0x1.4p-2, 0x1p-2, 0x1.9p-4, 0x1p-6}) {
@@ -152,7 +152,7 @@ TEST_CASE("panels that fail their proof are not used, and the table says so", "[
   CHECK(table.refused() > 0);
   CHECK(table.refused() < 0.1);
   CHECK(table.worst_error() <= 4 * eps);
-  // Around the kink they are those of the curve to the last bit, alone and in company.
+  // Around the kink the results equal those of the curve to the last bit, for single starts and in arrays.
   std::vector<double> u0(1000, 1.0), v0(1000);
   for (std::size_t i = 0; i < v0.size(); ++i) v0[i] = 0.3 * (0.6 + 0.0002 * static_cast<double>(i));
   const auto tau = evaluated(table, {u0, v0});
@@ -169,7 +169,7 @@ TEST_CASE("one start and many, cut and shared in any way, have the same bits", "
     const double mu = 0.3;
     const StopTimeTable table(ReducedSystem(law, mu, homogeneous_ball));
     Starts starts = random_starts(mu, 20'077);
-    // Some that the table leaves to the curve, alone and in company.
+    // Some starts that the table leaves to the curve, singly and in arrays.
     for (std::size_t i : {3U, 4U, 11'000U, 20'076U}) starts.v0[i] = i % 2 == 0 ? -1 : 1e-300;
     for (std::size_t i : {4U, 500U, 12'001U}) starts.u0[i] = i % 2 == 0 ? infinity : 1e300;
     const auto whole = evaluated(table, starts);
@@ -235,7 +235,7 @@ TEST_CASE("bodies and speeds at the ends of the double range", "[stop_time_table
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu, homogeneous_ball);
       const StopTimeTable table(system);
-      // Alike but for a power of two, in the middle of the double range and near its ends.
+      // Starts that differ by a power of two, in the middle of the range of doubles and near its ends.
       for (int power : {-1030, -950, -850, 850, 950, 1000}) {
         const double scaled = table(std::ldexp(1.3, power), std::ldexp(0.7, power));
         const double u = std::ldexp(std::ldexp(1.3, power), -power), v = std::ldexp(std::ldexp(0.7, power), -power);

@@ -1,4 +1,4 @@
-// The slopes of laws against the laws themselves.
+// The slopes of laws are compared with differences of the laws themselves.
 #include "contensou/reduction/tangent.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Slopes by Richardson's extrapolation of central differences over the ratio of the speeds, to some 1e-11.
+/// Returns slopes by Richardson's extrapolation of central differences in the ratio of the speeds, to about 1e-11.
 kernel::Friction<double> extrapolated(const Law& law, Slip slip) {
   const bool pivots = slip.sliding <= slip.pivoting;
   const double ratio = pivots ? slip.sliding / slip.pivoting : slip.pivoting / slip.sliding;
@@ -53,7 +53,7 @@ TEST_CASE("the tangent of every law is that of its curve", "[laws]") {
       CHECK(force_slope == Approx(expected.force_slope).epsilon(0).margin(3e-9));
       CHECK(moment_slope == Approx(expected.moment_slope).epsilon(0).margin(3e-9));
       CHECK(force_slope >= -1e-9);
-      if (law.name() != "pade")  // the only one without a potential
+      if (law.name() != "pade")  // the only law without a potential
         CHECK(slip.sliding * force_slope == Approx(slip.pivoting * moment_slope).epsilon(0).margin(1e-9));
     }
   }
@@ -72,12 +72,12 @@ TEST_CASE("slopes at both ends and at k = 1 in closed form", "[laws][limit]") {
     for (double ratio : {0.0, 1e-12, 3e-6, 1e-5}) {
       CAPTURE(law.name(), ratio);
       CHECK(tangent_of(law)({ratio, 1}).force_slope == Approx(law.force_slope()).epsilon(1e-4));
-      if (law.name() == "pade") continue;  // its Phi and Psi are not smooth there
+      if (law.name() == "pade") continue;  // Phi and Psi of this law are not smooth there
       CHECK(tangent_of(law)({1, ratio}).force_slope == Approx(0).epsilon(0).margin(1e-5));
       CHECK(tangent_of(law)({ratio, 1}).moment_slope == Approx(ratio * law.force_slope()).epsilon(0).margin(1e-9));
     }
   }
-  // Both forms of the exact law's slope meet.
+  // The two formulas for the slope of the exact law agree at the place where they meet.
   const double below = tangent_of(HertzLaw{})({std::nextafter(8, 0), 1}).moment_slope;
   CHECK(tangent_of(HertzLaw{})({8, 1}).moment_slope == Approx(below).epsilon(1e-11));
   CHECK(tangent_of(HertzLaw{})({std::nextafter(1, 2), 1}).moment_slope == Approx(3 * pi / 32).epsilon(1e-12));

@@ -16,7 +16,7 @@ using namespace contensou::reduction;
 
 namespace {
 
-/// The end of a law and an r that have only one.
+/// Returns the end of a law and an r for which there is only one.
 TerminalRatio end_of(const Law& law, double r) {
   const TerminalRatios ratios = terminal_ratios(law, r);
   REQUIRE(ratios.ends.size() == 1);
@@ -27,12 +27,12 @@ TerminalRatio end_of(const Law& law, double r) {
 
 TEST_CASE("published and closed terminal ratios", "[terminal_ratio][table]") {
   const auto ratio = [](const char* law, double r) { return end_of(*find_law(law), r).k; };
-  // A uniform disc on its own face: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
+  // Reference for a uniform disc on its own face: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
   CHECK(ratio("uniform", 2) == Approx(0.653001789205597639).epsilon(1e-14));
   CHECK(ratio("uniform", 3) == Approx(1).epsilon(1e-14));
   CHECK(ratio("ring", 1) == Approx(1).epsilon(1e-14));
   CHECK(ratio("exact", 2.5) == Approx(std::sqrt((32 - std::sqrt(544.0)) / 30)).epsilon(1e-14));
-  // Pade: A + B k = 0, with A = 8 (2 - r), B = 3 pi (5 - r).
+  // Under the Pade law the ray satisfies A + B k = 0 with A = 8 (2 - r), B = 3 pi (5 - r).
   CHECK(ratio("pade", 3) == Approx(8 / (3 * std::acos(-1.0) * 2)).epsilon(1e-14));
 }
 
@@ -88,12 +88,12 @@ TEST_CASE("Phi/(k Psi) need not grow: every ray is found", "[terminal_ratio]") {
   }
 }
 
-// README (R40).
+// reduction/README.md (R40).
 TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just above", "[terminal_ratio][limit]") {
   std::mt19937 random(40);
   std::uniform_real_distribution<double> share(0, 1);
   for (int table = 0; table < 20; ++table) {
-    // Steps between random radii, most of them narrow peaks; every fourth table is a ring at the rim.
+    // Pressures with steps between random radii, most of them narrow peaks. Every fourth table is a ring at the rim.
     Eigen::ArrayXd rho(6), pressure(6);
     for (double& each : rho) each = share(random);
     if (table % 4 == 0) rho.tail(2) << 1 - 1e-3 * share(random), 1;
@@ -120,7 +120,7 @@ TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just 
 
 TEST_CASE("a ray that Phi/(k Psi) only touches attracts from one side", "[terminal_ratio][limit]") {
   const Law law = contensou::tests::OcticLaw{};
-  // r at the minimum, by golden section.
+  // Find the minimum of r by golden section.
   const auto ratio = [&](double k) { return law({k, 1}).force / (k * law({k, 1}).moment); };
   double low = 0.1, high = 0.2;
   for (int i = 0; i < 80; ++i) {

@@ -8,8 +8,7 @@
 
 namespace contensou::tests {
 
-/// The two homogeneous terms of one rational power: Phi = k/sqrt(c^2 + k^2), Psi = c^2/sqrt(c^2 + k^2).
-/// One function and nothing else, as a user would write it.
+/// The simplest law of a user, one function: Phi = k/sqrt(c^2 + k^2), Psi = c^2/sqrt(c^2 + k^2).
 struct RootLaw {
   double c = 0.8;
 
@@ -19,12 +18,12 @@ struct RootLaw {
   }
 };
 
-/// The exact law by the name of the other: a law is known by its type.
+/// The exact law with the name of the Pade law. The library identifies laws by their type.
 struct Impostor : reduction::HertzLaw {
   static constexpr std::string_view name = "pade";
 };
 
-/// Only the call of another law: what is left when its closed form, its bounds and its deficit are hidden.
+/// A law that has only the call operator of another law. Closed form, bounds and deficits of the other law are hidden.
 template <class L>
 struct CallOnly {
   L law{};

@@ -31,7 +31,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// Friction that depends on the speeds themselves, and not on their ratio alone: so little that it passes for a Law.
+/// Friction that depends on the speeds, not only on their ratio, but so little that it passes the tests of Law.
 struct SpeedDependent : HertzLaw {
   Resistance operator()(Slip slip) const {
     auto [force, moment] = HertzLaw::operator()(slip);
@@ -52,7 +52,7 @@ struct ShareTooSmall : PadeLaw {
   static constexpr SlidingBounds sliding_bounds{1, 1.01};
 };
 
-/// The bound of the Pade law, claimed for Coulomb friction.
+/// Coulomb friction that states the bound of the Pade law.
 struct WrongSide : HertzLaw {
   static constexpr SlidingBounds sliding_bounds{1, 2.5};
 };
@@ -77,10 +77,10 @@ Names failing(const Law& law) { return failing(verify(ReducedSystem(law, 0.3), s
 
 Names failing(const Flow& flow, const std::vector<State>& starts = {start}) { return failing(verify(flow, starts)); }
 
-/// The Pade law with a curve that lies.
+/// Returns the flow of the Pade law with a curve that returns false values.
 Flow pade_lie(CurveLie lie) { return lying_flow(ReducedSystem(PadeLaw{}, 0.3), std::move(lie)); }
 
-/// The exact law with a ln w that is not its own at the one k = 0.3.
+/// Returns the failed checks for the exact law if ln w is false at k = 0.3.
 Names failing_inside(const std::function<double(double truth)>& lie) {
   return failing(lying_flow(ReducedSystem(HertzLaw{}, 0.3), {.ln_w = [&](double ln_k, double truth) {
                               return ln_k == std::log(0.3) ? lie(truth) : truth;
@@ -97,7 +97,7 @@ CurveLie of_another_r() {
 struct Liar {
   std::string lie;
   Names failing;
-  Names caught_by;  // at least
+  Names caught_by;  // names of checks that must fail
 };
 
 std::vector<Liar> liars() {
@@ -190,8 +190,8 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
                                   {1e-320, 1},
                                   {5e-324, 5e-324}});
     }
-    // Found with mu = 0.907, k0 = 6e16, Pade: a tail shorter than rounding was reported as if it were the limit; and
-    // with mu = 0.5, k0 = 1.1e15: the step to k = 1 was measured by differences of the time, all rounding by then.
+    // Failures found with mu = 0.907, k0 = 6e16, Pade: a tail shorter than rounding was reported as the limit; and with
+    // mu = 0.5, k0 = 1.1e15: the step to k = 1 was measured by differences of the time, which were only rounding.
     for (double mu : {1e-3, 0.174, 0.502, 0.907, 1.0, 1.4}) {
       all_pass({law, mu, homogeneous_ball}, at_ratios(1, mu, {1e-4, 1.3, 1e6, 1e10, 1.1e15, 6e16, 7e18, 1e25}));
     }
@@ -201,20 +201,20 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
       all_pass({*find_law(name), std::sqrt(r), {1, 1}}, at_ratios(-1, std::sqrt(r), {1e-3, 0.3, 1, 3, 1e3}));
     }
   }
-  // On both sides of a ray that repels.
+  // Starts on both sides of a ray that repels.
   for (double r : {1.991, 1.995, 2.0}) {
     all_pass({OcticLaw{}, 1, {1, r}}, at_ratios(1, 1, {1e-3, 0.05, 0.0817, 0.1, 0.2, 3}));
   }
-  // A small Psi(0): the spin beside which sliding counts as pure lasted for 1.6e-13 of the stop time.
+  // For a small Psi(0), the spin below which sliding counted as pure lasted for 1.6e-13 of the stop time.
   all_pass({*find_law("elliptic:0.00623"), 1, {1, 1}}, {{0.0020000208071526463, 48.03878888948412}});
-  // A step that ends on the ray itself, where beta is infinite, was no number.
+  // A step that ended on the ray itself, where beta is infinite, gave NaN.
   all_pass({*find_law("ring"), 1}, {{1, 1}, {1, 3}});
-  // The last step up to k = 1, where the ring's law has a logarithm, had an error of 4e-10 that Fehlberg's estimate did
-  // not see: a sound start failed.
+  // The last step up to k = 1, where the ring's law has a logarithm, had an error of 4e-10. Fehlberg's estimate did not
+  // detect it, and a correct start failed.
   all_pass({*find_law("ring"), 1, {1, 2}}, {{-8.844036090085774e+24, 3.822494201173439e+22}});
 }
 
-// Of pressures with steps and annuli.
+// Pressures with steps and annuli.
 TEST_CASE("every check holds under a table with steps", "[verification][invariant]") {
   const auto table = [](const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
     return TabulatedPressureLaw("table", rho, pressure);
@@ -268,7 +268,7 @@ TEST_CASE("each lie is caught, and each check catches one", "[verification]") {
   CHECK(failing(HertzLaw{}).empty());
 }
 
-// std::max(worst, NaN) is worst: a number that is none must not be lost on the way to its row.
+// std::max(worst, NaN) returns worst, so a NaN could be lost on the way to its row.
 TEST_CASE("not a number counts as failed", "[verification]") {
   CHECK_FALSE(Check{"row", not_a_number, 1e-10}.passed());
   CHECK(Check{"row", 1e-10, 1e-10}.passed());
@@ -288,7 +288,7 @@ TEST_CASE("not a number counts as failed", "[verification]") {
   CHECK(share.contains("limit of pure pivoting"));
   CHECK(failing_inside([](double) { return not_a_number; }) == Names{"elementary orbit for k <= 1"});
 
-  // Not lost among several starts, either, whichever comes first.
+  // A NaN is not lost among several starts, in whatever order.
   const State fast{1, 1e9};
   const CurveLie lost_fast{
       .beta_coefficient = [](double ln_k, double truth) { return ln_k > 10 ? not_a_number : truth; }};
@@ -296,7 +296,7 @@ TEST_CASE("not a number counts as failed", "[verification]") {
   CHECK(failing(pade_lie(lost_fast), {fast, start}) == Names{"beta(k) against (2.8)"});
 }
 
-// A law's name is for people: this one is checked as what it is, by the routes that it has.
+// The name of a law has no effect: the law is checked by its type, with the routes that this type has.
 TEST_CASE("the exact law by the name of the other is the exact law", "[verification][route]") {
   const ReducedSystem impostor(Impostor{}, 0.3);
   const ReducedSystem exact(HertzLaw{}, 0.3);

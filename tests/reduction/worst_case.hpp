@@ -12,18 +12,18 @@
 
 namespace contensou::tests {
 
-/// The worst of many comparisons, and where it was.
+/// The worst of many comparisons, and the case in which it occurred.
 ///
-/// Errors are in eps = 2^-52 of the number wanted (or of a scale that the caller names), so a bound reads like the one
-/// in the header. Run with -s to see what was measured.
+/// Errors are in eps = 2^-52 of the wanted number (or of a scale that the caller gives), like the bounds in the
+/// headers. With the option -s the test prints the measured errors.
 class WorstCase {
  public:
   explicit WorstCase(std::string what) : what_(std::move(what)) {}
 
-  /// A number that is known better than a double.
+  /// Adds a comparison with a number that is known to more digits than a double has.
   void add(long double wanted, double got, const std::string& where) { add(wanted, got, std::abs(wanted), where); }
 
-  /// The same, relative to a scale >= 0 of the caller's choice.
+  /// Adds a comparison whose error is relative to a given scale >= 0.
   void add(long double wanted, double got, long double scale, const std::string& where) {
     const double error = in_eps(wanted, got, scale);
     sum_ += error;
@@ -33,7 +33,7 @@ class WorstCase {
     worst_where_ = fmt::format("{}: wanted {:.21Lg}, got {:.17g}", where, wanted, got);
   }
 
-  /// In eps; infinity if anything was not a number.
+  /// Returns the worst error in eps; infinity if any number was NaN.
   double worst() const { return worst_; }
   double mean() const { return sum_ / static_cast<double>(count_); }
   long count() const { return count_; }
@@ -65,7 +65,7 @@ class WorstCase {
 
 }  // namespace contensou::tests
 
-/// Fails, naming the worst case, unless every error is at most so many eps; also if nothing was compared.
+/// Fails, with the worst case in the message, unless every error is at most `bound` eps; also if nothing was compared.
 #define CHECK_WITHIN_EPS(worst_case, bound) \
   do {                                      \
     INFO((worst_case).sentence());          \

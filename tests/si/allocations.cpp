@@ -1,4 +1,4 @@
-// In a file of its own: GCC 12 takes an operator delete that it can inline for a mismatched one.
+// This file is separate because GCC 12 takes an operator delete that it can inline for a mismatched one.
 #include "allocations.hpp"
 
 #include <atomic>

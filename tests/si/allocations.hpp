@@ -1,4 +1,4 @@
 #pragma once
 
-/// How often operator new was called in this program.
+/// Returns the number of calls of operator new in this program.
 long allocations();

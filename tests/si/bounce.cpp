@@ -43,7 +43,7 @@ TEST_CASE("a ball without spin leaves as textbooks say: f (1 + e) v_n, or 2/7 of
       CHECK(end.grip == Approx(slip / (3.5 * 0.3)).epsilon(1e-13));
     }
   }
-  // Topspin that is faster than the centre drives it on; a shell takes 2/5 of the slip.
+  // Topspin that is faster than the centre drives the ball forward. A shell gains 2/5 of the slip.
   const Rebound topspin = bounce(coming("basketball", 5e-3, {{1, 0}, {0, 30, 0}}), law, {2, 0.5}, 0);
   CHECK(topspin.velocities.velocity.x() == Approx(1 + 2.0 / 5 * (30 * 0.121 - 1)).epsilon(1e-12));
 }
@@ -71,7 +71,7 @@ TEST_CASE("however the load comes and goes, its impulse counts", "[bounce][route
   const Experiment ball = coming("pool", 2.83e-3, {{1, 0.5}, {3, -20, 300}});
   const Impact hard{.normal_speed = 4, .restitution = 0.7};
   const Rebound end = bounce(ball, law, hard);
-  // Two uneven ramps within 3 ms, whose impulse is m (1 + e) v_n.
+  // The load consists of two uneven ramps within 3 ms, with the impulse m (1 + e) v_n.
   const double peak = hard.impulse() * ball.ball.mass / 1.5e-3;
   Experiment pressed = ball;
   constexpr double first = 1;
@@ -90,7 +90,7 @@ TEST_CASE("the patch of an elastic impact, a mean over the impulse, against step
       [](double w) { return std::pow(1 - w * w, 0.2); }, 0.0, 1.0);
   const HertzModuli moduli = std::get<HertzModuli>(find_ball("steel")->experiment.contact.patch);
   const double m = 0.0327, R = 0.01, v = 2, E = effective_modulus(moduli);
-  // The deepest dent by its energy: m v^2/2 = (8/15) E sqrt(R) d^(5/2).
+  // The deepest dent follows from the energy: m v^2/2 = (8/15) E sqrt(R) d^(5/2).
   const double dent = std::pow(15 * m * v * v / (16 * E * std::sqrt(R)), 0.4);
   CHECK(hertz_impact_patch_radius(m, v, R, moduli) == Approx(integral * std::sqrt(R * dent)).epsilon(1e-12));
 

@@ -56,7 +56,7 @@ TEST_CASE("the Hertz radius grows with the cube root of load and radius", "[symm
 TEST_CASE("of two spheres Hertz's patch is that of their relative curvature", "[table]") {
   const HertzModuli plane{.youngs_modulus = {2.1e11, 7.0e10}, .poisson_ratio = {0.3, 0.22}};
   HertzModuli sphere = plane, dish = plane;
-  sphere.counter_radius = 0.01;  // as the ball: half its radius
+  sphere.counter_radius = 0.01;  // as the ball; R' is half its radius
   dish.counter_radius = -0.03;   // 1/R' = 1/0.01 - 1/0.03
   CHECK(hertz_patch_radius(0.3, 0.01, sphere) == Approx(hertz_patch_radius(0.3, 0.005, plane)).epsilon(1e-15));
   CHECK(hertz_patch_radius(0.3, 0.01, dish) == Approx(hertz_patch_radius(0.3, 0.015, plane)).epsilon(1e-15));

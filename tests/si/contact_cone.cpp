@@ -25,13 +25,13 @@ Experiment gel(double slip, double spin) {
   return experiment;
 }
 
-/// From the cone and the principle of greatest dissipation alone: the point of the cone's border with the greatest
-/// power is searched for, acts for two microseconds, and is searched for again.
+/// Computes the times from the cone and the principle of greatest dissipation alone. The point of the cone's border
+/// with the greatest power is searched for and acts for two microseconds; then the search is repeated.
 FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) {
   struct Point {
-    double force, moment;  // over f N, over c N
+    double force, moment;  // divided by f N and by c N
   };
-  const auto border = [cone](double t) -> Point {  // t from 0 to 1: a quarter of it
+  const auto border = [cone](double t) -> Point {  // t from 0 to 1 covers a quarter of the border
     const double x = (1 - t * t) / (1 + t * t);
     const double y = 2 * t / (1 + t * t);
     const double size = cone == Cone::elliptic ? 1 : cone == Cone::box ? std::max(x, y) : x + y;
@@ -67,7 +67,7 @@ TEST_CASE("under a cone acts what dissipates most", "[route]") {
     double slip, spin;
   };
   for (const Cone cone : {Cone::elliptic, Cone::box, Cone::pyramid}) {
-    // More slip than (c/f) omega, less of it, so little that it is all frozen, and all but no spin.
+    // Starts with more slip than (c/f) omega, with less, with so little that it is frozen, and with hardly any spin.
     for (const auto& [slip, spin] : {Start{0.5, 30}, Start{0.05, -30}, Start{1e-4, 20}, Start{0.3, 0.05}}) {
       const Experiment experiment = gel(slip, spin);
       const FadeTimes found = by_search(experiment, cone, arm);
@@ -83,9 +83,9 @@ TEST_CASE("under a cone acts what dissipates most", "[route]") {
 
 namespace {
 
-/// A disc of radius a on four contact points at `arm` from its middle, each with a quarter of the load, in steps, as
-/// engines make them.
-/// @param twist  one row for the slip and one for the spin, each bounded for itself; else friction at each point
+/// Integrates, in steps like an engine, a disc of radius a on four contact points at `arm` from its middle, each with a
+/// quarter of the load.
+/// @param twist  true: one row for the slip and one for the spin, bounded separately; false: friction at each point
 FadeTimes in_steps(const Experiment& puck, double arm, bool twist) {
   const double f = puck.contact.friction, a = puck.ball.radius, g = puck.environment.gravity;
   constexpr double dt = 1e-4;
@@ -94,8 +94,8 @@ FadeTimes in_steps(const Experiment& puck, double arm, bool twist) {
   double w = w0, turned = 0;
   FadeTimes times{0, 0, 0, 0};
   for (long i = 1; v.norm() > faded * v0 || w > faded * w0; ++i) {
-    Eigen::Vector2d force = Eigen::Vector2d::Zero();  // over the mass
-    double moment = 0;                                // over the moment of inertia
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();  // force divided by the mass
+    double moment = 0;                                // moment divided by the moment of inertia
     for (int k = 0; k < 4; ++k) {
       const double angle = turned + k * std::numbers::pi / 2;
       const Eigen::Vector2d r = arm * Eigen::Vector2d(std::cos(angle), std::sin(angle));
@@ -188,7 +188,7 @@ TEST_CASE("slip and spin under a pyramid fade when fade_times says", "[analytic]
     const SlipAndSpin later = speeds_under_pyramid(experiment, arm, 9);
     CHECK((later.slip == 0 && later.spin == 0));
   }
-  // Its spin is frozen while k > 1; then both fall together.
+  // The spin is frozen while k > 1. Then slip and spin fall together.
   const Experiment fast = gel(1, 100);
   CHECK(speeds_under_pyramid(fast, arm, 0.02).spin == Approx(100).epsilon(1e-15));
   const SlipAndSpin together = speeds_under_pyramid(fast, arm, 0.2);

@@ -19,7 +19,7 @@ using namespace contensou::si;
 
 namespace {
 
-/// The moment over the load, in m, that an engine makes of the numbers typed in, by the formula in its source.
+/// The moment divided by the load, in m, that an engine computes from its numbers, by the formula in its source.
 using Limit = std::function<double(const std::vector<double>& typed, double radius)>;
 
 const Limit the_last = [](const std::vector<double>& typed, double /*radius*/) { return typed.back(); };
@@ -125,6 +125,6 @@ TEST_CASE("what is published as the radius or diameter of a patch is too much by
   };
   CHECK(times("mujoco", 3) == Approx(2 / (0.2 * 3 * std::numbers::pi / 16)));  // 17
   CHECK(times("physx", 1) == Approx(16 / (3 * std::numbers::pi)));             // 1.7
-  // pooltool's spin deceleration is (5/2) u_sp g/R = 10.9 rad/s^2 where 10 were meant.
+  // The spin deceleration in pooltool is (5/2) u_sp g/R = 10.9 rad/s^2 instead of the intended 10.
   CHECK(times("pooltool", 1) == Approx(2.5 * (10 * 2.0 / 5 / 9) * 9.80665 / 10));
 }

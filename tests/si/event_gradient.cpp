@@ -1,4 +1,4 @@
-// Derivatives of a roll's events against the algebra of (R61) and of the first integrals, by the chain rule.
+// Derivatives of a roll's events are compared with the algebra of (R61) and of the first integrals, by the chain rule.
 #include "contensou/si/event_gradient.hpp"
 
 #include <cmath>
@@ -27,7 +27,7 @@ Experiment gel_shot() {
   return experiment;
 }
 
-/// How the events t, x, y change by a change of the start and of friction: R, the patch and gravity stay.
+/// The exact change of the events t, x, y with a change of start and friction. R, the patch and gravity are constant.
 class Exact {
  public:
   Exact(const Experiment& experiment, const Velocities& change, double by_friction)
@@ -47,7 +47,7 @@ class Exact {
     du_ = R * change.angular_velocity.z();
   }
 
-  /// When the slip has fallen to a speed: t, x, y.
+  /// Returns t, x, y of the event at which the slip has fallen to a speed.
   Eigen::Vector3d slips(double speed) const {
     const double tau = flow_.orbit(state_).time_of_v(speed);
     const reduction::InstantGradient at = reduction::instant_gradient(flow_, state_, tau);
@@ -59,7 +59,7 @@ class Exact {
     return event(reduction::instant_gradient(flow_, state_, by.tau), by.tau, by.by_v * dv_ + by.by_u * du_);
   }
 
-  /// Of the integrals of slip and R spin until the stop.
+  /// Return the derivatives of the integrals of slip and R spin until the stop.
   double slip_length() const { return integral(at_stop().slip_length); }
   double turned() const { return integral(at_stop().turned); }
 
@@ -131,7 +131,7 @@ TEST_CASE("the stop time changes with the patch and with R as the exact gradient
 }
 
 TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", "[invariant]") {
-  // Rolling already, it loses u_r g a second: t = V/(u_r g), x = V^2/(2 u_r g); its spin changes neither.
+  // A ball that already rolls loses u_r g per second: t = V/(u_r g), x = V^2/(2 u_r g). Its spin changes neither.
   Experiment experiment = gel_shot();
   experiment.contact.rolling_friction = 0.01;
   const double V = 0.6, R = experiment.ball.radius, g = experiment.environment.gravity;
@@ -142,8 +142,8 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   const auto names = numbers.names();
   CHECK(names.size() == 13);
   CHECK(names[6].event == "rest");
-  // Without spin it slides at (f - u_r) chi g and rolls from then on: its centre slows at (f - u_r) g + u_r g, then u_r
-  // g.
+  // Without spin the ball slides at (f - u_r) chi g, then rolls. Its centre slows down at (f - u_r) g + u_r g, then at
+  // u_r g.
   const double v = 0.5, f = experiment.contact.friction, chi = experiment.ball.body.inertia.chi, u_r = 0.01;
   const auto rest_time = [&](double friction_there, double resisting) {
     const double slides = v / (chi * (friction_there - resisting) * g);
@@ -159,7 +159,7 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   CHECK(gradient.slopes.cols() == static_cast<Eigen::Index>(gradient.by.size()));
 }
 
-// By differences of an integration in Python that shares no code with this one, good to 1e-9.
+// References by differences of an integration in Python that shares no code with this one, accurate to 1e-9.
 TEST_CASE("a ball that slides across its roll: what its rest changes with", "[reference]") {
   Experiment experiment = find_ball("pool")->experiment;
   experiment.contact.patch = PatchRadius{0.0028270315380884551};
@@ -182,7 +182,7 @@ TEST_CASE("a ball that slides across its roll: what its rest changes with", "[re
 
 TEST_CASE("at the threshold of rolling what moves the slip has a corner, and near it none of its steps meets it",
           "[edge]") {
-  // Without spin slip falls at chi f g.
+  // Without spin the slip falls at chi f g.
   Experiment experiment = gel_shot();
   const double R = experiment.ball.radius, threshold = 0.5;
   const double slowing =

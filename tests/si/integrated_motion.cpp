@@ -32,10 +32,10 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
       const Experiment experiment = experiment_of(motion_cases[2], mu);
       const Motion in_steps = Motion::in_steps(experiment, law);
       const double stop = in_steps.stop_time();
-      // The power of each friction, (f N) Phi v and (f N eps) Psi |omega_z|, summed along the integration.
+      // The powers of both frictions, (f N) Phi v and (f N eps) Psi |omega_z|, are summed along the integration.
       const double load = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity;
       const double eps = patch_radius_of(experiment, law);
-      // Simpson's rule in s, t = stop s^4: the start, where the ball slides, in detail.
+      // Simpson's rule in s, t = stop s^4, which resolves the beginning, where the ball slides.
       constexpr Eigen::Index panels = 4000;
       const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(panels + 1, 0, 1);
       const Eigen::ArrayXd times = stop * s.pow(4);

@@ -17,7 +17,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A built-in body under a nominal load of 2 N.
+/// Returns a built-in body under a nominal load of 2 N.
 Experiment pressed(const char* name, SlipAndSpin start) {
   Experiment experiment = find_ball(name)->experiment;
   if (!experiment.ball.body.lies_flat()) experiment.contact.patch = PatchRadius{7e-3};
@@ -26,7 +26,7 @@ Experiment pressed(const char* name, SlipAndSpin start) {
   return experiment;
 }
 
-/// From 2 N to 4 N in a second, then 1 N, nothing for a tenth of a second, and 3 N.
+/// A load from 2 N to 4 N in a second, then 1 N, then 0 for a tenth of a second, then 3 N.
 const LoadHistory varied{{0, 1, 1, 1.2, 1.2, 1.3, 1.3}, {2, 4, 1, 1, 0, 0, 3}};
 
 }  // namespace
@@ -81,7 +81,7 @@ TEST_CASE("a constant load is that load, and a load as large again one of half t
   Experiment heavier = ball;
   heavier.environment = {.gravity = 4 / ball.ball.mass, .load = 4};
   const Motion twice = Motion::reduced(heavier, law);
-  // 2 N for no time at all.
+  // A load of 2 N that lasts for no time.
   const Motion doubled = Motion::reduced(ball, law, LoadHistory({0, 0, 1}, {2, 4, 4}));
   for (double share : {0.01, 0.1, 0.6, 1.2}) {
     for (const auto& [one, other] :
@@ -108,7 +108,7 @@ TEST_CASE("a load that comes and goes, against the equations of motion in steps"
     const double eps = patch_radius_of(body, law), R = body.ball.radius,
                  f_over_m = body.contact.friction / body.ball.mass;
     const double chi = body.ball.body.inertia.chi, gamma = body.ball.body.inertia.gamma;
-    // v, omega, what the contact has slid, turned; by Runge and Kutta's method, a load at a time.
+    // v, omega, slip length and angle, by the method of Runge and Kutta, for each part of the load.
     using State = std::array<double, 4>;
     const auto rate = [&](const State& s, double load) {
       const auto [force, moment] = law(reduction::Slip{std::max(0.0, s[0]), eps * s[1]});

@@ -43,16 +43,16 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(rolling.x() == Approx(R * turning.y()).epsilon(1e-15));
   CHECK(rolling.y() == Approx(-R * turning.x()).epsilon(1e-15));
   CHECK(turning.z() == 0);
-  // The angular momentum about any point of the plane is kept: m R V + J omega across it.
+  // The angular momentum about any point of the plane is constant: m R V + J omega in the direction across V.
   CHECK(rolling.x() + 0.4 * R * turning.y() == Approx(1 + 0.4 * R * -30).epsilon(1e-15));
   CHECK(rolling.y() - 0.4 * R * turning.x() == Approx(0.5 - 0.4 * R * 20).epsilon(1e-15));
-  // The two ways to give one start agree.
+  // The two forms of a start agree.
   experiment.start = Velocities{{2, 0}, {0, 0, 7}};
   const Velocities general = final_motion(experiment);
   experiment.start = SlipAndSpin{.slip = 2, .spin = 7};
   CHECK(general.velocity.isApprox(final_motion(experiment).velocity, 1e-15));
   CHECK(general.angular_velocity.isApprox(final_motion(experiment).angular_velocity, 1e-15));
-  // 7 R omega_y + 5 v keeps its value, v being the slip.
+  // 7 R omega_y + 5 v is constant, where v is the slip.
   CHECK(7 * R * general.angular_velocity.y() == Approx(5 * 2).epsilon(1e-15));
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[inv
   const MotionPoint end = motion.at(motion.stop_time());
   CHECK(end.velocity.norm() < 1e-14);
   CHECK(end.angular_velocity == Eigen::Vector3d::Zero());
-  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // it slides wherever it moves
+  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // it slides along its whole path
   CHECK(final_motion(puck).velocity == Eigen::Vector2d::Zero());
   const auto [sliding, pivoting] = energy_loss(puck);
   CHECK(sliding == Approx(0.163 * 25 / 2).epsilon(1e-15));

@@ -33,7 +33,7 @@ TEST_CASE("from where it rolls, a ball slows down evenly and rests V/a later, V^
   CHECK((rest.position - rests.place).norm() < 1e-15);
   CHECK(slowed.at(rolls.t * 1.5).angular_velocity.z() == free.at(rolls.t * 1.5).angular_velocity.z());
 
-  // Without a speed it rests where it is.
+  // Without a velocity the ball rests at its start.
   experiment.start = Velocities{{0, 0}, {0, 0, 5}};
   CHECK(Motion::uncoupled(experiment, law).rest()->t == 0);
   CHECK(Motion::uncoupled(experiment, law).rest()->place == Eigen::Vector2d(0, 0));

@@ -21,7 +21,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-// toml++ reads by streams where the library has no std::from_chars of a double, and those know no subnormal number.
+// toml++ reads numbers by streams if the library has no std::from_chars for doubles. Streams reject subnormal numbers.
 #ifdef __cpp_lib_to_chars
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 #else
@@ -42,7 +42,7 @@ spin = 100
 
 using Given = std::vector<std::pair<const Quantity*, std::vector<double>>>;
 
-/// What options say.
+/// Returns the description that options give.
 Description options(const Given& given) {
   Description above;
   for (const auto& [quantity, values] : given)
@@ -50,7 +50,7 @@ Description options(const Given& given) {
   return above;
 }
 
-/// The experiment of a run file, with what options put in place of its values.
+/// Returns the experiment of a run file, with values of options in place of its own.
 Experiment read(const std::string& text, const std::string& source, const Given& given = {}) {
   return experiment_of(parse_run_file(text, source).under(options(given)));
 }
@@ -152,14 +152,14 @@ TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   CHECK(kept.velocity == Eigen::Vector2d(2, 3));
   CHECK(kept.angular_velocity == Eigen::Vector3d(0, 0, 100));
   CHECK(velocities_of(read(good, "x.toml", {{&angular_velocity, {4, 5, 6}}}).start).velocity == Eigen::Vector2d(1, 0));
-  // Both of them need no [start].
+  // If both are given as options, [start] is not needed.
   const std::string without = good.substr(0, good.find("[start]"));
   const Given both{{&velocity, {2, 3}}, {&angular_velocity, {4, 5, 6}}};
   CHECK(velocities_of(read(without, "x.toml", both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
   CHECK_THROWS_WITH(
       read(without, "x.toml", {{&velocity, {2, 3}}}),
       "x.toml:1:1: 'angular_velocity' in [start] is missing: angular velocity about x, y and z (up), in rad/s");
-  // And a slip or a spin takes the place of both; the other one is what these velocities have of it.
+  // A slip or a spin replaces both velocities. The other one is computed from the velocities.
   const std::string general =
       with(with(good, "slip = 1.0", "velocity = [1, 2]"), "spin = 100", "angular_velocity = [10, 0, 7]");
   CHECK(std::get<SlipAndSpin>(read(general, "x.toml", {{&slip, {3}}, {&spin, {4}}}).start).spin == 4);
@@ -255,15 +255,15 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
     for (int i = 0; i < times; ++i) text += piece;
     return text;
   };
-  // No control character of the file is printed.
+  // Control characters of the file are never printed.
   refused("\"a\\u0007b\" = 1", "x.toml:1:1: unknown key 'a?b'");
   refused("a = t\tx", "saw 't?'");
-  // A failed assertion: a header that does not begin with a key.
+  // A header that does not begin with a key made toml++ fail an assertion.
   for (const char* header : {"[(x]", "[,x]", "[ .x]", "[[=x]]", "[[[x]]]", "[\n]", "[#]", "a = 1\n [+1]"}) {
     refused(header, "not TOML: ");
   }
   refused("a = [}", "x.toml:1:6: not TOML: a bracket that closes none");
-  // Undefined behaviour: a letter within quotes that begin no string.
+  // A letter within quotes that begin no string made toml++ have undefined behaviour.
   refused("a = 0'\xC9\xA0", "x.toml:1:6: ' has no place here: it begins a key or a value");
   refused("a = \"\"\"\\\n\xEF\xBB\xBD\"\"\"", "x.toml:1:5: text of several lines has no place here");
   refused("a = '''b'''", "x.toml:1:5: text of several lines has no place here");
@@ -272,14 +272,14 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
   refused("a = [1, 2='\xC9\xA0", "x.toml:1:10: not TOML: '=' follows no key");
   refused("a = 1.'\xC9\xA0", "x.toml:1:7: ' has no place here");
   refused("a = \"b\" 'c'", "x.toml:1:9: ' has no place here");
-  // A stack overflow, from 80 kB on; a header, a key, arrays and tables.
+  // From 80 kB on, nesting made toml++ overflow the stack: in a header, a key, arrays and tables.
   refused("[" + repeated("a.", 40) + "a]", "x.toml:1:35: nested more than 16 deep");
   refused(repeated("a . b . ", 20) + "a = 1", "nested more than 16 deep");
   refused("a = " + repeated("[", 40), "x.toml:1:21: nested more than 16 deep");
   refused("a = " + repeated("{a = ", 40), "nested more than 16 deep");
   refused("[" + repeated("a.", 60000) + "b]", "too long for a run file, which has at most 65536 bytes");
 
-  // Strings and comments may have all of it.
+  // Strings and comments may contain all of these.
   const std::string dots = repeated("([{.", 20);
   for (const std::string quotes : {"\"", "'"}) {
     const std::string named = with(good, "\"pool ball on cloth\"", quotes + dots + quotes + " # " + dots);
@@ -308,7 +308,7 @@ TEST_CASE("a load in place of gravity", "[table]") {
   CHECK(is_load(pressed("[environment]\nload = 3\n"), 3, 0.1701));
   CHECK(is_load(pressed("[environment]\nload = '3 kN'\n"), 3000, 0.1701));
   CHECK(is_load(pressed("", {{&load, {3}}, {&mass, {0.5}}}), 3, 0.5));
-  // The command line's comes before the file's, of either kind.
+  // The load of the command line replaces the file's, in either form.
   CHECK(is_load(pressed("[environment]\ngravity = 1.6\n", {{&load, {3}}, {&mass, {0.5}}}), 3, 0.5));
   CHECK(is_gravity(pressed("[environment]\nload = 3\n", {{&gravity, {1.6}}}), 1.6));
   CHECK(is_load(pressed("[environment]\nload = 3\n", {{&load, {5}}, {&mass, {0.5}}}), 5, 0.5));
@@ -319,7 +319,7 @@ TEST_CASE("a load in place of gravity", "[table]") {
   CHECK_THROWS_WITH(pressed("", {{&load, {3}}, {&gravity, {9.8}}}),
                     Contains("--gravity and --load exclude each other"));
   CHECK_THROWS_WITH(pressed("", {{&load, {1e308}}, {&mass, {1e-9}}}), Contains("gravity must be finite"));
-  // And is written as one.
+  // The load is written as a load.
   const Experiment loaded = read(good + "[environment]\nload = 3\n", "x.toml");
   CHECK_THAT(run_file(loaded), Contains("load = 3  # N"));
   CHECK(is_load(read(run_file(loaded), "written").environment, 3, 0.1701));
@@ -351,15 +351,15 @@ gravity = 1.6
   CHECK_THROWS_WITH(read(good, "x.toml", {{&velocity, {-1.0}}}), Contains("--velocity must be 2 numbers"));
   CHECK_THROWS_WITH(read(good, "x.toml", {{&patch_radius, {1e-3}}, {&spin_deceleration, {3.0}}}),
                     Contains("--patch_radius and --spin_deceleration exclude each other"));
-  // A value that only the options bring has no place in the file.
+  // A value that only the options give has no place in the file.
   CHECK_THROWS_AS(read(good, "x.toml", {{&patch_radius, {1}}}), std::domain_error);
   CHECK_THROWS_WITH(read(good, "x.toml", {{&patch_radius, {1}}}), !Contains("x.toml"));
-  // A contradictory file stays one, whatever replaces its values.
+  // A contradictory file is refused, even if options replace the values.
   const std::string two = with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3");
   CHECK_THROWS_AS(read(two, "x.toml", {{&patch_radius, {2e-3}}}), RunFileError);
   const std::string none = with(good, "spin_deceleration = 10\n", "");
   CHECK(std::get<PatchRadius>(read(none, "x.toml", {{&patch_radius, {2e-3}}}).contact.patch).value == 2e-3);
-  // One modulus alone replaces one, and no other patch.
+  // One modulus alone replaces one modulus, but no other kind of patch.
   const Experiment steel = find_ball("steel")->experiment;
   const Given rubber{{&youngs_modulus, {2e6, 2e11}}};
   const auto moduli = std::get<HertzModuli>(experiment_of(describe(steel).under(options(rubber))).contact.patch);
@@ -381,7 +381,7 @@ TEST_CASE("every quantity is a key, and is written back", "[invariant]") {
                                                                       : 0x1p-5);
       };
       Given given{{quantity, values(*quantity)}};
-      // A modulus comes with a ratio.
+      // A modulus needs a Poisson's ratio.
       for (const Ways& ways : alternatives()) {
         for (const auto& way : ways) {
           if (std::ranges::find(way, quantity) == way.end() || quantity == &velocity) continue;
@@ -413,7 +413,7 @@ TEST_CASE("a body that lies flat, and a law of its own", "[table]") {
   CHECK(law_of(banded) == "annulus:0.9");
   CHECK(patch_radius_of(banded, uniform) == 0.01);
   CHECK(law_of(read(good, "f")) == "exact");
-  // A spin that dies out: J = m R^2/2.
+  // The patch of a body whose spin deceleration is measured: J = m R^2/2.
   const Experiment measured = read(flat, "f", {{&spin_deceleration, {10}}});
   CHECK(patch_radius_of(measured, uniform) ==
         Approx(0.028575 * 0.028575 * 10 / (2 * 0.2 * 9.80665 * (2.0 / 3))).epsilon(1e-14));
@@ -474,7 +474,7 @@ TEST_CASE("[uncertainty]: what the numbers are known to, and the same again from
   const std::string written = run_file(experiment);
   CHECK(run_file(read(written, "y.toml")) == written);
   CHECK_THAT(written, Contains("[uncertainty.correlation]\n"));
-  // A value in place of the file's own is known; one that is the same changes nothing.
+  // A value that replaces the file's own has no spread. An equal value changes nothing.
   CHECK(read(known, "x.toml", {{&slip, {2}}}).spreads.numbers.size() == 2);
   CHECK(read(known, "x.toml", {{&slip, {1}}}).spreads.numbers.size() == 3);
   CHECK(read(known, "x.toml", {{&velocity, {1, 0}}, {&angular_velocity, {0, 0, 1}}}).spreads.numbers.size() == 1);

@@ -78,7 +78,7 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
   }
 }
 
-// A masse, a ball that comes back, one that hardly moves: the speed over equal steps of the time's fourth root.
+// Cases: a masse, a ball that comes back, a ball that hardly moves. The steps are equal in the fourth root of time.
 TEST_CASE("the path is the integral of the centre's speed", "[route]") {
   for (const MotionCase& motion_case : motion_cases) {
     for (double mu : {1e-2, 0.3}) {

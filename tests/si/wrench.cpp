@@ -33,7 +33,7 @@ constexpr Patch patch{0.2, 3e-3, 1e-4};
 constexpr double normal_force = 1.7;
 constexpr double limit = patch.friction * normal_force;
 
-/// Motions of every k and every size beside the creep, in every direction.
+/// Returns motions with every k, of every size compared with the creep speed, in every direction.
 std::vector<Vector3d> motions() {
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> ln_speed(std::log(1e-7), std::log(10)), angle(0, 6.3);
@@ -45,7 +45,7 @@ std::vector<Vector3d> motions() {
   return all;
 }
 
-/// One Newton step of an implicit time step, for a body with these inverse masses.
+/// Does one Newton step of an implicit time step, for a body with the given inverse masses.
 Vector3d stepped(const PatchFriction& friction, const Vector3d& motion, double weight, const Patch& of,
                  const Vector3d& per_mass, double dt, const Vector3d& pushed = Vector3d::Zero()) {
   const auto [value, jacobian] = friction(motion, weight, of);
@@ -77,7 +77,7 @@ TEST_CASE("friction takes power, within its bounds, and its Jacobian is its own"
       CHECK(value.head<2>().norm() <= limit * (1 + 1e-15));
       CHECK(std::abs(value.z()) <= limit * patch.radius * law.pivoting_moment() * (1 + 1e-15));
 
-      // In the units of each: speeds of V, rim speeds of V.
+      // Units: sliding speeds and rim speeds are divided by V.
       const double V = std::hypot(motion.x(), motion.y(), patch.creep), w = patch.radius * std::abs(motion.z());
       const Vector3d unit(V, V, std::max(V, w) / patch.radius);
       const Vector3d moment_arm(1, 1, patch.radius);
@@ -102,7 +102,7 @@ TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semi
     if (law.name() == "pade") continue;
     const PatchFriction friction(law);
     for (const Vector3d& motion : motions()) {
-      const Vector3d arm(1, 1, 1 / patch.radius);  // all entries in one unit
+      const Vector3d arm(1, 1, 1 / patch.radius);  // so that all entries have one unit
       const Matrix3d jacobian = arm.asDiagonal() * friction(motion, normal_force, patch).jacobian * arm.asDiagonal();
       const double size = jacobian.norm();
       CAPTURE(law.name(), motion.transpose());
@@ -174,7 +174,7 @@ TEST_CASE("time steps stop a pool ball when it stops", "[analytic]") {
     const Motion exact = Motion::reduced(pool, law);
     const PatchFriction friction(law);
     const Patch of{pool.contact.friction, patch_radius_of(pool, law), 1e-4};
-    // The contact point moves as a mass of 2 m/7.
+    // The contact point moves like a mass of 2 m/7.
     const Vector3d per_mass(3.5 / m, 3.5 / m, 2.5 / (m * R * R));
     Vector3d motion(1, 0, 100);
     double slip_gone = 0, t = 0;
@@ -278,7 +278,7 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
   refused({1, 0, 0}, normal_force, {0.2, -1, 1e-4});
   refused({1, 0, 0}, normal_force, {-0.2, 3e-3, 1e-4});
   refused({1, 0, 0}, 1e300, {0.2, 3e-3, 1e-20});
-  refused({1, 1, 1}, 1, {0.3, 1e160, 1e160});  // the square of the radius
+  refused({1, 1, 1}, 1, {0.3, 1e160, 1e160});  // the square of the radius overflows
   CHECK(contensou_patch_wrench(nullptr, Vector3d(1, 0, 0).data(), normal_force, &good, &wrench) == 1);
   CHECK(contensou_patch_wrench(law.get(), nullptr, normal_force, &good, &wrench) == 1);
   CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), normal_force, nullptr, &wrench) == 1);

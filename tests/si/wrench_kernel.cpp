@@ -1,4 +1,4 @@
-// The laws of wrench_kernel.h against their integrals in long double, their slopes against differences, and its bounds.
+// The laws of wrench_kernel.h are compared with integrals in long double, their slopes with differences.
 #include "contensou/wrench_kernel.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Parts {
   Wide moment;  ///< Psi
 };
 
-/// 2F1(a, b; c; z) by its series, for z <= 0.4.
+/// Returns 2F1(a, b; c; z) by its series, for z <= 0.4.
 Wide gauss(Wide a, Wide b, Wide c, Wide z) {
   Wide sum = 0, term = 1;
   for (int n = 0; n < 80; ++n) {
@@ -141,7 +141,7 @@ double worst_slope(int count) {
   return worst;
 }
 
-/// Numbers of every size that a type has, with both signs, and 0.
+/// Returns numbers of all sizes that a type has, with both signs, and 0.
 template <class T>
 T any_size(std::mt19937_64& generator, bool positive) {
   const double decades = std::is_same_v<T, double> ? 300 : 38;

@@ -31,7 +31,7 @@ class MemoryFile {
     if (file_ < 0) fail();
   }
   explicit MemoryFile(std::string_view content) : MemoryFile() {
-    while (!content.empty()) {  // a write at a limit is cut short, and only the next one fails
+    while (!content.empty()) {  // a write at a limit is cut short, and only the next write fails
       const ssize_t written = ::write(file_, content.data(), content.size());
       if (written < 0) fail();
       content.remove_prefix(static_cast<std::size_t>(written));
@@ -57,7 +57,7 @@ class MemoryFile {
   int file_ = open();
 };
 
-// Functions that only Linux has, and substitutes for other systems such as macOS.
+// Functions that exist only on Linux, and substitutes for other systems such as macOS.
 #ifdef __linux__
 int MemoryFile::open() { return ::memfd_create("contensou", MFD_CLOEXEC); }
 
@@ -98,7 +98,7 @@ int run(std::vector<const char*> command, const MemoryFile& input, const MemoryF
     }
     ::_exit(not_run);
   }
-  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // without a status the picture decides
+  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // without a status, the picture decides about success
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return status;
 }

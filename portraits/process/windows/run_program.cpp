@@ -82,7 +82,7 @@ ProgramRun run_program(std::vector<const char*> command, std::string_view input,
   };
   if (!start(nullptr) && !start(where_installed(command.front()).c_str()))
     return {ProgramRun::End::not_run, 127, "", ""};
-  // The program ends with the job, and the job with this program.
+  // The started program ends with the job, and the job ends with this program.
   const HANDLE job = ::CreateJobObjectW(nullptr, nullptr);
   JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
   limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE;

@@ -22,7 +22,7 @@ struct Wrench {
   T fx, fy, m;
 };
 
-/// Force and moment with their derivatives. Rows: fx, fy, m; columns: vx, vy in m/s and w in rad/s.
+/// Force and moment with their derivatives. Rows: fx, fy, m. Columns: by vx, by vy in m/s and by w in rad/s.
 template <class T>
 struct WrenchSlopes {
   T fx, fy, m;
@@ -38,7 +38,7 @@ struct Slip {
   T y;        ///< 1 - (smaller/larger)^2
 };
 
-/// Friction at a slip. A type is a law if it returns this of a Slip.
+/// Friction at a slip. A type is a law if its call operator takes a Slip and returns a Friction.
 template <class T>
 struct Friction {
   T force;         ///< Phi/p, where the force is f N Phi
@@ -47,7 +47,7 @@ struct Friction {
   T moment_slope;  ///< b in dPsi = -b (r dp - p dr)
 };
 
-/// Returns c0 + c1 x + c2 x^2 + ... by groups of four, which do not wait for each other.
+/// Returns c0 + c1 x + c2 x^2 + ..., summed in groups of four that the processor can compute in parallel.
 template <class T, class... More>
 CONTENSOU_HOST_DEVICE constexpr T polynomial(T x, T square, double c0, double c1, double c2, double c3, More... more) {
   const T sum = static_cast<T>(c0) + static_cast<T>(c1) * x + (static_cast<T>(c2) + static_cast<T>(c3) * x) * square;
@@ -136,7 +136,7 @@ struct Elliptic {
   }
 };
 
-/// The paper's approximation of Exact, Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
+/// The Pade law of V. F. Zhuravlev, 1998 (Zh98), near to Exact: Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 + 15 pi k).
 struct Pade {
   template <class T>
   CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
@@ -146,7 +146,7 @@ struct Pade {
   }
 };
 
-/// Computes the friction of `wrench`, its slopes only if asked for.
+/// Computes the friction of `wrench`; computes its slopes only if with_slopes is true.
 template <bool with_slopes, class Law, class T>
 CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit, T radius, T creep, const Law& law) {
   WrenchSlopes<T> result{};
@@ -196,13 +196,13 @@ CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit
 
 /// Returns force and moment of friction, 0 at rest. The power fx vx + fy vy + m w is never positive.
 ///
-/// Accuracy  in double 4 eps, in float 1e-6, relative to the law for k from 1e-8 to 1e8. No finite argument gives NaN,
-///           and no result overflows unless f N radius does.
-/// Source    reduction/numerics.md (R32), (R36); Zh98 (1.3) to (1.6).
+/// Accuracy  in double 4 eps, in float 1e-6, relative to the law for k from 1e-8 to 1e8. No finite argument gives NaN.
+///           No result overflows unless f N radius does.
+/// Source    reduction/numerics.md (R32), (R36); Zh98 (1.3) to (1.6) for the exact law and the Pade law.
 /// @param vx, vy  velocity of the patch centre over the other body in m/s
 /// @param w       angular velocity about the normal in rad/s
-/// @param limit   f N in newtons; for 0 or less there is no contact, and all is 0
-/// @param radius  of the patch in m, >= 0
+/// @param limit   f N in newtons; for 0 or less there is no contact, and force and moment are 0
+/// @param radius  patch radius in m, >= 0
 /// @param creep   speed in m/s, >= 0, below which friction is viscous (contensou/si/wrench.hpp); 0: dry friction
 template <class Law, class T>
 CONTENSOU_HOST_DEVICE Wrench<T> wrench(T vx, T vy, T w, T limit, T radius, T creep = 0, const Law& law = {}) {

@@ -45,8 +45,8 @@ class FormulaLaw {
     return {phi, psi};
   }
 
-  /// Throws BadInput unless phi and psi are positive and finite at 3601 values of k from 1e-9 to 1e9. The steps are
-  /// small enough to show a pole or a gap.
+  /// Throws BadInput unless phi and psi are positive and finite at 3601 values of k from 1e-9 to 1e9. These values are
+  /// so dense that a pole or a gap shows.
   void require_resistance() const {
     constexpr double from = 1e-9, to = 1e9;
     constexpr int steps = 3600;
@@ -79,7 +79,7 @@ reduction::Law parse_formula_law(const std::string& text, const std::map<std::st
   try {
     return law;
   } catch (const std::domain_error& error) {
-    // The name is in the message of whoever asked.
+    // The caller puts the name of the law into its message.
     std::string message = error.what();
     const std::string before = fmt::format("Law {}: ", law.name());
     if (message.starts_with(before)) message.erase(0, before.size());
@@ -95,7 +95,7 @@ std::optional<reduction::Law> find_law_or_formulas(const std::string& text) {
   try {
     return reduction::find_law(text);
   } catch (const std::domain_error& error) {
-    throw BadInput(escaped(error.what()));  // its letters may be unprintable
+    throw BadInput(escaped(error.what()));  // the message may contain unprintable letters
   }
 }
 

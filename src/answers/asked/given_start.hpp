@@ -7,19 +7,19 @@
 
 namespace contensou::answers {
 
-/// The start that is asked for, and its system with the law.
+/// The start that a user gives, and its system with the law.
 struct GivenStart {
   reduction::ReducedSystem system;
   reduction::State state;
   std::optional<si::Experiment> experiment;  ///< source of the start, if it is a ball in SI units
   std::optional<si::Motion> motion = {};     ///< motion of a ball; `system` belongs to its first piece
 
-  /// Returns the orbits of a ball, one after the other; none without a ball.
+  /// Returns the orbits of a ball, one after the other; empty without a ball.
   std::vector<si::ReducedPiece> pieces() const { return motion ? motion->pieces() : std::vector<si::ReducedPiece>(); }
   bool is_in_pieces() const { return pieces().size() > 1; }
 
-  /// Returns the solution of system.
-  /// @param by_quadrature  also where the law has a closed form
+  /// Returns the solution of `system`.
+  /// @param by_quadrature  true: by quadrature even if the law has a closed form
   reduction::Flow flow(bool by_quadrature = false) const {
     const auto all = pieces();
     const reduction::Flow best = all.empty() ? reduction::Flow(system) : all.front().flow;

@@ -13,7 +13,7 @@
 
 namespace contensou::answers {
 
-/// A reduction::PlanarField of formulas.
+/// A reduction::PlanarField that is given by formulas.
 struct FormulaField {
   enum class Equations {
     system,  ///< u' = F(u, v), v' = G(u, v)
@@ -26,14 +26,14 @@ struct FormulaField {
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& x) const;
 
-  /// Returns the derivatives of (u', v') with respect to u and v by Formula::with_slopes: row 0 belongs to u'.
+  /// Returns the derivatives of (u', v') by u and v, from Formula::with_slopes. Row 0 belongs to u'.
   Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
 
   operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): it is one
 };
 
 /// Returns the field of "u' = F; v' = G", of "x' = F; y' = G" in x and y, of the equation "y' = F" in x and y, or of
-/// "x'' = F" in x and x'; formulas as answers/input/formulas.hpp has them.
+/// "x'' = F" in x and x'. answers/input/formulas.hpp describes the formulas.
 ///
 /// @throws BadInput  as Formulas
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
@@ -47,11 +47,11 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
 /// Returns true if a start equals the centre of the scaling up to rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
 
-/// A system solved by its scaling, else by an inverse integrating factor; or the reason why it is not solved.
+/// A system solved by its scaling, or else by an inverse integrating factor; or the reason why neither solves it.
 struct SolvedPlane {
   std::optional<reduction::PlanarReduction> plane;
   std::string why_not;
-  std::vector<reduction::TriedForm> tried = {};            ///< tried forms of the factor
+  std::vector<reduction::TriedForm> tried = {};            ///< forms of the inverse integrating factor that were tried
   std::function<reduction::FactorFormula()> formula = {};  ///< formula of the factor that solves the system
 };
 

@@ -13,7 +13,7 @@ namespace contensou::answers {
 
 namespace {
 
-constexpr int of_narrow = 8;  ///< orbits on each side of a narrow panel
+constexpr int of_narrow = 8;  ///< number of orbits on each side of u = 0 in a narrow panel
 
 /// A motion of several orbits as one line: at equal times, and towards the stop at equal ratios of the time left.
 portraits::PortraitOrbit one_line(const std::vector<si::ReducedPiece>& pieces) {
@@ -68,7 +68,7 @@ std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpe
   portraits::PortraitRequest asked = specs.front().whole_request();
   if (specs.size() > 1) {
     asked.orbits = asked.orbits.value_or(of_narrow);
-    asked.isochrones = specs.front().request.isochrones;  // the usual number is of several planes
+    asked.isochrones = specs.front().request.isochrones;  // the usual number is meant for all planes together
   }
   std::vector<portraits::PhasePortrait> all = portraits::phase_portraits(flows, asked);
   for (std::size_t i = 0; i < specs.size(); ++i) {
@@ -82,7 +82,7 @@ portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::v
   std::vector<portraits::PortraitCaption> captions;
   for (std::size_t i = 0; i < specs.size(); ++i) captions.push_back(specs[i].caption(all[i]));
   portraits::PortraitCaption& first = captions.front();
-  // The title is common to all panels. Each panel shows what belongs to its plane alone.
+  // The title is common to all panels. Each panel shows only the properties of its own plane.
   first.subtitle = "";
   if (const auto& ball = specs.front().experiment) {
     first.title = portraits::shortened(ball->ball.name);

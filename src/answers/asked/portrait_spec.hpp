@@ -11,7 +11,7 @@
 namespace contensou::answers {
 
 /// The complete description of a portrait: the options of `portrait`, or the state of the page. Equal descriptions give
-/// equal portraits, so the command line that the page shows draws the same picture.
+/// equal portraits, so the command line on the page draws the same picture.
 struct PortraitSpec {
   reduction::Flow flow;
   std::optional<reduction::State> start = {};     ///< start of the highlighted orbit
@@ -23,13 +23,13 @@ struct PortraitSpec {
   /// @throws std::domain_error  as phase_portrait
   portraits::PhasePortrait portrait() const;
 
-  /// Draws a portrait, with the units of a ball.
+  /// Draws a portrait, in the units of a ball if there is one.
   portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
 
-  /// Draws a portrait and returns the map of each panel.
+  /// Draws a portrait and returns the figure with the map of each panel.
   portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
 
-  /// Returns the source that the data of the portrait state.
+  /// Returns the origin of the portrait, for files with its data.
   portraits::PortraitSource source() const;
 
   /// Returns the request, completed from start, experiment and style.
@@ -44,7 +44,7 @@ struct PortraitSpec {
 /// @throws std::domain_error  as phase_portraits
 std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpec>& specs);
 
-/// Draws these portraits in one figure. Throws as draw_together.
+/// Draws these portraits in one figure. Throws as portraits::draw_together.
 portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::vector<portraits::PhasePortrait>& all);
 
 }  // namespace contensou::answers

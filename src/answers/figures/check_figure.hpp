@@ -7,8 +7,8 @@
 
 namespace contensou::answers {
 
-/// Slip and spin of a table against time, with the motion under the law and, where another is nearest, that one dashed.
-/// @param ball  its name
+/// Draws slip and spin of a table against time, with the motion under the law. The motion of a nearer model is dashed.
+/// @param ball  name of the ball
 portraits::Figure check_figure(const MotionsBeside& motions, const std::string& ball, const portraits::AskedSize& size);
 
 }  // namespace contensou::answers

@@ -25,9 +25,9 @@ constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
 /// Colours of the tracks, one after the other. They also differ in grey.
 constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
 
-/// Largest number of values shown of a track. More would be one blot.
+/// Largest number of values of a track that are shown. More would be one blot.
 constexpr Eigen::Index most_marks = 250;
-/// Standard deviations beyond which residuals are drawn as arrows at the border.
+/// Residuals of more standard deviations than this are drawn as arrows at the border.
 constexpr double residual_border = 4;
 
 Panel empty(portraits::Text title, portraits::Text name) {
@@ -62,13 +62,13 @@ ShownUnit shown_unit(const fit::Fit& fit, const std::vector<fit::Track>& tracks,
   return unit.starts_with('m') && largest < small ? ShownUnit{"m" + unit, 1e3} : ShownUnit{unit};
 }
 
-/// Adds whole turns to an angle, rad, so that it is nearest to another one.
+/// Adds whole turns to an angle, rad, so that it is nearest to another angle.
 double at_turn_of(double other, double angle) {
   constexpr double turn = 2 * std::numbers::pi;
   return angle + turn * std::round((other - angle) / turn);
 }
 
-/// Returns slip, spin or angle, in SI units, by the uncoupled model with the same start; empty for other observables.
+/// Returns slip, spin or angle by the uncoupled model with the same start, in SI units; empty for other observables.
 /// @param times  s from the start
 Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::size_t track,
                            fit::Observable observable, const Eigen::ArrayXd& times) {
@@ -87,7 +87,7 @@ Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::
   return fit.estimate(Parameter::angle, track).value + spin * spinning * (1 - spinning / (2 * motion.spin_end()));
 }
 
-/// Two panels of one observable: data with the fit, and residuals.
+/// Two panels for one observable: the data with the fit, and the residuals.
 struct Pair {
   Panel data, residuals;
 };
@@ -151,12 +151,12 @@ Pair panels_of(const fit::Fit& fit, const reduction::Law& law, const std::vector
   pair.data.lines.push_back(std::move(curves));
   if (!textbook.lines.empty()) pair.data.lines.push_back(std::move(textbook));
   for (Panel* panel : {&pair.data, &pair.residuals}) {
-    // The film's own clock, but from 0 where it begins soon after it.
+    // The axis shows the clock of the film. It begins at 0 if the film begins soon after 0.
     panel->x.low = first > 0 && first < 0.1 * last ? 0 : first;
     panel->x.high = last > first ? last : first + 1;
   }
   widen(y, 0.06);
-  // Room for an arrow at the border, also where the panel is flat.
+  // Leave room for an arrow at the border, also if the panel is flat.
   pair.residuals.y.low = -1.25 * residual_border;
   pair.residuals.y.high = 1.25 * residual_border;
   pair.residuals.y.ticks = {{-3, "−3"}, {0, "0"}, {3, "3"}};
@@ -164,7 +164,7 @@ Pair panels_of(const fit::Fit& fit, const reduction::Law& law, const std::vector
   return pair;
 }
 
-/// The ellipse in which two numbers lie with that probability.
+/// Returns the ellipse in which two numbers lie with the given probability.
 portraits::Polyline ellipse(const Point& middle, const Eigen::Matrix2d& covariance, double probability) {
   const Eigen::Matrix2d root = covariance.llt().matrixL();
   const double radius = std::sqrt(-2 * std::log(1 - probability));
@@ -198,7 +198,7 @@ Panel confidence_panel(const fit::Fit& fit) {
   return panel;
 }
 
-/// Returns a number with its standard error, or its interval if that is skewed.
+/// Returns a number with its standard error as text, or with its interval if the interval is skewed.
 std::string with_error(const fit::Estimate& estimate, double scale, std::string_view unit = "") {
   if (!estimate.determined()) return "not determined";
   const std::string of = unit.empty() ? "" : fmt::format(" {}", unit);
@@ -208,7 +208,7 @@ std::string with_error(const fit::Estimate& estimate, double scale, std::string_
   return fmt::format("{:.4g} ± {:.2g}{}", estimate.value * scale, estimate.standard_error * scale, of);
 }
 
-/// Returns a panel with the results in words.
+/// Returns a panel that contains the results in words.
 Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   Panel panel = empty("", "");
   panel.bare = true;
@@ -237,7 +237,7 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   return panel;
 }
 
-/// Returns true if the error of a number is large enough for an axis. Data without noise give no such error.
+/// Returns true if the error of a number is large enough for an axis. It is not if data have no noise.
 bool has_width(const fit::Estimate& estimate) {
   constexpr double least = 1e-6;
   return std::isfinite(estimate.standard_error) && estimate.standard_error > least * estimate.value;
@@ -257,13 +257,13 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
   if (fit.only)
     figure.subtitle = fmt::format("the data do not determine friction and patch radius, only {}",
                                   portraits::shortened(fit.only->name()));
-  std::vector<Panel> below;  // residuals, and the words
+  std::vector<Panel> below;  // the panels of residuals, and of the words
   for (const fit::Noise& noise : fit.noise) {
     Pair pair = panels_of(fit, law, tracks, noise);
     figure.panels.push_back(std::move(pair.data));
     below.push_back(std::move(pair.residuals));
   }
-  // A page is not high enough for six rows.
+  // A page has no room for six rows.
   constexpr std::size_t most_rows = 5;
   const bool both = fit.noise.size() < most_rows && fit.estimates[0].free && fit.estimates[1].free &&
                     std::ranges::all_of(std::span(fit.estimates).first(fit::contact_parameters), has_width) &&
@@ -280,7 +280,8 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
     figure.panels.insert(figure.panels.end(), std::make_move_iterator(below.begin()),
                          std::make_move_iterator(below.end()));
   } else {
-    // A page is not high enough for as many rows of the usual panels: flat ones, what is below beside, or left out.
+    // A page has no room for as many rows of usual panels. So panels are flat, and those below are put beside or left
+    // out.
     const bool beside = portraits::panel_columns(width, 2) == 2;
     figure.max_columns = beside ? 2 : 1;
     for (int i = columns - 1; beside && i >= 0; --i)

@@ -5,10 +5,10 @@
 
 namespace contensou::answers {
 
-/// The data of tracks with the fitted motion, an observable beside the other, the residuals below each, and where
-/// friction and patch radius lie: the ellipses of 68 and 95 % confidence. Beside slip, spin and angle, dashed, the
-/// textbook's motion from the same start, which has no rolling friction.
-/// @param laws  among which the fit's is
+/// Draws the data of tracks with the fitted motion, one observable beside the other, with the residuals below each. A
+/// further panel shows the ellipses of 68 and 95 % confidence for friction and patch radius. For slip, spin and angle a
+/// dashed line shows the motion of the uncoupled model from the same start, without rolling friction.
+/// @param laws  laws among which the law of the fit is
 /// @param size  requested size of the figure
 portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::Law>& laws,
                              const std::vector<fit::Track>& tracks, const portraits::AskedSize& size);

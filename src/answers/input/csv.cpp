@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t block_size = 1 << 15;
 constexpr std::size_t max_record = std::size_t{1} << 26;
 
-/// Returns iconv's name of the encoding of a text in UTF-16; empty for other texts.
+/// Returns the name by which iconv knows the encoding of a text in UTF-16; empty for other texts.
 std::string_view utf16(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16";
   if (text.size() < 4) return {};
@@ -23,7 +23,7 @@ std::string_view utf16(std::string_view text) {
   return text[0] == '\0' && text[2] == '\0' ? "UTF-16BE" : "";
 }
 
-/// Returns advice if the first name of a header contains a semicolon or a tab, which then separates columns; else "".
+/// Returns advice if the first name of a header contains a semicolon or a tab, the separator there; else "".
 std::string separator_hint(std::string_view name) {
   const std::size_t separator = name.find_first_of(";\t");
   if (separator == std::string_view::npos) return {};
@@ -81,7 +81,7 @@ void CsvParser::add(char letter, CsvBlock& block) {
     if (place_ == Place::field_start) quote_line_ = line_;
     place_ = place_ == Place::quoted ? Place::after_quote : Place::quoted;
   } else if (letter == '"' || place_ == Place::after_quote) {
-    // The fault is where a quote opens, however many lines it takes with it.
+    // The fault is the line on which a quote opens, even if the quoted field runs over many lines.
     const long begin = place_ == Place::after_quote ? quote_line_ : line_;
     throw complaint(begin,
                     fmt::format("a quote inside a field{}: put the field in quotes and double those inside",
@@ -143,9 +143,9 @@ void CsvReader::read_header(Separator separator) {
   first_ = std::move(first);
 }
 
-/// A tracker writes the name of the body in a line of its own above the names of the columns.
+/// Tracker programs write the name of the body in a line of its own above the names of the columns.
 void CsvReader::find_tabs() {
-  constexpr std::size_t most = 4;  // lines
+  constexpr std::size_t most = 4;  // number of lines searched
   std::size_t begin = 0;
   for (std::size_t line = 0; line < most; ++line) {
     while (buffer_.find_first_of("\r\n", begin) == std::string::npos && !at_end_) read_some();

@@ -15,12 +15,12 @@
 
 namespace contensou::answers {
 
-/// A field without the spaces and tabs around it.
+/// Returns a field without the spaces and tabs around it.
 std::string_view without_spaces(std::string_view text);
 
 class CsvRow;
 
-/// Consecutive records of a table, kept in a few arrays.
+/// Consecutive records of a table. They are stored together in a few arrays.
 class CsvBlock {
  public:
   std::size_t size() const { return records_.size(); }
@@ -40,7 +40,7 @@ class CsvBlock {
   std::vector<Record> records_;
   std::string text_;                  ///< text of all records
   std::string values_;                ///< values of all fields
-  std::vector<std::size_t> ends_{0};  ///< a field i is values_ from ends_[i] to ends_[i + 1]
+  std::vector<std::size_t> ends_{0};  ///< field i consists of the characters of values_ from ends_[i] to ends_[i + 1]
 };
 
 /// One record of a table: a view into its block.
@@ -70,22 +70,22 @@ class CsvRow {
 
 inline CsvRow CsvBlock::operator[](std::size_t place) const { return {*this, records_[place]}; }
 
-/// Finds the records in CSV text (RFC 4180) that comes in pieces, cut anywhere. Outside quotes, lines that begin with #
-/// are comments and empty lines are ignored.
+/// Finds the records in CSV text (RFC 4180). The text comes in pieces that may be cut anywhere. Outside quotes, lines
+/// that begin with # are comments, and empty lines are ignored.
 class CsvParser {
  public:
   /// @param source  name of the text in messages
   explicit CsvParser(std::string source) : source_(std::move(source)) {}
 
-  /// Appends the records to a block that end in the next piece of text.
-  /// @throws BadLine  after appending those before it, at a quote inside a field, or in a record longer than 64 MiB
+  /// Appends to a block the records that end in the next piece of text.
+  /// @throws BadLine  for a quote inside a field, or a record longer than 64 MiB; earlier records are appended before
   void add(std::string_view piece, CsvBlock& block);
 
   /// Appends the last record if it has no line end.
   /// @throws BadLine  if the text ends inside quotes
   void finish(CsvBlock& block);
 
-  /// Lets that letter separate fields; before add.
+  /// Sets the letter that separates fields; to be called before add.
   void separate_by(char letter) { separator_ = letter; }
 
   const std::string& source() const { return source_; }
@@ -102,11 +102,11 @@ class CsvParser {
   Place place_ = Place::between_records;
   long line_ = 0;
   bool at_line_start_ = true;
-  bool after_return_ = false;  ///< a line feed here belongs to the line end before
+  bool after_return_ = false;  ///< a line feed here belongs to the previous line end
   long record_line_ = 0;
   long quote_line_ = 0;  ///< line of the opening quote of the field
   std::string text_;     ///< text of the record so far
-  std::string values_;   ///< its fields
+  std::string values_;   ///< values of its fields
   std::vector<std::size_t> ends_;
 };
 
@@ -116,22 +116,22 @@ struct CsvColumn {
   std::size_t place;
 };
 
-/// Reads a CSV file with a header, of any length, in the memory of a block of it.
+/// Reads a CSV file with a header. The file may have any length, because only one block is in memory.
 class CsvReader {
  public:
-  /// The letter that separates fields.
+  /// The letters that may separate fields.
   enum class Separator { comma, comma_or_tab };
 
-  /// Reads as far as the header.
+  /// Reads the file up to the end of the header.
   /// @param path       a file, or "-" for standard input
-  /// @param separator  comma_or_tab: tabs separate if the header has some and no comma; a title may stand above it
-  /// @throws std::system_error  if it cannot be read
-  /// @throws BadLine            if there is no header, or it is not CSV; with a way out for UTF-16
+  /// @param separator  comma_or_tab: tabs separate if the header contains some and no comma; a title may stand above it
+  /// @throws std::system_error  if the file cannot be read
+  /// @throws BadLine            if there is no header, or it is not CSV; for UTF-16 with advice
   explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
 
   /// Reads text from memory.
   /// @param source  name of the text in messages
-  /// @throws BadLine  as above
+  /// @throws BadLine  as the constructor above
   CsvReader(std::string text, const std::string& source);
   CsvReader(const CsvReader&) = delete;
   CsvReader& operator=(const CsvReader&) = delete;
@@ -139,16 +139,16 @@ class CsvReader {
   const std::vector<std::string>& names() const { return names_; }
   long header_line() const { return header_line_; }
 
-  /// Returns the column of a name. Spaces around names do not count.
-  /// @throws BadLine  unless there is exactly one; with advice for columns separated by semicolons or tabs
+  /// Returns the column with a name. Spaces around names are ignored.
+  /// @throws BadLine  unless there is exactly one; with advice if columns are separated by semicolons or tabs
   CsvColumn column(std::string_view name) const;
   bool has_column(std::string_view name) const;
 
-  /// Returns true if `next` would not wait for input.
+  /// Returns true if `next` can return without waiting for input.
   bool ready() const;
 
-  /// Reads the next records: those available when the input pauses, about 32 kB at most.
-  /// @return  false at the end
+  /// Reads the next records, about 32 kB at most: those that are available before the input pauses.
+  /// @return  false at the end of the file
   /// @throws BadLine            as CsvParser, after all records before the mistake have been returned
   /// @throws std::system_error  if the file cannot be read
   bool next(CsvBlock& block);
@@ -161,7 +161,7 @@ class CsvReader {
   void require_complete(const CsvRow& row) const;
 
   /// Returns the number in a field of a complete record.
-  /// @throws BadLine  naming the column, if the field is no number
+  /// @throws BadLine  with the name of the column, if the field is not a number
   double number(const CsvRow& row, const CsvColumn& column, Infinity infinity = Infinity::forbidden) const;
 
   BadLine complaint(long line, std::string_view message) const { return parser_.complaint(line, message); }
@@ -172,27 +172,27 @@ class CsvReader {
  private:
   void read_header(Separator separator);
 
-  /// Lets tabs separate fields if they do so in the first line that has some, and makes a comment of a title above it.
+  /// Sets tabs as separators if the first line with tabs or commas has only tabs. A title above it becomes a comment.
   void find_tabs();
 
-  /// Appends to the buffer what one read gives.
+  /// Reads once from the file and appends the result to the buffer.
   void read_some();
 
-  std::optional<platform::InputFile> file_;  ///< none: the buffer contains the whole text
+  std::optional<platform::InputFile> file_;  ///< empty: the buffer contains the whole text
   CsvParser parser_;
   std::string buffer_;
   double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< size of the file, if known
   double bytes_read_ = 0;
   bool at_end_ = false;
-  std::optional<BadLine> fault_;  ///< is thrown after the records before it have been given
+  std::optional<BadLine> fault_;  ///< error that is thrown after the records before it have been returned
   CsvBlock first_;                ///< records read together with the header
   std::vector<std::string> names_;
   long header_line_ = 1;
 };
 
-/// The numbers >= 0 in one column of a table, or in a file of one number a line without a header.
+/// Returns the numbers >= 0 in one column of a table, or in a file of one number per line without a header.
 /// @param path  a file, or "-" for standard input
-/// @throws  as CsvReader, and BadLine naming the line of another number
+/// @throws  as CsvReader; BadLine for any other number, with its line
 std::vector<double> read_column(const std::string& path, std::string_view name, Infinity infinity);
 
 }  // namespace contensou::answers

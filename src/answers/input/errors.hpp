@@ -4,12 +4,12 @@
 
 namespace contensou::answers {
 
-/// The user's mistake; the message says what is wrong, what is allowed and a way out.
+/// A mistake of the user. The message says what is wrong, what is allowed and what to do.
 struct BadInput : std::domain_error {
   using std::domain_error::domain_error;
 };
 
-/// The user's mistake in a file; the message begins with FILE:LINE.
+/// A mistake of the user in a file. The message begins with FILE:LINE.
 struct BadLine : BadInput {
   using BadInput::BadInput;
 };

@@ -23,7 +23,7 @@ namespace formula_parts {
 
 using Pair = std::array<double, 2>;
 
-/// A function of one number, of two, or of any number, which takes two at a time. Null slopes stand for 0.
+/// A function of one number, of two, or of more, combined two at a time. Null slopes stand for 0.
 struct Function {
   std::string_view name;
   double (*one)(double) = nullptr;
@@ -78,7 +78,7 @@ constexpr Function functions[] = {
 constexpr Function negative{"-", [](double x) { return -x; }, [](double, double) { return -1.0; }};
 constexpr Function opposite{"!", [](double x) { return x == 0 ? 1.0 : 0.0; }};
 
-/// The slope by y is 0 for 0^y, y > 0, and NaN for a negative x. The slope by x would be 0 times infinity for 0^0.
+/// For 0^y, y > 0, the slope by y is 0; for a negative x it is NaN. For 0^0 the slope by x would be 0 times infinity.
 Pair of_power(double x, double y, double value) {
   return {y == 0 ? 0 : y * std::pow(x, y - 1), value == 0 && x >= 0 ? 0 : value * std::log(x)};
 }
@@ -90,12 +90,12 @@ const Function* function_of(std::string_view name) {
   return found == std::end(functions) ? nullptr : found;
 }
 
-/// Puts a number or a variable on a stack, or replaces the last values there by a function of them.
+/// A step either puts a number or a variable on a stack, or replaces the last values there by a function of them.
 enum class Kind : unsigned char { number, variable, one, two, add, subtract, multiply, divide, choose };
 
 struct Step {
   Kind kind;
-  unsigned char left = 0, right = 0;  ///< bit i + 1 is set where the first or the last operand depends on variable i
+  unsigned char left = 0, right = 0;  ///< bit i + 1 is set if the first or the last operand depends on variable i
   union {
     double number;
     std::size_t variable;
@@ -103,7 +103,7 @@ struct Step {
   };
 };
 
-/// Operators that bind more have a higher level. "<=" must come before "<", so that the longer sign is found first.
+/// Operators that bind more tightly have a higher level. "<=" must precede "<", so that the longer sign is found first.
 struct Operator {
   Function function;
   int level;
@@ -123,21 +123,21 @@ constexpr Operator operators[] = {
     {{"*"}, 4, Kind::multiply},
     {{"/"}, 4, Kind::divide},
 };
-constexpr int tightest = 5;  ///< above the levels of operators
+constexpr int tightest = 5;  ///< higher than the levels of all operators
 constexpr int deepest = 250;
 constexpr std::size_t longest = 20000;
-/// Each level of nesting keeps two values at most while the next is computed; below them lie two of no meaning.
+/// Each level of nesting keeps at most two values while the next level is computed. Two unused values lie below them.
 constexpr std::size_t most_values = 2 * deepest + 2;
 
-/// N = 0 for the value alone.
+/// Computes the formula with N slopes; with N = 0 the value alone.
 template <std::size_t N>
 Dual<N> run(const std::vector<Step>& steps, const double* values) {
   std::array<Dual<N>, most_values> stack;
   if (steps.empty()) return {};
   Dual<N>* end = stack.data() + 1;
-  Dual<N> last{};  // the top of the stack
+  Dual<N> last{};  // value on the top of the stack
   for (const Step& step : steps) {
-    // Replaces the last two values, by the chain rule.
+    // Replaces the last two values by a function of them, with slopes by the chain rule.
     const auto join = [&](double value, double by_x, double by_y) {
       --end;
       last[0] = value;
@@ -198,18 +198,18 @@ bool is_of_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'
   throw BadInput(fmt::format("{}, at character {} of {}", message, place + 1, quotation(text)));
 }
 
-/// Letters that a paper or a word processor has in place of ASCII.
+/// Characters that papers and word processors use in place of ASCII, with their ASCII.
 constexpr std::pair<char32_t, std::string_view> pasted[] = {
     {0x2032, "'"}, {0x2019, "'"}, {0xB4, "'"},   {0x2212, "-"},         {0x2013, "-"},
     {0xD7, "*"},   {0xB7, "*"},   {0x22C5, "*"}, {0xF7, "/"},           {0x2215, "/"},
     {0xB2, "^2"},  {0xB3, "^3"},  {0x3C0, "pi"}, {0x221A, "sqrt(...)"}, {0xA0, "a blank"}};
 
-/// Refuses letters beyond ASCII, so that the place of every later mistake is its byte.
+/// Throws for characters that are not ASCII. Later the place of a mistake is then the number of its byte.
 void require_ascii(const std::string& text) {
   const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (at == text.end()) return;
   const auto place = static_cast<std::size_t>(at - text.begin());
-  // UTF-8: as many ones as bytes open the first, the others begin with 10. A byte alone is a letter of Latin-1.
+  // In UTF-8 the first byte begins with as many ones as there are bytes; the others begin with 10. Else it is Latin-1.
   std::size_t size = 1;
   while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
   const std::string letter = text.substr(place, size);
@@ -222,11 +222,11 @@ void require_ascii(const std::string& text) {
                         static_cast<unsigned>(number), instead));
 }
 
-/// Compiles by recursive descent.
+/// Compiles a formula by recursive descent.
 class Parser {
  public:
   /// Reads text[begin, end).
-  /// @param unused  loses the parameters that the formula has
+  /// @param unused  names of parameters; those that the formula contains are removed
   Parser(const FormulaShape& shape, const std::map<std::string, double>& parameters,
          std::map<std::string, double>& unused, const std::string& text, std::size_t begin, std::size_t end)
       : shape_(shape), parameters_(parameters), unused_(unused), whole_(text), text_(whole_.data(), end), at_(begin) {
@@ -241,7 +241,7 @@ class Parser {
  private:
   [[noreturn]] void reject(std::size_t place, const std::string& message) const { reject_at(place, whole_, message); }
 
-  /// Returns the first character behind blanks; 0 at the end.
+  /// Returns the next character that is not blank; 0 at the end.
   char next() {
     at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
     return at_ < text_.size() ? text_[at_] : '\0';
@@ -254,7 +254,7 @@ class Parser {
     return true;
   }
 
-  /// @param operands  number of operands of the step: the last values on the stack
+  /// @param operands  number of operands of the step; they are the last values on the stack
   void add(Step step, std::size_t operands) {
     auto variables = static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0);
     if (operands > 0) step.right = variables_.back();
@@ -267,7 +267,7 @@ class Parser {
     steps.push_back(step);
   }
 
-  /// Operators of that level, and those that bind more.
+  /// Reads operators of the given level and of higher levels.
   void expression(int level) {
     if (++depth_ > deepest) reject(at_, fmt::format("a formula is nested at most {} deep", deepest));
     if (takes("-") || takes("!")) {
@@ -298,8 +298,8 @@ class Parser {
     --depth_;
   }
 
-  /// Reads a value and its closing sign; for a function, values between commas.
-  /// @return  their number
+  /// Reads a value and its closing sign; for a function, several values between commas.
+  /// @return  number of values
   int within(std::string_view closing, const Function* function = nullptr) {
     const std::size_t opening = at_ - 1;
     const bool outside = std::exchange(in_bars_, closing == "|");
@@ -402,13 +402,13 @@ class Parser {
   std::string_view text_;
   std::size_t at_;
   int depth_ = 0;
-  bool in_bars_ = false;                  ///< the innermost open bracket is a bar
-  std::vector<unsigned char> variables_;  ///< variables of each value on the stack, as Step::left
+  bool in_bars_ = false;                  ///< true: the innermost open bracket is a bar of |x|
+  std::vector<unsigned char> variables_;  ///< variables on which each value on the stack depends; bits as in Step::left
 };
 
 using Steps = std::vector<Step>;
 
-/// A factor of a product.
+/// A factor of a product, with its exponent.
 struct Factor {
   Steps steps;
   unsigned char variables;  ///< coded like Step::left
@@ -423,27 +423,27 @@ struct Factor {
 };
 using Factors = std::vector<Factor>;
 
-/// A part of a formula as a product, and what it is divided by.
+/// A part of a formula as a quotient: its factors, and the factors by which it is divided.
 struct Quotient {
   Factor whole;
   Factors over, under = {};
 };
 
-/// Appends the factors that depend on variables.
+/// Appends those factors of `by` that depend on variables.
 void multiply(Factors& product, const Factors& by, int times = 1) {
   for (const Factor& each : by) {
     if (each.variables != 0) product.insert(product.end(), static_cast<std::size_t>(times), each);
   }
 }
 
-/// Appends the factors that are missing in a multiple of both.
+/// Appends the factors that `product` lacks to be a multiple of both.
 void make_multiple(Factors& product, const Factors& of) {
   for (auto each = of.begin(); each != of.end(); ++each) {
     if (std::ranges::count(product, *each) < std::count(of.begin(), each + 1, *each)) product.push_back(*each);
   }
 }
 
-/// Returns the divisors of a formula.
+/// Returns the divisors in a formula.
 Factors divisors(const Steps& formula) {
   std::vector<Quotient> stack;
   for (const Step& step : formula) {
@@ -469,7 +469,7 @@ Factors divisors(const Steps& formula) {
       multiply(joined.under, divides ? parts[1].over : parts[1].under);
     } else if (step.kind == Kind::add || step.kind == Kind::subtract ||
                (step.kind == Kind::one && step.function == &negative)) {
-      // A sum stays one factor, which the divisors multiply.
+      // A sum counts as one factor, which the divisors of its parts multiply.
       for (const Quotient& part : parts) make_multiple(joined.under, part.under);
       multiply(joined.over, joined.under);
     } else if (step.kind == Kind::two && step.function == &power && parts[1].whole.variables == 0) {
@@ -486,7 +486,7 @@ Factors divisors(const Steps& formula) {
   return stack.empty() ? Factors{} : stack.back().under;
 }
 
-/// Returns what stands before the equals sign, without blanks; an empty text if there is none.
+/// Returns the text before the equals sign, without blanks; empty if there is no equals sign.
 std::string left_side(std::string_view formula) {
   const std::size_t equals = formula.find('=');
   std::string left(equals == formula.npos ? "" : formula.substr(0, equals));
@@ -523,8 +523,8 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
                                quotation(name), fmt::join(shape.variables, ", ")));
   }
   formula_parts::require_ascii(text);
-  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // their begin and end
-  std::map<std::string, double> own;                               // the last of a name counts
+  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each
+  std::map<std::string, double> own;                               // if a name is given twice, the last value counts
   std::size_t begin = 0;
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find(';', begin), text.size());

@@ -8,18 +8,18 @@
 
 namespace contensou::answers {
 
-/// A name in the header of a table, with the unit in brackets behind it, as in "spin [rpm]".
+/// A name in the header of a table, with a unit in brackets behind it, such as "spin [rpm]".
 struct Heading {
   std::string name, unit;
 };
 
 Heading heading_of(std::string_view text);
 
-/// Returns the name under which a column is read: in small letters, "t" for time, "angle" for theta, "vx" for v_x. A
-/// name with _sd is treated likewise.
+/// Returns the usual name of a column: in small letters, "t" for time, "angle" for theta, "vx" for v_x. An ending _sd
+/// is kept, and the name before it is converted likewise.
 std::string usual_name(std::string_view name);
 
-/// Returns the size of a unit in SI units (radian for an angle); 1 without a unit.
+/// Returns the size of a unit in SI units (in radians for an angle); 1 for an empty unit.
 /// @throws BadInput  for a unit of another kind
 double factor_of(const std::string& unit, std::string_view si_unit);
 
@@ -30,9 +30,9 @@ struct SiColumn {
   double factor = 1;
 };
 
-/// Finds the column of a name, else of that usual_name, with the unit of its heading; nothing if there is none.
+/// Finds the column with a name, else the one with this usual_name, and the unit in its heading; empty if none.
 /// @param pixel  size of a pixel, m, > 0, for a length in px or a speed in px/s
-/// @throws BadLine  for two columns of that name, a unit of another kind, or pixels without a size
+/// @throws BadLine  for two such columns, for a unit of another kind, and for pixels without a size
 std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit,
                                     std::optional<double> pixel = std::nullopt);
 

@@ -14,7 +14,7 @@ si::LoadHistory read_load_history(const std::string& path) {
   CsvReader table(path);
   const auto column = [&](std::string_view name, std::string_view unit) {
     const auto found = find_column(table, name, unit);
-    return found ? *found : SiColumn{table.column(std::string(name))};  // says that there is none
+    return found ? *found : SiColumn{table.column(std::string(name))};  // throws if there is no such column
   };
   const SiColumn time = column("t", "s"), load = column("load", "N");
   std::vector<double> t, newtons;

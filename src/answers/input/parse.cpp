@@ -12,7 +12,7 @@ namespace contensou::answers {
 
 namespace {
 
-/// Reads a whole text, spaces around it and a leading plus aside, which std::from_chars does not know.
+/// Reads a whole text as a number. It accepts spaces around it and a leading plus, which std::from_chars rejects.
 template <class Value>
 std::errc read(std::string_view text, Value& value) {
   const auto first = std::min(text.find_first_not_of(" \t"), text.size());
@@ -33,7 +33,7 @@ std::string quotation(std::string_view input) {
   constexpr std::size_t max_size = 80;
   if (input.size() <= max_size) return fmt::format("'{}'", escaped(input));
   std::size_t size = max_size;
-  while (size > 0 && (static_cast<unsigned char>(input[size]) & 0xC0) == 0x80) --size;  // inside a character of UTF-8
+  while (size > 0 && (static_cast<unsigned char>(input[size]) & 0xC0) == 0x80) --size;  // not inside a UTF-8 character
   return fmt::format("'{}...'", escaped(input.substr(0, size)));
 }
 

@@ -15,25 +15,27 @@ std::string quotation(std::string_view input);
 
 enum class Infinity { forbidden, allowed };
 
-/// Returns a sentence on the decimal point for a text with a comma, to end the message that it is no number; else "".
+/// Returns a sentence about the decimal point if a text contains a comma, to end the message about a wrong number; else
+/// "".
 const char* decimal_hint(std::string_view text);
 
-/// Returns true if parse_number finds a number, of any size.
+/// Returns true if parse_number finds a number in a text, no matter how large.
 bool is_number(std::string_view text);
 
-/// Returns the number in a text that contains nothing else but spaces around it.
-/// @throws BadInput  quoting the text, if it is not a number, does not fit a double, or is not finite where it must be
+/// Returns the number that a text consists of; spaces around it are allowed.
+/// @throws BadInput  with the text, if it is not a number, does not fit a double, or is infinite where that is
+///                   forbidden
 double parse_number(std::string_view text, Infinity infinity = Infinity::forbidden);
 
-/// Splits a text at a mark.
+/// Splits a text at each occurrence of a mark.
 std::vector<std::string> split(std::string_view text, char mark);
 
-/// Returns the numbers in a list with commas.
+/// Returns the numbers of a list separated by commas.
 /// @throws BadInput  as parse_number
 std::vector<double> parse_numbers(std::string_view text, Infinity infinity = Infinity::forbidden);
 
-/// Returns the whole number in a text.
-/// @throws BadInput  quoting the text, unless it is one and lies in [lowest, highest]
+/// Returns the whole number that a text consists of.
+/// @throws BadInput  with the text, unless it is a whole number in [lowest, highest]
 long parse_integer(std::string_view text, long lowest, long highest);
 
 }  // namespace contensou::answers

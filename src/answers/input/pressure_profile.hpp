@@ -8,8 +8,8 @@
 namespace contensou::answers {
 
 /// Reads the law of a pressure from a CSV file with columns rho, pressure. The name of the law is the path.
-/// @throws BadLine             naming file and line, if the table breaks a rule of TabulatedPressureLaw
-/// @throws std::runtime_error  naming the file, as TabulatedPressureLaw
+/// @throws BadLine             with file and line, if the table breaks a rule of TabulatedPressureLaw
+/// @throws std::runtime_error  with the file, as TabulatedPressureLaw
 /// @throws std::system_error   if the file cannot be read
 reduction::Law read_pressure_profile(const std::string& path);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view deviation = "_sd";
 constexpr const char* frame = "frame";
-/// Name of the spin in the CSV of a motion.
+/// Name of the spin in CSV output of a motion.
 constexpr const char* spin_of_motion = "wz";
 
 /// Returns false for an empty field, and for the words that numpy and R write for a missing value.
@@ -34,7 +34,7 @@ struct SeriesColumns {
   std::optional<SiColumn> sd;
 };
 
-/// Returns a doubt whether a length or speed without a unit is in mm, if it is larger than a film shows; else "".
+/// Returns a doubt that a length or speed without a unit is in mm, if it is too large for a film; else "".
 std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
   constexpr double too_much = 30;  // m or m/s; a filmed ball stays below
   const std::string_view unit = fit::kind_of(of.observable).unit;

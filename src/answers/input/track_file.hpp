@@ -11,39 +11,40 @@
 
 namespace contensou::answers {
 
-/// Standard deviations by the name of an observable, or "stop" of a stop time; SI.
+/// Standard deviations in SI units, by the name of the observable, or by "stop" for a stop time.
 using NoiseByName = std::map<std::string, double>;
 
-/// Options of reading a track.
+/// Options for reading a track.
 struct TrackRequest {
-  NoiseByName noise = {};            ///< noise of columns without NAME_sd
-  std::optional<double> from = {};   ///< s, begin of the motion; else the first row's time
-  std::optional<double> until = {};  ///< s
-  std::optional<double> fps = {};    ///< pictures a second, for a column frame in place of t
-  std::optional<double> pixel = {};  ///< m, of columns in px and px/s
+  NoiseByName noise = {};            ///< noise of columns that have no column NAME_sd
+  std::optional<double> from = {};   ///< begin of the motion, s; by default the time of the first row
+  std::optional<double> until = {};  ///< end of the rows that are read, s
+  std::optional<double> fps = {};    ///< pictures per second, for a column frame in place of t
+  std::optional<double> pixel = {};  ///< size of a pixel, m, for columns in px and px/s
 };
 
-/// Options that no track had a use for.
+/// Given options that no track has used.
 struct Unused {
   NoiseByName noise = {};
   bool fps = false, pixel = false;
 };
 
-/// The names of what a table may say of a ball.
+/// Returns the names of all observables of a ball.
 std::vector<std::string> observable_names();
 
-/// The name of an observable that a column of that name has: "spin" of wz, else its usual_name.
+/// Returns the name of the observable in a column: "spin" for the column wz, else the usual_name of the column.
 std::string observable_name(std::string_view column);
 
-/// A track from a table with a column t, or frame, and others of observables, by their usual_name, in SI units or in
-/// those behind their names, as in "spin [rpm]"; NAME_sd is the standard deviation of NAME, in the unit of NAME unless
-/// it has its own. An empty field, nan and NA were not measured. Other columns are not read.
+/// Returns a track from a table with a column t or frame and columns of observables. Columns are found by their
+/// usual_name; they are in SI units or in the units behind their names, such as "spin [rpm]". NAME_sd is the standard
+/// deviation of NAME, in the unit of NAME unless it has its own. An empty field, nan and NA are missing values. Other
+/// columns are not read.
 ///
 /// @param name  name of the track
-/// @param note    called with a sentence for each column that is not read, or that seems to be in another unit
-/// @param unused  options: those that this track has a use for are taken out
-/// @throws BadLine            naming the line: of a header without t or an observable, with what there is; of a number
-///                            that is none, a time that does not increase, a standard deviation that is not positive
+/// @param note    called with a sentence about each column that is not read, or that seems to have another unit
+/// @param unused  options; the function removes those that it uses
+/// @throws BadLine            with the line: for a header without t or an observable, with the names in it; for a field
+///                            that is not a number, a time that does not increase, a standard deviation that is not > 0
 /// @throws std::system_error  if the table cannot be read
 fit::Track read_track(CsvReader& table, const std::string& name, const TrackRequest& request,
                       const std::function<void(const std::string&)>& note, Unused* unused = nullptr);

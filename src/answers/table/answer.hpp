@@ -25,7 +25,7 @@ struct Digits {
   int width() const { return count + 8; }
   std::string operator()(double value) const;
 
-  /// Returns "(a, b, ...)".
+  /// Returns the values as text "(a, b, ...)".
   template <class Values>
   std::string list(const Values& values) const {
     std::string text;
@@ -34,29 +34,29 @@ struct Digits {
   }
 };
 
-/// The answer of a verb, from which every format is made.
+/// The answer of a verb (a command of the program). Every output format is made from it.
 struct Answer {
-  Json members = Json::object();         ///< members of JSON, after the number of the schema and the version
+  Json members = Json::object();         ///< members of JSON after the schema number and the version
   std::vector<Column> columns = {};      ///< columns of CSV and text; the last members of JSON
   Json remarks = Json::object();         ///< comment lines before the header, for CSV with columns
   std::vector<Json> rows = {};           ///< rows of CSV without columns: objects with the same names
-  std::vector<std::string> beside = {};  ///< names in rows that TeX leaves out, for lack of room in a paper
-  std::function<std::string(const Digits&)> text = {};  ///< empty: the columns, or the rows as in CSV
-  std::function<Answer()> numbers = {};  ///< makes the answer for every format except text; empty: this answer
+  std::vector<std::string> beside = {};  ///< names in rows that TeX leaves out, because a paper has no room for them
+  std::function<std::string(const Digits&)> text = {};  ///< text for people; empty: the columns, or the rows as in CSV
+  std::function<Answer()> numbers = {};  ///< returns the answer for every format except text; empty: this answer
 };
 
-/// Returns the formats of an answer, the standard one first.
+/// Returns the formats of an answer, the default first.
 std::vector<std::string> answer_formats(const std::string& standard);
 
-/// Returns an answer in a format. CSV and JSON write the shortest digits that read back to the same double. In CSV each
-/// member of an object in a row has its own column. TeX is a tabular for \input with the same columns and the digits of
-/// text; with fewer rows than columns it is transposed.
+/// Returns an answer in a format. CSV and JSON contain the shortest digits that read back to the same double. In CSV
+/// each member of an object in a row has its own column. TeX is a tabular for \input with the same columns, and with as
+/// many digits as text. If it has fewer rows than columns, it is transposed.
 /// @param format  one of answer_formats
-/// @throws std::runtime_error  for NaN, which JSON cannot express
-/// @throws std::domain_error   for a letter that LaTeX lacks
+/// @throws std::runtime_error  for NaN, which JSON cannot represent
+/// @throws std::domain_error   for a letter that LaTeX does not have
 std::string render(const Answer& answer, const std::string& format, Digits digits);
 
-/// Returns the fields as a line of CSV, with quotes where a field needs them.
+/// Returns the fields as a line of CSV, with quotes around fields that need them.
 std::string csv_line(const std::vector<std::string>& fields);
 
 /// Returns the entries of a vector as a list.
@@ -65,7 +65,7 @@ Json list_of(const Values& values) {
   return std::vector(values.begin(), values.end());
 }
 
-/// Returns the value, or infinity for NaN, which no format writes.
+/// Returns the value, but infinity for NaN. No format can write NaN.
 double or_infinity(double value);
 
 }  // namespace contensou::answers

@@ -11,69 +11,69 @@
 
 namespace contensou::answers {
 
-/// Names, unit and meaning of a field, as help prints them.
+/// Names, unit and meaning of a field, as the program's help prints them.
 struct FieldText {
   std::string names;  ///< names in backquotes, with the other words: `bounds` [lower, upper]; CSV `lower`, `upper`
-  std::string unit;   ///< none: a pure number, or a name
+  std::string unit;   ///< empty for a pure number or a name
   std::string meaning;
 };
 
-/// The columns and fields that a verb reads and writes.
+/// The columns that a verb (a command of the program) reads, and the fields that it writes.
 struct VerbFields {
-  std::string_view option;  ///< option of the verb that the fields need, such as "--batch"; empty: none
+  std::string_view option;  ///< option that the verb needs for these fields, such as "--batch"; empty: none
   std::vector<FieldText> (*fields)();
 };
 
-/// A field of the result of a verb. A table of them is all that JSON, CSV and help know of that result.
+/// One field of the result of a verb. A table of fields determines JSON, CSV and help for that result.
 template <class Result>
 struct Field {
-  const char* name;              ///< name of the member of JSON; none: only in CSV
-  const char* unit;              ///< none: a pure number, or a name
-  const char* meaning;           ///< empty: it shares the line of help of the next
-  Json (*value)(const Result&);  ///< null where this result has none
+  const char* name;              ///< name of the member of JSON; null if the field is only in CSV
+  const char* unit;              ///< empty for a pure number or a name
+  const char* meaning;           ///< empty: the field shares a line of help with the next field
+  Json (*value)(const Result&);  ///< returns null if this result does not have the field
 
-  /// Names of the columns of CSV, between commas: of the value, of the entries of an array, or of the members of an
-  /// object; an entry without a name has none. In an array of objects * stands for the member "name". Without
-  /// a text, as in JSON; an empty one: none.
+  /// Names of the columns of CSV, between commas: for the value, for the entries of an array, or for the members of an
+  /// object. An entry without a name has no column. In an array of objects * stands for the member "name". If it is
+  /// null, the names are those of JSON; if it is empty, there are no columns.
   const char* columns = nullptr;
   int place = 0;           ///< place of the columns, in increasing order
   const char* shape = "";  ///< shape of an array or object, for help
 };
 
-/// The value of a field that JSON has as null.
+/// The value of a field that JSON shows as null.
 inline const Json said_null = Json::value_t::discarded;
 
-/// A column of a result that has many rows: of CSV, and a list in JSON.
+/// A column of a result with many rows: a column of CSV, and a list in JSON.
 template <class Result>
 struct ColumnField {
   const char* name;
   const char* unit;
-  const char* meaning;                             ///< like Field::meaning
-  const Eigen::ArrayXd* (*values)(const Result&);  ///< null where this result has none
+  const char* meaning;                             ///< see Field::meaning
+  const Eigen::ArrayXd* (*values)(const Result&);  ///< returns null if this result does not have the column
 };
 
-/// Columns of a table whose rows are read or written as they come.
+/// Columns of a table whose rows are read or written one at a time.
 struct ColumnText {
   const char *names, *unit, *meaning;  ///< names between commas
 };
 
 std::vector<std::string> names_of(std::initializer_list<ColumnText> columns);
 
-/// @param before  stands before the names: "in: " or "out: "
+/// @param before  text before the names: "in: " or "out: "
 std::vector<FieldText> texts_of(std::initializer_list<ColumnText> columns, const std::string& before = "");
 
-/// A row of CSV gets the columns of a value.
-/// @param columns  columns, see Field
+/// Adds the columns of a value to a row of CSV.
+/// @param columns  names of the columns, see Field::columns
 void append_columns(Json& row, const std::string& name, const char* columns, const Json& value);
 
-/// A field as help shows it.
+/// Returns a field as the program's help shows it.
 FieldText text_of(const std::string& name, const char* columns, const char* unit, const char* meaning,
                   const char* shape);
 
-/// Returns the lists as one. A field without a meaning is joined with the next field.
+/// Returns the lists as one list. A field without a meaning is joined with the next field.
 std::vector<FieldText> joined(const std::vector<std::vector<FieldText>>& lists);
 
-/// The members of JSON, in the order of the table.
+/// Returns the members of JSON, in the order of the table.
 template <class Result, std::size_t count>
 Json members_of(const Field<Result> (&fields)[count], const Result& result) {
   Json members = Json::object();
@@ -86,7 +86,7 @@ Json members_of(const Field<Result> (&fields)[count], const Result& result) {
   return members;
 }
 
-/// A row of CSV.
+/// Returns a row of CSV.
 template <class Result, std::size_t count>
 Json row_of(const Field<Result> (&fields)[count], const Result& result) {
   std::vector<const Field<Result>*> sorted;
@@ -102,7 +102,7 @@ Json row_of(const Field<Result> (&fields)[count], const Result& result) {
   return row;
 }
 
-/// The columns that this result has.
+/// Returns the columns that this result has.
 template <class Result, std::size_t count>
 std::vector<Column> columns_of(const ColumnField<Result> (&fields)[count], const Result& result) {
   std::vector<Column> columns;
@@ -112,7 +112,7 @@ std::vector<Column> columns_of(const ColumnField<Result> (&fields)[count], const
   return columns;
 }
 
-/// The fields as texts.
+/// Returns the fields as help shows them.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of(const Field<Result> (&fields)[count]) {
   std::vector<FieldText> texts;
@@ -128,8 +128,8 @@ std::vector<FieldText> texts_of(const ColumnField<Result> (&fields)[count]) {
   return joined({texts});
 }
 
-/// An answer that is a row for each result: the rows of CSV, and a list in JSON.
-/// @param list  the name of that list
+/// Returns an answer with one row for each result: the rows of CSV, and a list in JSON.
+/// @param list  name of the list in JSON
 template <class Result, std::size_t count>
 Answer answer_of_rows(const char* list, const Field<Result> (&fields)[count], const std::vector<Result>& results) {
   Answer answer;
@@ -141,7 +141,7 @@ Answer answer_of_rows(const char* list, const Field<Result> (&fields)[count], co
   return answer;
 }
 
-/// The fields of such an answer, as texts.
+/// Returns the fields of such an answer, as help shows them.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of_rows(const char* list, const Field<Result> (&fields)[count]) {
   return joined({{{std::string("JSON `") + list + "` [...]", "", "an entry for each row of CSV, with its fields"}},

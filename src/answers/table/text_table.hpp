@@ -6,23 +6,23 @@
 
 namespace contensou::answers {
 
-/// A table for people: lines of cells, each padded to the width of its column. A line does not end in spaces: words at
-/// its end are not padded, and may be longer than their column.
+/// A table for people. It consists of lines of cells, each padded to the width of its column. Words at the end of a
+/// line are not padded and may be longer than their column, so that no line ends in spaces.
 class TextTable {
  public:
   struct Column {
     std::size_t
-        width;   ///< least width; a column is as wide as its widest cell, numbers behind another column two wider
-    char align;  ///< < or >
+        width;   ///< smallest width; a column is as wide as its widest cell; numbers after another column have two more
+    char align;  ///< < for left, > for right
   };
 
-  /// Columns of words, at the left; and of numbers, at the right.
+  /// Return a column of words, aligned left, and a column of numbers, aligned right.
   static Column left(int width = 0) { return {static_cast<std::size_t>(width), '<'}; }
   static Column right(int width) { return {static_cast<std::size_t>(width), '>'}; }
 
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-  /// A line. Cells beyond the last column stand as they are.
+  /// Adds a line. Cells beyond the last column are neither padded nor aligned.
   void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
 
   std::string text() const;

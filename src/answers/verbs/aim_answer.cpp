@@ -14,13 +14,13 @@ namespace contensou::answers {
 namespace {
 
 struct AimReport {
-  si::Experiment experiment;  ///< ball with the start that was found
+  si::Experiment experiment;  ///< ball with the start that reaches the goal
   reduction::Law law;
   si::Velocities start;
   double slip;                   ///< slip at the start
   double distance, turns, time;  ///< results of the start
   si::Velocities final;
-  std::optional<si::Event> rolls;  ///< begin of rolling, for a ball only
+  std::optional<si::Event> rolls;  ///< event at which rolling begins; empty for a body that lies flat
   std::optional<si::CueStrike> strike;
   std::optional<si::Event> rest;  ///< only with rolling friction
 

@@ -11,11 +11,11 @@ namespace contensou::answers {
 
 using AimGoal = std::variant<si::Goal, si::RollingGoal>;
 
-/// Returns the answer of `aim`: the start that reaches the goal, its result, and the stroke of a cue that gives this
-/// start. Throws as si::aimed.
+/// Returns the answer of `aim`: the start that reaches the goal, the result of this start, and the stroke of a cue that
+/// causes it. Throws as si::aimed.
 Answer aim_answer(si::Experiment experiment, const reduction::Law& law, const AimGoal& goal);
 
-/// Returns the fields of that answer.
+/// Returns the fields of the answer of `aim`.
 std::vector<FieldText> aim_fields();
 
 }  // namespace contensou::answers

@@ -13,16 +13,16 @@ class LoadHistory;
 
 namespace contensou::answers {
 
-/// The ball of an answer in SI units: its name and values, its patch radius under the law and what that follows from.
+/// Returns the ball of an answer in SI units: its name and values, its patch radius under the law and the source of it.
 Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law);
 
-/// {t, x, y}
+/// Returns {t, x, y}.
 Json members_of(const si::Event& event);
 
-/// {t: [...], load: [...]}
+/// Returns {t: [...], load: [...]}.
 Json members_of(const si::LoadHistory& load);
 
-/// The ball of an answer for people, in two lines.
+/// Returns the ball of an answer in two lines of text.
 std::string ball_heading(const si::Experiment& experiment, const reduction::Law& law, const Digits& digits);
 
 }  // namespace contensou::answers

@@ -22,14 +22,14 @@ struct BounceReport {
   si::Impact impact;
   std::optional<double> height;  ///< m
   double rolling_below;          ///< m/s
-  bool by_moduli;                ///< the patch
+  bool by_moduli;                ///< true: the patch radius follows from the moduli
   si::Rebound ours, textbook;
 
   si::Velocities start() const { return si::velocities_of(experiment.start); }
   double up() const { return impact.restitution * impact.normal_speed; }
 };
 
-/// From the normal of the plane, in degrees.
+/// Returns the angle of a velocity from the normal of the plane, in degrees.
 double angle(const Eigen::Vector2d& along, double normal) {
   return std::atan2(along.stableNorm(), normal) * (180 / std::numbers::pi);
 }

@@ -19,10 +19,10 @@ namespace contensou::answers {
 
 namespace {
 
-/// The columns of a table that say a motion.
+/// The columns of a table that describe a motion.
 class MotionColumns {
  public:
-  /// @throws BadLine  if one is missing
+  /// @throws BadLine  if a column is missing
   MotionColumns(const CsvReader& table, const si::Ball& ball)
       : table_(table), radius_(ball.radius), time_(needed("t", "s")) {
     const auto time = find_column(table, "time", "s");
@@ -75,7 +75,7 @@ class MotionColumns {
 
   SiColumn needed(std::string_view name, std::string_view unit) const {
     if (const auto column = find_column(table_, name, unit)) return *column;
-    return {table_.column(name)};  // says that there is none
+    return {table_.column(name)};  // throws if there is no such column
   }
 
   const CsvReader& table_;
@@ -91,7 +91,7 @@ std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
   std::vector<Instant> instants;
   table.for_each_row([&](const CsvRow& row) {
     const Instant instant = columns.read(row);
-    if (instants.empty() && instant.speeds.slip < 0)  // later ones may be less by their errors
+    if (instants.empty() && instant.speeds.slip < 0)  // only the first row: a later slip may be negative by its error
       throw table.complaint(instant.line,
                             fmt::format("slip: the start is a speed, 0 or more, got {}", instant.speeds.slip));
     if (!instants.empty() && instant.t < instants.back().t) {
@@ -109,7 +109,7 @@ std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
   return instants;
 }
 
-/// Compares a model with the rows.
+/// Compares a model with the rows of the table.
 void compare(ModelBeside& model, const MotionsBeside& motions, double tolerance) {
   for (const auto& [line, t, speeds, body] : motions.rows) {
     const si::SlipAndSpin modelled = model.motion(t - motions.rows.front().t);
@@ -140,7 +140,7 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
   const std::vector<Instant> instants = read_instants(table, ball.ball);
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;
-  // The effects of rolling resistance and slope depend on the rolling, so the start needs the whole velocities.
+  // Rolling resistance and slope act on the rolling motion, so the start must contain all velocities.
   const bool driven = si::is_driven(ball);
   if (const auto& body = instants.front().body; driven && body) {
     const auto& [velocity, w] = *body;
@@ -190,7 +190,7 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
     try {
       add(other.name(), under(other));
     } catch (const std::domain_error&) {
-      // Its patch would have to be larger than the ball for the spin deceleration that was measured.
+      // For the measured spin deceleration the patch under this law would have to be larger than the ball.
     }
   }
   return result;

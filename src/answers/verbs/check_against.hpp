@@ -12,18 +12,18 @@
 
 namespace contensou::answers {
 
-/// Deviation of the slip or the spin of a table from that of a model.
+/// Deviation of slip or spin between a table and a model.
 struct Deviation {
   double error = 0;          ///< largest error, m/s or rad/s
   double relative = 0;       ///< largest error as a share of the start
   double t = infinity;       ///< time of the worst row in the table, s
-  double leaves = infinity;  ///< time of the first row beyond the tolerance, s
+  double leaves = infinity;  ///< time of the first row whose error is beyond the tolerance, s
 };
 
-/// A model of the motion beside a table.
+/// A model whose motion is compared with a table.
 struct ModelBeside {
   std::string name;
-  std::function<si::SlipAndSpin(double)> motion;  ///< takes the time from the first row, s
+  std::function<si::SlipAndSpin(double)> motion;  ///< returns the speeds at a time after the first row, s
   Deviation slip = {}, spin = {};
 
   double worst() const;  ///< larger relative error of slip and spin
@@ -37,25 +37,25 @@ struct Instant {
   std::optional<si::Velocities> body = {};  ///< velocities in the log of a rigid body
 };
 
-/// A table of a ball's motion beside the motions of models with the same start.
+/// A table of a ball's motion, and the motions of models with the same start.
 struct MotionsBeside {
   std::vector<Instant> rows;
   si::SlipAndSpin start;
-  double slip_unit, spin_unit;      ///< errors are shares of these, m/s and rad/s
-  std::vector<ModelBeside> models;  ///< the model of the law first
+  double slip_unit, spin_unit;      ///< errors are divided by these, m/s and rad/s
+  std::vector<ModelBeside> models;  ///< models; the model of the law is the first
 
-  /// Returns the closest model; among equally close ones, that of the law.
+  /// Returns the model with the smallest error. Among equal models the model of the law wins.
   const ModelBeside& nearest() const;
 };
 
-/// Compares a table of a motion with models. The slip of a rigid body is |(vx - R wy, vy + R wx)|, Zh98 (2.1); that of
-/// a body that lies flat is |(vx, vy)|.
+/// Compares a table of a motion with models. The slip of a rigid body is computed as |(vx - R wy, vy + R wx)|, the slip
+/// of a body that lies flat as |(vx, vy)|.
 ///
-/// @param path       file with columns t (or time), slip and spin (or wz, as in roll); or, for a rigid body, vx, vy,
-///                   wx, wy, wz in place of slip and spin; in SI units or the units behind the names; "-" is standard
-///                   input
-/// @param ball       ball that starts with the first row
-/// @param values     values that replace those of the first row
+/// @param path       file with columns t (or time), slip and spin (or wz, as `roll` writes); for a rigid body it may
+///                   have vx, vy, wx, wy, wz in place of slip and spin. Units are SI or those behind the names; "-" is
+///                   standard input
+/// @param ball       ball whose start is the first row
+/// @param values     values that replace values of the first row
 /// @param tolerance  largest error that passes, as a share of the start, > 0
 /// @throws BadLine            for a mistake in the table, or a start that the ball cannot have
 /// @throws std::system_error  if the file cannot be read

@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
 
-/// The least mu of driven starts: for a smaller patch creeping is stiff, and the routes in steps take long.
+/// Values of mu for starts with a drive. For a smaller patch creeping is stiff, and routes in steps take long.
 constexpr std::array driven_patch_ratios{0.099, 1.0};
 constexpr std::array built_in_drives{0.05, 0.5, 0.95};
 
-/// Starts whose k0 = v0/(mu u0) runs from almost pure pivoting to almost pure sliding.
+/// Returns starts whose k0 = v0/(mu u0) runs from almost pure pivoting to almost pure sliding.
 std::vector<State> built_in_starts(double mu) {
   std::vector<State> starts;
   for (int decade = -4; decade <= 6; ++decade) starts.push_back({.u = 1, .v = mu * std::pow(10, decade)});
@@ -33,7 +33,7 @@ std::vector<State> built_in_starts(double mu) {
 
 const char* verdict(const Check& check) { return check.passed() ? "ok" : "FAIL"; }
 
-/// A number of the deviation that only a table has.
+/// Returns a number of the deviation; null for a row without a table.
 Json of_deviation(const CheckedLaw& row, double Deviation::*number) {
   return row.deviation ? Json((*row.deviation).*number) : Json();
 }
@@ -75,7 +75,7 @@ constexpr Field<MotionsBeside> beside_fields[]{
      [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
 };
 
-/// The name of a law, without the words that end a row: the name of a file may contain them.
+/// Returns the name of a law without the words that end a row, because the name of a file may contain these words.
 std::string label(const std::string& law) {
   std::string text = quotation(law);
   text = text.substr(1, text.size() - 2);

@@ -10,35 +10,35 @@
 
 namespace contensou::answers {
 
-/// A check of a law.
+/// The result of a check of a law.
 struct CheckedLaw {
   std::string law;
   reduction::Check check;
-  std::optional<Deviation> deviation = {};  ///< deviation of a table, if one is checked
+  std::optional<Deviation> deviation = {};  ///< deviation from a table, if the check uses one
 };
 
-/// Returns the checks of a law over a set of starts whose k0 runs from almost pure pivoting to almost pure sliding, and
-/// of the same with drives the routes to the stop time: the worst of each.
+/// Returns the worst results of the checks of a law over a set of starts, whose k0 = v0/(mu u0) runs from almost pure
+/// pivoting to almost pure sliding. The routes to the stop time are also compared with drives.
 std::vector<reduction::Check> built_in_checks(const reduction::Law& law);
 
-/// Replaces each check by the worse of it and the other result of the same check. NaN is the worst.
+/// Replaces each check by the worse of itself and the same check in `others`. NaN is the worst.
 void take_worse(std::vector<reduction::Check>& worst, const std::vector<reduction::Check>& others);
 
-/// Returns the answer of `check` with these rows.
+/// Returns the answer of `check` with the given rows.
 /// @param built_in  true for rows of built_in_checks; the text then names their starts
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);
 
-/// A table beside the motions of a ball: two checks of the law's own motion, and how far the others are.
+/// The answer for a table and the motions of a ball: two checks of the law's motion, and the errors of other models.
 struct BesideAnswer {
   Answer answer;
   bool passed;
 };
 
-/// @param law        the first of the models
-/// @param tolerance  a share of the start
+/// @param law        name of the law, the first of the models
+/// @param tolerance  largest error that passes, as a share of the start
 BesideAnswer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance);
 
-/// The fields of these answers.
+/// Returns the fields of these answers.
 std::vector<FieldText> check_fields();
 
 }  // namespace contensou::answers

@@ -15,15 +15,15 @@ using si::Engine;
 
 namespace {
 
-/// A setting of an engine, or none: the body under its law.
+/// A contact under a setting of an engine; without a setting, the body under its law.
 struct Contact {
   std::string label;
   std::string cone;
-  double moment_arm;  ///< m
+  double moment_arm;  ///< largest moment divided by the load, m
   si::FadeTimes fade;
 };
 
-/// An engine with a ball, or a body that lies flat, in it.
+/// An engine with its settings for a ball, or for a body that lies flat.
 struct EngineWithBall {
   const Engine* engine;
   const si::EngineUse* use;
@@ -52,12 +52,12 @@ EngineWithBall with_ball(const Engine& engine, const si::Experiment& experiment,
   return result;
 }
 
-/// N.
+/// Returns the load in N.
 double load_of(const si::Experiment& experiment) {
   return experiment.environment.load.value_or(experiment.ball.mass * experiment.environment.gravity);
 }
 
-/// On one line.
+/// Returns a text on one line.
 std::string line_of(std::string_view text) {
   std::string line(text);
   std::ranges::replace(line, '\n', ' ');
@@ -166,7 +166,7 @@ constexpr Field<Report> report_fields[]{
      "", 0, " [...]"},
 };
 
-/// Below the tables.
+/// Explanation that is printed below the tables.
 constexpr const char* explanation =
     "slip, spin   s until 1e-3 of what they were at the start is left (roll: 'rolls after' --rolling-below 1 mm/s)\n"
     "slid, turns  m that the contact slides, and turns about the vertical, until they have ended\n"
@@ -216,7 +216,7 @@ std::string text_of_all(const Report& report, const Digits& digits) {
       table.text(), explanation);
 }
 
-/// Texts of several lines beside a name.
+/// Returns texts of several lines with a label to the left of them.
 std::string block(std::string label, const std::vector<std::string>& texts) {
   TextTable table({TextTable::left(10)});
   for (const std::string& text : texts) {

@@ -9,12 +9,12 @@
 
 namespace contensou::answers {
 
-/// Returns the answer of `engine` for a ball: the settings of each engine, or of one, and their effect. CSV contains
-/// one row for each setting.
+/// Returns the answer of `engine` for a ball: the settings of all engines, or of one, and the resulting motion. CSV
+/// contains one row for each setting.
 /// @param only  the only engine; null: all
 Answer engine_answer(const si::Experiment& experiment, const reduction::Law& law, const si::Engine* only = nullptr);
 
-/// Returns the fields of that answer.
+/// Returns the fields of the answer of `engine`.
 std::vector<FieldText> engine_fields();
 
 }  // namespace contensou::answers

@@ -32,13 +32,13 @@ const std::string_view& name_of(const Estimate& estimate) { return fit::kind_of(
 
 bool is_of_start(const Estimate& estimate) { return static_cast<int>(estimate.parameter) >= fit::shared_parameters; }
 
-/// Null without degrees of freedom.
+/// Returns chi^2 divided by the degrees of freedom; null without degrees of freedom.
 Json reduced_chi2(const fit::Fit& fit, bool planned) {
   if (planned) return 1;
   return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
 }
 
-/// "t = 0.1, 0.25 s", by track where there are several; the first ones.
+/// Returns the first places of outliers, such as "t = 0.1, 0.25 s"; if there are several tracks, by track.
 std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vector<fit::Track>& tracks) {
   constexpr std::size_t most = 6;
   std::string text;
@@ -102,7 +102,7 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
   return remarks;
 }
 
-/// "friction", "patch_radius, mm": in the units in which people read them.
+/// Names such as "friction" and "patch_radius, mm", in the units in which people read the numbers.
 struct Shown {
   std::string name;
   double unit;
@@ -113,7 +113,7 @@ Shown shown(Parameter parameter) {
   return {unit.empty() ? std::string(name) : fmt::format("{}, {}", name, unit), 1};
 }
 
-/// The line of an estimate in a table.
+/// Returns the line of a table for an estimate.
 std::vector<std::string> line_on(const Estimate& estimate, const Digits& digits) {
   const auto [name, unit] = shown(estimate.parameter);
   const auto number = [&, unit = unit](double value) { return digits(value / unit); };
@@ -181,7 +181,7 @@ std::string ranking_of(const std::vector<fit::Fit>& fits) {
                                           : fmt::format("{} fits better than all others\n", best.law));
 }
 
-/// The laws that were fitted, the best first, and to what.
+/// The fits of all laws, the best first, and the tracks.
 struct FitReport {
   const std::vector<fit::Fit>& fits;
   const std::vector<fit::Track>& tracks;

@@ -9,16 +9,16 @@
 
 namespace contensou::answers {
 
-/// Returns the fit by the best law, and the criterion of the other laws.
+/// Returns the answer of `fit`: the fit by the best law, and the criteria of the other laws.
 /// @param fits     fits of the tracks, the best first
-/// @param planned  true for a film that is not made yet
+/// @param planned  true for the plan of a film that is not made yet
 Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned);
 
-/// Returns the answer as text on one screen, with the numbers that the data do not determine.
+/// Returns the answer as text on one screen, including the numbers that the data do not determine.
 std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned,
                       const Digits& digits);
 
-/// The fields of that answer.
+/// Returns the fields of the answer of `fit`.
 std::vector<FieldText> fit_fields();
 
 }  // namespace contensou::answers

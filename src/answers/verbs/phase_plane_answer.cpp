@@ -23,15 +23,15 @@ using reduction::TerminalRatios;
 
 namespace {
 
-/// Returns the text at the place of an enumerator.
+/// Returns the text that belongs to an enumerator.
 template <class Enumeration>
 std::string_view text_of(const std::array<std::string_view, 3>& texts, Enumeration place) {
   return texts[static_cast<std::size_t>(place)];
 }
 
-/// In the order of TerminalRegime.
+/// Names of the regimes, in the order of reduction::TerminalRegime.
 constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
-/// Approach of an orbit to the origin, in the order of InvariantDirection.
+/// The approach of orbits to the origin in words, in the order of InvariantDirection.
 constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
                                                      "along u = 0: 1/k falls"};
 
@@ -42,13 +42,13 @@ std::string_view effect(const InvariantRay& ray) {
                               : "repels";
 }
 
-/// Returns the index of the end with the largest sector of starts, by the angle of (mu |u|, v).
+/// Returns the index of the end that the largest sector of starts reaches. Their size is the angle of (mu |u|, v).
 std::size_t usual_end(const TerminalRatios& ratios) {
   const auto sector = [](const TerminalRatio& end) { return std::atan(end.to) - std::atan(end.from); };
   return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());
 }
 
-/// An end, and the relative error of its k*.
+/// A limit of k at the stop, and the relative error of its k*.
 struct End {
   TerminalRatio ratio;
   double accuracy;
@@ -100,7 +100,7 @@ constexpr Field<TerminalRatios> list_fields[]{
      "", 0, " [{`limit`, ...}]"},
 };
 
-/// Returns the members common to both answers. The usual end stands before the list of all ends.
+/// Returns the members common to both answers. The end with the largest sector stands before the list of all ends.
 Json ratio_members(const TerminalRatios& ratios) {
   Json members = members_of(regime_fields, ratios);
   members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
@@ -108,7 +108,7 @@ Json ratio_members(const TerminalRatios& ratios) {
   return members;
 }
 
-/// Returns the half-line along which orbits enter the origin at an end, with its k and the order of contact.
+/// Returns the half-line along which orbits enter the origin at an end, with its k and its order of contact.
 Json tangent_of(const PhasePlane& plane, std::size_t end) {
   const auto& [direction, k, order] = plane.tangents[end];
   return {{"half_line", name(direction)}, {"k", k}, {"contact_order", order}};
@@ -163,7 +163,7 @@ constexpr Field<PhasePlane> plane_fields[]{
      "", 0, " [...]"},
 };
 
-/// The law, what r is made of, and where there are rays.
+/// Returns a heading with the law, the numbers that give r, and the places of rays.
 std::string heading(const ReducedSystem& system, const TerminalRatios& ratios, std::string_view rays,
                     const Digits& digits) {
   return fmt::format(

@@ -8,14 +8,14 @@
 
 namespace contensou::answers {
 
-/// Returns the answer of `terminal`: the limits of k, and the invariant rays. CSV contains one row for each limit.
+/// Returns the answer of `terminal`: the limits of k at the stop, and the invariant rays. CSV has a row for each limit.
 Answer terminal_answer(const reduction::ReducedSystem& system);
 
-/// Returns the answer of `portrait --facts`: regime, singular points with eigenvalues and kind, and the way in which
-/// orbits enter the origin. CSV contains one row for each singular point.
+/// Returns the answer of `portrait --facts`: the limits of k, the singular points with eigenvalues and kinds, and the
+/// way in which orbits enter the origin. CSV has one row for each singular point.
 Answer phase_plane_answer(const reduction::ReducedSystem& system);
 
-/// Returns the fields of each of these answers.
+/// Return the fields of these two answers.
 std::vector<FieldText> terminal_fields();
 std::vector<FieldText> phase_plane_fields();
 

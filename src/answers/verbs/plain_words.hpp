@@ -4,7 +4,7 @@
 
 namespace contensou::answers {
 
-/// Returns a number >= 0 to two digits, without an exponent from 1e-5 to 1e6.
+/// Returns a number >= 0 rounded to two digits. From 1e-5 to 1e6 it has no exponent.
 std::string to_two_digits(double number);
 
 /// Returns a length in mm, cm, m or km, to two digits.

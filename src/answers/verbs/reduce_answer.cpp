@@ -54,7 +54,7 @@ Json json_of(const Generator& x) {
   return json;
 }
 
-/// A sum of such terms as one writes it: no zeros, no ones.
+/// Returns a sum of terms as people write it: without terms 0 and factors 1.
 std::string sum(std::initializer_list<std::pair<double, std::string_view>> terms, const Digits& digits) {
   std::string text;
   for (const auto& [factor, name] : terms) {
@@ -70,7 +70,7 @@ std::string sum(std::initializer_list<std::pair<double, std::string_view>> terms
   return text.empty() ? "0" : text;
 }
 
-/// c t d/dt + ... in the names of time and coordinates.
+/// Returns a generator c t d/dt + ... with the given names of time and coordinates.
 std::string text_of(const Generator& x, std::string_view time, const Digits& digits) {
   std::string text;
   const auto add = [&](std::string factor, std::string_view name) {
@@ -105,7 +105,7 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
   text += "values      ";
   for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
   text += fmt::format("\n            singular ones of the determining equations at {} points; ", found.points);
-  // They are relative to the largest.
+  // Singular values are relative to the largest.
   return text + (found.level < 1 ? fmt::format("0 is below {:.1g}, gap {:.1g}\n", found.level, found.gap)
                                  : "the errors of differences exceed all of them\n");
 }
@@ -120,8 +120,8 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
   add_text(answer, [=](const Digits& digits) { return text_of(found, time, digits); });
 }
 
-/// Adds the row of CSV: the members that are one number or text, and the first generator. Text does without the lists
-/// that `numbers` makes.
+/// Adds the row of CSV: the members that are one number or text, and the first generator. The text format does not need
+/// the lists that `numbers` computes.
 ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved) {
   Json& row = answer.rows.emplace_back();
   for (const auto& [name, value] : answer.members.items()) {
@@ -147,7 +147,7 @@ ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved)
   return {std::move(answer), solved || !found.generators.empty()};
 }
 
-/// Returns the orbit of the start in the strip, and the starts of its copies: each is the same curve with another p.
+/// Returns the orbit of the start in the strip, and the starts of its copies, each the same curve with another p.
 Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
   constexpr std::size_t most = 100;
   const portraits::ReducedOrbits from = portraits::reduced_orbits(plane, start);
@@ -167,7 +167,7 @@ Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
     const std::size_t step = (line.size() + most - 1) / most;
     for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
       const Vector2d at = place(line[i]);
-      if (!at.allFinite()) continue;  // the state is so long before the start that it exceeds a double
+      if (!at.allFinite()) continue;  // the state lies so long before the start that it overflows
       columns[x].push_back(line[i].x);
       columns["p"].push_back(line[i].y);
       columns["u"].push_back(at[0]);
@@ -189,7 +189,7 @@ std::string difference(double one, double other) {
   return fmt::format("differs by {:.1e}", std::abs(one / other - 1));
 }
 
-/// The forms of V that were tried; the last holds if one does.
+/// Returns a text on the forms of V that were tried. If V was found, the last form holds.
 std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   std::string text;
   for (const auto& [form, value, gap, residual, cleared] : tried) {
@@ -200,7 +200,7 @@ std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   return text;
 }
 
-/// The zeros of the field about the start, and the maps that turn its motions back.
+/// The equilibria of the field near the start, and the maps that reverse its motions.
 struct Equilibria {
   std::vector<reduction::Equilibrium> zeros;
   std::vector<reduction::Reversor> reversors;
@@ -215,7 +215,7 @@ struct Equilibria {
     std::string text;
     for (const auto& each : zeros) {
       const auto [first, second] = each.eigenvalues();
-      const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // no -0
+      const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: no minus sign for -0
       text += fmt::format("equilibrium ({}, {}): {}, eigenvalues {}\n", part(each.x[0]), part(each.x[1]), each.kind(),
                           first.imag() == 0   ? part(first.real()) + ", " + part(second.real())
                           : first.real() == 0 ? fmt::format("+-{} i", part(second.imag()))
@@ -228,16 +228,16 @@ struct Equilibria {
   }
 };
 
-/// Returns canonical coordinates: for (2.6) v/u and ln v, as in the paper, and on an axis their limits.
+/// Returns canonical coordinates to show: for (2.6) v/u and ln v, on an axis their limits.
 PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x) {
   const reduction::Flow* flow = plane.flow();
   if (flow == nullptr) return plane.canonical(x);
-  const double q = x[0] == 0 ? infinity : x[1] / x[0] + 0.0;  // no -0
+  const double q = x[0] == 0 ? infinity : x[1] / x[0] + 0.0;  // the addition turns -0 into 0
   const bool limit = q == 0 || std::isinf(q);
   return {q, std::log(x[1]), limit ? infinity : reduction::separated_slope(flow->system(), q)};
 }
 
-/// Adds a solution by a scaling.
+/// Adds to the answer a solution by a scaling.
 void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& start, bool at_centre) {
   const bool is_paper = plane.flow() != nullptr;
   const auto canonical = shown_canonical(plane, start);
@@ -245,7 +245,7 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   try {
     if (!at_centre) integral = plane.first_integral(start);
   } catch (const std::domain_error&) {
-    // on a ray it has no value
+    // the first integral has no value on a ray
   }
   std::vector<PlanarRay> shown = plane.rays();
   if (is_paper) std::erase_if(shown, [](const PlanarRay& ray) { return ray.q < 0 || ray.q > pi / 2; });
@@ -302,7 +302,7 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   });
 }
 
-/// Adds a solution by V alone.
+/// Adds to the answer a solution by V alone.
 void add_factor(Answer& answer, const SolvedPlane& solved) {
   const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
   const std::string_view form = solved.plane->form();
@@ -319,8 +319,8 @@ void add_factor(Answer& answer, const SolvedPlane& solved) {
   add_text(answer, [=](const Digits&) { return lines; });
 }
 
-/// Difference between the states by the solution and by steps at a time: at 95 % of a finite end time, else at 5. It is
-/// divided by the distance from 0 of the start or of the state by steps, whichever is larger.
+/// Distance between the state by the solution and the state by steps in time, at 95 % of a finite end time, else at t =
+/// 5. It is divided by the distance from 0 of the start or of the state by steps, the larger one.
 struct BySteps {
   double time, difference;
 };
@@ -336,7 +336,7 @@ std::optional<BySteps> by_steps(const PlanarReduction& plane, const PlanarOrbit&
   }
 }
 
-/// Adds the end of the orbit.
+/// Adds to the answer the end of the orbit.
 void add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start) {
   Json& members = answer.members;
   const PlanarOrbit orbit = plane.orbit(start);
@@ -390,7 +390,7 @@ std::vector<std::string_view> named_ends() {
   std::vector<std::string_view> names;
   for (int i = 0; i < reduction::planar_ends; ++i) {
     const auto end = static_cast<PlanarEnd>(i);
-    // A limit cycle is no end that scripts know.
+    // Scripts that read the answer have no name for a limit cycle.
     if (end != PlanarEnd::undecided && end != PlanarEnd::cycle) names.push_back(name(end));
   }
   return names;
@@ -455,10 +455,10 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
   const reduction::PlanarField field = reduction::planar_field(system);
-  // Sampled about k = 1, where both speeds change, whatever the start: by the scaling that is found all are alike.
+  // The samples lie about k = 1, where both speeds change, for every start. By the scaling all are alike.
   const PlanarSymmetries found = reduction::find_symmetries(field, Vector2d(1 / system.mu(), 1));
   if (!found.scaling) {
-    // A law has been found homogeneous when it was made: here only rounding can hide the scaling.
+    // The constructor of the law has tested that the law is homogeneous. So here only rounding can hide the scaling.
     throw std::runtime_error(fmt::format(
         "reduce: with mu = {} the scaling of (2.6) is lost in rounding, as u and v differ too much in how fast "
         "they change; stop, orbit and portrait take such a mu",
@@ -493,18 +493,18 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   const auto add_route = [&](std::string_view name, const std::function<double()>& time) {
     try {
       routes.push_back({{"name", name}, {"tau_stop", time()}});
-    } catch (const std::exception& failure) {  // a stepper did not come to the stop
+    } catch (const std::exception& failure) {  // a stepper did not reach the stop
       routes.push_back({{"name", name}, {"failure", words_of(failure.what())}});
     }
   };
   const std::vector<reduction::Route> ways = reduction::routes(system);
   for (reduction::Route route : ways) {
-    // The first is the way of the flow, which is solved.
+    // The first route is that of the flow, which is already solved.
     add_route(name(route),
               [&] { return route == ways.front() ? tau : reduction::stop_time(system, state, route).tau; });
   }
   add_route("section", [&] {
-    // The other quadrants are mirror images. A multiple zero of T on an axis shows on both sides of it alone.
+    // The other quadrants are mirror images. A multiple zero of T on an axis is visible on both sides of the axis only.
     const bool simple = std::ranges::all_of(plane.rays(), [](const PlanarRay& ray) { return ray.order == 1; });
     const auto quadrant = [&](const Vector2d& x) -> Vector2d {
       return simple && x.minCoeff() < 0 ? Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()) : field(x);

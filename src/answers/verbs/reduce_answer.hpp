@@ -16,10 +16,10 @@ namespace contensou::answers {
 /// Symmetries, canonical coordinates and solution of a system at a start.
 struct ReduceAnswer {
   Answer answer;
-  bool found;  ///< a generator, or a factor
+  bool found;  ///< true if a generator or an inverse integrating factor was found
 };
 
-/// Reduces (2.6), and adds the results of the other routes.
+/// Reduces the equations of motion (2.6), and adds the results of the other routes to the stop time.
 /// @throws BadInput  for a start at rest
 ReduceAnswer reduce_answer(const GivenStart& given);
 
@@ -27,10 +27,10 @@ ReduceAnswer reduce_answer(const GivenStart& given);
 /// @param text  text of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
 
-/// Returns every value of the field `end`; where an orbit has another end, it is null.
+/// Returns every value of the field `end`; for an orbit with another end it is null.
 std::vector<std::string_view> named_ends();
 
-/// The fields of these answers.
+/// Returns the fields of these answers.
 std::vector<FieldText> reduce_fields();
 
 }  // namespace contensou::answers

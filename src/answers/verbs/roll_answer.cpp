@@ -50,7 +50,7 @@ constexpr Field<Roll> start_fields[]{
      " {`t` [...], `load` [...]}"},
 };
 
-/// Events of the motion of a body, or of the uncoupled model.
+/// Events of the motion of a body, under the law or under the uncoupled model.
 struct RollEvents {
   si::Events of;
   bool lies_flat;
@@ -151,7 +151,7 @@ std::string heading(const si::Experiment& experiment, const reduction::Law& law,
                      digits(si::slip_at_start(experiment)), digits(si::spin_at_start(experiment)));
 }
 
-/// Tells the motion in one sentence of plain words.
+/// Returns a sentence of plain words about the motion.
 std::string opening(const Roll& roll) {
   const si::Events ours = roll.ours(), theirs = roll.theirs();
   const Eigen::Vector2d velocity = si::velocities_of(roll.experiment.start).velocity;
@@ -225,7 +225,7 @@ std::string events_text(const Roll& roll, const Digits& digits) {
   return text;
 }
 
-/// Returns lines on the effect of rolling resistance and slope, and on the route that found the motion.
+/// Returns lines on the effect of rolling resistance and slope, and on the route that computed the motion.
 std::string resistance_text(const Roll& roll, const Digits& digits) {
   const si::Environment& environment = roll.experiment.environment;
   std::string text;

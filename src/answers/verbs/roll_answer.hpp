@@ -19,7 +19,7 @@ namespace contensou::answers {
 struct Roll {
   si::Experiment experiment;
   reduction::Law law;
-  bool integrated;       ///< the route of its columns: the equations of motion instead of the similarity solution
+  bool integrated;       ///< true: computed from the equations of motion in steps; false: from the similarity solution
   double rolling_below;  ///< slip below which the ball rolls, m/s
   std::optional<si::LoadHistory> load = {};
   si::Motion whole = si::Motion::reduced(experiment, law, load).finite();
@@ -27,7 +27,7 @@ struct Roll {
   std::optional<si::Motion> in_steps = integrated ? std::optional(si::Motion::in_steps(experiment, law)) : std::nullopt;
   std::optional<Uncertainty> uncertainty = {};
   std::optional<si::EventGradient> gradient = {};
-  std::optional<double> tip = {};  ///< height of a cue's tip above the centre, in radii
+  std::optional<double> tip = {};  ///< height of a cue's tip above the centre, in radii; empty without a cue
 
   si::Events ours() const { return whole.events(rolling_below); }
   si::Events theirs() const { return textbook.events(rolling_below); }
@@ -44,11 +44,11 @@ struct Roll {
 /// @param times  s
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 
-/// Returns the motion as text of one screen: a sentence, then time and place of the end of slip, the rolling after it,
-/// the energy lost, and the uncoupled model beside it. The route `integrated` adds the error of its stop.
+/// Returns the motion as text on one screen: a sentence, then time and place of the end of slip, the rolling after it,
+/// the lost energy, and the same under the uncoupled model. If the motion is integrated, the error of the stop follows.
 std::string roll_text(const Roll& roll, const Digits& digits);
 
-/// Returns the fields of that answer.
+/// Returns the fields of the answer of `roll`.
 std::vector<FieldText> roll_fields();
 
 /// Returns {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}, where NAME is a component.

@@ -35,7 +35,7 @@ double tau_of(const si::Experiment& experiment, const reduction::Law& law) {
   return si::Motion::reduced(experiment, law).stop_time() / si::seconds(experiment, 1);
 }
 
-/// The stop time of a start with the same patch under another law.
+/// Returns the stop time of a start with the same patch under another law.
 double tau_under(const GivenStart& start, const reduction::Law& law) {
   const reduction::ReducedSystem& system = start.system;
   if (!start.is_in_pieces())
@@ -45,8 +45,8 @@ double tau_under(const GivenStart& start, const reduction::Law& law) {
   return tau_of(experiment, law);
 }
 
-/// Returns the stop time under the other law of the paper, which belongs to the same pressure. Nothing for other laws,
-/// and nothing if slip or spin is 0, where both laws agree.
+/// Returns the stop time under the other law of the paper (exact or Pade), which belongs to the same pressure. Empty
+/// for other laws, and if slip or spin is 0, because both laws then give the same.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
   const reduction::ReducedSystem& system = start.system;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
@@ -55,8 +55,8 @@ std::optional<OtherLaw> other_law(const GivenStart& start) {
   return OtherLaw{other.name(), tau_under(start, other)};
 }
 
-/// Stop time under a table of pressures with every other row left out. If its rows sample a curve, the change of the
-/// stop time bounds the interpolation error.
+/// Stop time under a pressure table without every other row. If the rows sample a curve, the change of the stop time
+/// bounds the interpolation error.
 struct CoarserTable {
   Eigen::Index rows;
   double tau;
@@ -74,16 +74,16 @@ struct StopReport {
   GivenStart start;
   reduction::Route route;
   reduction::StopTime stop;
-  double sliding_only;                             ///< tau of a body that did not pivot
-  double pivoting_only;                            ///< tau of a body that did not slide
-  std::optional<OtherLaw> other;                   ///< the other law of the paper, beside one of its laws
-  std::optional<CoarserTable> coarser;             ///< result for every other row of a pressure table
+  double sliding_only;                  ///< tau of a body with the same slip that does not pivot
+  double pivoting_only;                 ///< tau of a body with the same spin that does not slide
+  std::optional<OtherLaw> other;        ///< stop time under the other law of the paper, for one of its two laws
+  std::optional<CoarserTable> coarser;  ///< stop time without every other row of a pressure table
   std::vector<reduction::StopEstimate> estimates;  ///< estimates for small mu
   std::optional<reduction::StopTimeGradient> gradient;
   std::optional<Uncertainty> uncertainty;    ///< uncertainty of t_stop for a ball, else of tau_stop
-  std::optional<si::LoadHistory> load = {};  ///< a load that changes
+  std::optional<si::LoadHistory> load = {};  ///< changing load, if given
 
-  /// Returns the time, s, that a ball takes for tau, >= 0, under its load, which may change.
+  /// Returns the time, s, in which a ball passes tau >= 0 under its load, which may change.
   double seconds(double tau) const {
     const double nominal = si::seconds(*start.experiment, tau);
     return load ? load->time_of(nominal) : nominal;
@@ -96,7 +96,7 @@ double pivoting_only(const GivenStart& start) {
   if (experiment && si::is_driven(*experiment) && state.u != 0) {
     si::Experiment still = *experiment;
     still.start = si::SlipAndSpin{0, si::spin_at_start(*experiment)};
-    return tau_of(still, system.law());  // spinning in place, or sliding down the slope
+    return tau_of(still, system.law());  // the body spins in place, or slides down the slope
   }
   return system.drive() > 0 ? reduction::Flow(system).stop_time({state.u, 0}).tau : system.pivoting_limit(state.u);
 }
@@ -107,7 +107,7 @@ double sliding_only(const GivenStart& start) {
   return tau_of(si::without_spin(*start.experiment), system.law());
 }
 
-/// Returns time and place at which a moving ball rests, with rolling friction or on a slope; empty if it never rests.
+/// Returns time and place of the rest of a moving ball, with rolling friction or on a slope; empty if it never does.
 std::optional<si::Event> rest_of(const GivenStart& start) {
   return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }
@@ -117,7 +117,7 @@ double error_of(const reduction::StopEstimate& estimate, const reduction::StopTi
   return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
 }
 
-/// A derivative of the stop time with respect to the variable `by`, whose value is `at`.
+/// A derivative of the stop time by the variable with the name `by` and the value `at`.
 struct Derivative {
   const char* by;
   double value, at;
@@ -173,7 +173,7 @@ constexpr Field<StopReport> fields[]{
     {"tau_stop", "speed", "time when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
     {"accuracy", "", "relative error of tau_stop", [](const StopReport& r) -> Json { return r.stop.accuracy; }, nullptr,
      3},
-    // f g t, without the paper's factor 3 pi/2
+    // the time f g t without the factor 3 pi/2 of tau
     {"T_stop", "speed", "f g t_stop = 2 tau_stop/(3 pi)",
      [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
     {"bounds", "speed", "proved bounds of tau_stop; not for a motion in pieces",
@@ -261,7 +261,7 @@ constexpr Field<StopReport> fields[]{
      "", 0, " {`t`, `x`, `y`}"},
 };
 
-/// The report for people.
+/// Writes the answer as text for people.
 class Text {
  public:
   Text(const StopReport& report, const Digits& digits) : report_(report), number_(digits) {}
@@ -276,7 +276,7 @@ class Text {
   }
 
  private:
-  /// Tells the motion in one sentence of plain words.
+  /// Returns a sentence of plain words about the motion.
   std::string opening() const {
     const auto& [system, state, experiment, motion] = report_.start;
     const double tau = report_.stop.tau, uncoupled = std::max(report_.sliding_only, system.pivoting_limit(state.u));
@@ -341,7 +341,7 @@ class Text {
     return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
   }
 
-  /// The law, if it is a table of pressures: such a one has bends, at which its accuracy is not proved.
+  /// Returns the law if it is a table of pressures. Such a law has kinks, at which its accuracy is not proved.
   const reduction::TabulatedPressureLaw* pressures() const {
     return system_.law().as<reduction::TabulatedPressureLaw>();
   }
@@ -357,7 +357,7 @@ class Text {
     const TextTable::Column number = TextTable::right(number_.width());
     TextTable table(experiment ? std::vector{TextTable::left(18), number, number}
                                : std::vector{TextTable::left(18), number});
-    /// Adds a row. For a ball, the seconds stand before tau.
+    /// Adds a row. For a ball, the time in seconds stands before tau.
     const auto line = [&](const std::string& label, const std::string& seconds, const std::string& tau,
                           const std::string& note) {
       std::vector<std::string> cells{label, tau, note.empty() ? "" : "    " + note};
@@ -395,7 +395,7 @@ class Text {
     return table.text();
   }
 
-  /// To one digit.
+  /// Returns a number rounded up to one digit.
   static double rounded_up(double x) {
     const double place = std::pow(10, std::floor(std::log10(x)));
     return place * std::ceil(x / place - 1e-9);
@@ -504,7 +504,7 @@ class Text {
   const Digits& number_;
 };
 
-/// The stop time of several orbits, one after the other; each ends where a root says, to 50 bits.
+/// Returns the stop time of several orbits, one after the other. The end of each is a root, accurate to 50 bits.
 reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
   double accuracy = 0;
   long evaluations = 0;

@@ -31,30 +31,30 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A number of a start that is known to so much.
+/// A number of a start and its standard deviation.
 struct Spread {
   std::string name;
   double value;
   double standard = 0;  ///< standard deviation of value, in its unit
 };
 
-/// A number that may be given a spread.
+/// A number for which a user may give a standard deviation.
 struct Spreadable {
   Spread number;
   std::string_view unit;         ///< unit, as in si::Quantity
-  std::string_view corner = {};  ///< text that names a result without a derivative at number = 0; empty: none
+  std::string_view corner = {};  ///< words for a result that has no derivative if the number is 0; empty: there is none
 };
 
-/// Numbers that are known to so much, and how their errors go together.
+/// Numbers with their standard deviations and the correlations of their errors.
 struct Spreads {
   std::vector<Spread> numbers;
   Eigen::MatrixXd correlation;  ///< 1 on the diagonal
 
-  /// The standard deviation of a sum of the numbers, each times what is given here over its own.
+  /// Returns the standard deviation of a sum of numbers; shares[i] is the factor of number i times its own deviation.
   double standard_of(const Eigen::VectorXd& shares) const {
     const double largest = shares.size() > 0 ? shares.cwiseAbs().maxCoeff() : 0;
     if (!(largest > 0)) return 0;
-    const Eigen::VectorXd unit = shares / largest;  // its squares are doubles still
+    const Eigen::VectorXd unit = shares / largest;  // squares of these are still doubles
     return largest * std::sqrt(std::max(0.0, unit.dot(correlation * unit)));
   }
 };
@@ -65,10 +65,10 @@ std::string key(std::string name) {
 }
 
 /// Reads "slip=1%, spin=2 rad/s, ...", where % means per cent of the value. "fit" stands for the spreads of the ball.
-/// Numbers named beside it replace spreads of the ball and are independent of the others.
-/// @param known  numbers that may be named, with an underscore in their names
+/// Numbers that are named beside "fit" replace spreads of the ball and are independent of the others.
+/// @param known  numbers that a user may name; their names contain underscores
 /// @param own    spreads of the ball
-/// @throws BadInput  naming the mistake and the allowed values; also for a number that is 0 and has a `corner`
+/// @throws BadInput  with the mistake and the allowed values; also for a number that is 0 and has a `corner`
 Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& known, const si::Spreads& own) {
   std::vector<std::string> names;
   for (const Spreadable& each : known) names.push_back(each.number.name);
@@ -142,7 +142,7 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-/// Solutions of one system for many mu: computed at equal steps of ln mu, and interpolated linearly between these.
+/// Solutions of one system for many mu. They are computed at equal steps of ln mu, with linear interpolation.
 class FlowsOfMu {
  public:
   /// @param step  step of ln mu, >= 0; an eighth of its standard deviation leaves an error of 1e-3 standard deviations;
@@ -171,28 +171,28 @@ class FlowsOfMu {
   std::map<long, reduction::Flow> flows_;
 };
 
-/// Numbers of events that follow from others, which have spreads.
+/// Numbers of events as functions of other numbers, which have spreads.
 struct Varied {
-  /// Some of the numbers, by their places, and values for them.
+  /// Indices of some of these other numbers.
   using Places = std::vector<std::size_t>;
 
-  std::vector<Spreadable> numbers;       ///< all that may have a spread
-  std::vector<Uncertainty::Part> parts;  ///< not known yet
+  std::vector<Spreadable> numbers;       ///< all numbers that may have a spread
+  std::vector<Uncertainty::Part> parts;  ///< numbers of events, still without their uncertainty
   reduction::ReducedSystem system;
   long samples;
-  /// Returns the derivatives of all parts with respect to a number; none where they do not exist.
+  /// Returns the derivatives of all parts by a number; empty if they do not exist.
   std::function<std::optional<VectorXd>(std::size_t place)> slopes;
-  /// mu at other values, and the parts there.
-  /// @throws std::domain_error  if there is no such start
+  /// Return mu, and the parts, for other values of some numbers.
+  /// @throws std::domain_error  if there is no start with these values
   std::function<double(const Places&, const VectorXd& values)> mu;
   std::function<VectorXd(const Places&, const VectorXd& values, FlowsOfMu&)> at;
 };
 
-/// Standard normal numbers at a point of a lattice, which fills the space more evenly than random numbers: fractions of
-/// multiples of powers of 1/x, x^(n + 1) = x + 1.
+/// Returns standard normal numbers from a point of a lattice that fills the space more evenly than random numbers. The
+/// point consists of fractions of multiples of powers of 1/x, x^(n + 1) = x + 1.
 /// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
 VectorXd normal_numbers(Index count, long point) {
-  // Boost's tables of long double abort the start of the program under valgrind.
+  // With long double, Boost's tables abort the program at its start under valgrind.
   constexpr boost::math::policies::policy<boost::math::policies::promote_double<false>> plain;
   double x = 2;
   for (int i = 0; i < 30; ++i) x = std::pow(1 + x, 1 / static_cast<double>(count + 1));
@@ -243,7 +243,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
     const auto slopes = varied.slopes(place);
     if (!slopes) throw BadInput(fmt::format("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner));
     shares.col(i) = standard * *slopes;
-    // The change of mu needs to be known to an eighth only.
+    // The change of mu is needed only to an eighth.
     constexpr double step = 1e-3;
     const double more = value + step * (value == 0 ? standard : std::abs(value));
     const double beside = varied.mu({place}, VectorXd::Constant(1, more));
@@ -275,7 +275,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
       for (std::size_t j = 0; j < samples.size(); ++j) samples[j].push_back(there[static_cast<Index>(j)]);
       ++result.samples;
     } catch (const std::domain_error&) {
-      // no start has such numbers
+      // there is no start with such numbers
     }
   }
   if (result.samples == 0) throw BadInput("no sample of these spreads is a start: make them smaller");
@@ -286,7 +286,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
   return result;
 }
 
-/// @param rolling_below  as of si::EventNumbers
+/// @param rolling_below  as for si::EventNumbers
 Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction::Law& law,
                               std::optional<double> rolling_below, const std::string& typed, std::string_view corner) {
   std::optional<si::EventNumbers> made;
@@ -305,7 +305,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
       .numbers = {},
       .parts = {},
       .system = si::undriven_system(experiment, law),
-      .samples = events.resisted() ? 1'000 : 10'000,  // a drive needs new solutions for each sample
+      .samples = events.resisted() ? 1'000 : 10'000,  // with a drive each sample needs new solutions
       .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
       .mu = [&](const auto& places, const VectorXd& values) { return si::patch_ratio(moved(places, values), law); },
       .at =
@@ -329,7 +329,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
   return uncertainty_of(varied, read_spreads(typed, varied.numbers, experiment.spreads), corner);
 }
 
-/// Returns the spreads of a ball, with spreads of slip and spin in place of those of its velocities.
+/// Returns the spreads of a ball. Spreads of slip and spin replace spreads of its velocities.
 si::Spreads of_slip_and_spin(const si::Experiment& experiment) {
   const si::Spreads& own = experiment.spreads;
   const Eigen::Vector2d along = si::slip_velocity_at_start(experiment).stableNormalized();

@@ -13,14 +13,14 @@
 
 namespace contensou::answers {
 
-/// Uncertainty of a number that follows from normally distributed numbers.
+/// Uncertainty of a number that is a function of normally distributed numbers.
 struct KnownTo {
   double standard = 0;  ///< standard deviation to first order
   /// Standard deviation due to each number alone, with the sign of the derivative. If the numbers are independent,
   /// `standard` is the root of the sum of squares.
   std::vector<std::pair<std::string, double>> shares = {};
   std::array<double, 5> quantiles = {};  ///< quantiles of the samples at `probabilities`
-  bool holds = true;                     ///< true if first order and quantiles agree to a tenth of `standard`
+  bool holds = true;                     ///< true if first order and quantiles agree within a tenth of `standard`
 
   static constexpr std::array<double, 5> probabilities{0.025, 0.16, 0.5, 0.84, 0.975};
 };
@@ -46,12 +46,13 @@ std::string label_of(std::string_view event, std::string_view of);
 /// @param rolling_below  slip below which the ball rolls, m/s, as in si::Motion::rolls
 /// @param typed          spreads such as "slip=1%, spin=2 rad/s, fit", for numbers of the ball and of its start: slip,
 ///                       spin or vx, vy, wx, wy, wz
-/// @throws BadInput  naming the mistake and the allowed values; for a ball at rest; and if all samples are outside
+/// @throws BadInput  with the mistake and the allowed values; for a ball at rest; and if all samples are outside
 Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
                              const std::string& typed);
 
-/// Returns the uncertainty of the stop time alone: in s for a ball, else in tau.
-/// @param typed  for a ball as in roll_uncertainty, with the start as slip and spin only; else spreads of u0, v0, mu
+/// Returns the uncertainty of the stop time alone: in s for a ball, otherwise in tau.
+/// @param typed  for a ball as in roll_uncertainty, but only slip and spin for the start; otherwise spreads of u0, v0,
+///               mu
 Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed);
 
 /// Returns {standard, quantiles, shares, first_order_holds}.
@@ -60,7 +61,7 @@ Json members_of(const KnownTo& known);
 /// Returns {rolls_after: {t, x, y}, spin_ends: {t, x, y}, slip_length, turns, path, t_stop, samples, outside}.
 Json members_of(const Uncertainty& uncertainty);
 
-/// Returns a table of all numbers.
+/// Returns the uncertainty of all numbers as a table.
 std::string text_of(const Uncertainty& uncertainty, const Digits& digits);
 
 /// Returns the remarks below such a table: numbers for which the first order fails, and samples left out.

@@ -1,5 +1,5 @@
-// std::from_chars for doubles, which libc++ has from LLVM 20 on. The build includes this header in every file if it is
-// missing, on macOS and for the page.
+// std::from_chars for doubles. libc++ contains it from LLVM 20 on. On systems without it (macOS, the page) the build
+// includes this header in every file.
 #pragma once
 
 #include <algorithm>

@@ -21,7 +21,7 @@ void end_program(int signal) {
   }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
-  ::_exit(128 + signal);  // process 1 of a container survives raise()
+  ::_exit(128 + signal);  // in a container, process 1 survives raise()
 }
 
 sigset_t ending_signals() {

@@ -11,10 +11,10 @@ namespace contensou::platform {
 
 namespace {
 
-/// Locked while the end of the program must wait: by `paper` for all its files, and within it for each file.
+/// A lock that delays the end of the program. `paper` holds it for all its files, and again for each file.
 std::recursive_mutex wait;
 
-/// Removes the unfinished file, in a thread of its own. The next handler, that of the system, ends the program.
+/// Removes the unfinished file; the system calls it in its own thread. Then the system ends the program.
 BOOL WINAPI end_program(DWORD) {
   const std::lock_guard lock(wait);
   if (const char* message = remove_unfinished()) {

@@ -26,7 +26,7 @@ CLI::Option* Argument::add(CLI::App& app, const std::string& names, const std::s
 void Argument::accept(const CLI::App& app, const std::vector<std::string>& values, const Take& take,
                       bool repeatable) const {
   for (const std::string& value : values) {
-    // An option whose value was forgotten takes the next option for it.
+    // If the value of an option was forgotten, the next option is taken for its value.
     if (value.starts_with('-') && app.get_option_no_throw(value) != nullptr) {
       throw BadInput(fmt::format("{} needs a value before '{}'", name_, value));
     }
@@ -38,7 +38,7 @@ void Argument::accept(const CLI::App& app, const std::vector<std::string>& value
     try {
       if (take) take(value);
     } catch (const BadLine&) {
-      throw;  // it names its file
+      throw;  // the message already names its file
     } catch (const NotAllowed& error) {
       throw BadInput(fmt::format("{}: {}", typed(value), error.what()));
     } catch (const BadInput& error) {
@@ -84,7 +84,7 @@ double parse_quantity(const std::string& typed, std::string_view symbol) {
   std::size_t size = typed.size();
   while (size > 0 && (typed[size - 1] == ' ' || !is_number(typed.substr(0, size)))) --size;
   if (size > 0 && decimal_hint(typed)[0] == '\0') {
-    parse_number(typed.substr(0, size));  // refuses what no double holds
+    parse_number(typed.substr(0, size));  // throws for numbers that do not fit a double
     const std::string unit = typed.substr(std::min(typed.find_first_not_of(' ', size), typed.size()));
     throw BadInput(fmt::format("{} has the unit {}, which is none of {}", quotation(typed), quotation(unit),
                                si::units_of(*dimension)));

@@ -13,17 +13,17 @@
 
 namespace contensou::program {
 
-/// A value that can be read and is not allowed. An Argument quotes its value before such a message, and not before
-/// another BadInput, which quotes what cannot be read itself.
+/// A value that can be read but is not allowed. An Argument puts its value before such a message. Other BadInput
+/// messages already quote the text that cannot be read.
 struct NotAllowed : BadInput {
   using BadInput::BadInput;
 };
 
-/// An option whose value stays the text as typed.
+/// An option whose value is kept as the text that was typed.
 class Argument {
  public:
   /// Reads a value when the command line is parsed.
-  /// @throws NotAllowed, BadInput  for a bad value; the argument puts its name before the message
+  /// @throws NotAllowed, BadInput  for a bad value; the argument puts its own name before the message
   using Take = std::function<void(const std::string& typed)>;
 
   /// @param names       as CLI11 takes them, such as "-o,--output"; without dashes, a positional argument
@@ -32,15 +32,15 @@ class Argument {
   CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help,
                    Take take = {}, bool repeatable = false);
 
-  /// Returns true if the argument was given; false also if the verb lacks it.
+  /// Returns true if the argument was given. Returns false also if the verb does not have it.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
 
-  /// Returns the first of the names, which messages use.
+  /// Returns the first of its names; messages use this name.
   const std::string& name() const { return name_; }
 
   const std::string& text() const { return option_->results().front(); }
 
-  /// Returns name and value as messages quote them.
+  /// Returns name and value in the form in which messages quote them.
   std::string typed() const { return typed(text()); }
 
   /// Throws BadInput with the option and its value before the message.
@@ -54,7 +54,7 @@ class Argument {
   std::string name_;
 };
 
-/// An option whose value is read, and its mistakes are found, when the command line is parsed.
+/// An option whose value is read when the command line is parsed, so that mistakes are found at once.
 template <class Value>
 class ArgumentOf : public Argument {
  public:
@@ -71,16 +71,16 @@ class ArgumentOf : public Argument {
   Value value_or(Value standard) const { return given() ? values_.front() : std::move(standard); }
   std::optional<Value> optional() const { return given() ? std::optional(values_.front()) : std::nullopt; }
 
-  /// The values of all times that it was given.
+  /// Returns the values of all occurrences of the option.
   const std::vector<Value>& all() const { return values_; }
 
  private:
   std::vector<Value> values_;
 };
 
-/// Returns the names of the arguments that were given, joined for a message; empty if none was.
+/// Returns the names of those arguments that were given, joined for a message; empty if there are none.
 std::string names_given(const std::vector<const Argument*>& arguments);
-/// Joins two such lists of names; either may be empty.
+/// Joins two lists of names as names_given returns them; either may be empty.
 std::string with_name(const std::string& names, const std::string& more);
 
 /// Returns true if a value is the path of a file: it contains a / or ends with one of these endings.
@@ -92,25 +92,25 @@ inline auto whole_number(long lowest, long highest) {
   return [=](const std::string& typed) { return parse_integer(typed, lowest, highest); };
 }
 
-/// Reads a number in a unit, or with a unit of the same kind behind it.
-/// @param symbol  symbol of the unit (si::dimensions); none for a pure number
+/// Reads a number that is in a unit, or that is followed by another unit of the same kind.
+/// @param symbol  symbol of the unit (si::dimensions); empty for a pure number
 double parse_quantity(const std::string& typed, std::string_view symbol);
-/// @throws std::logic_error  unless it is a symbol of si::dimensions
+/// @throws std::logic_error  unless the text is a symbol in si::dimensions
 std::string_view known_unit(std::string_view symbol);
 inline auto quantity(std::string_view symbol) {
   return [unit = known_unit(symbol)](const std::string& typed) { return parse_quantity(typed, unit); };
 }
 
-/// Reads each text as parse_quantity. A unit behind the last number applies to all, unless each has its own.
+/// Reads each text as parse_quantity. A unit after the last number applies to all numbers, unless each has its own.
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
 
-/// Reads `count` numbers between commas.
+/// Reads a number of numbers that are separated by commas.
 /// @param names   names of the numbers in messages, such as U,V
 /// @param symbol  symbol of the unit, as in parse_quantity
 std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names,
                             std::string_view symbol = "");
 
-/// Names, and the value for which each of them stands.
+/// Names, and for each name the value that it stands for.
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
@@ -118,7 +118,7 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 /// @param kind  noun for the named things, such as "law"; if empty, the message is "one of them is needed"
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names);
 
-/// Reads the value that a name stands for; the empty name is not told.
+/// Reads the value that a name stands for. Messages do not list the empty name.
 template <class Value>
 std::function<Value(const std::string&)> one_of(Choices<Value> choices, std::string kind = "") {
   return [choices = std::move(choices), kind = std::move(kind)](const std::string& typed) {

@@ -8,8 +8,8 @@
 
 namespace contensou::program {
 
-/// Returns when to show progress by default: for long work if standard error is a terminal and the output does not go
-/// to a terminal; else never.
+/// Returns the default rule for progress. Progress of long work is shown if standard error is a terminal and the output
+/// does not go to a terminal; otherwise it is never shown.
 /// @param output  the file of -o; "-" is standard output
 ShowProgress progress_if_watched(const std::string& output);
 
@@ -25,7 +25,7 @@ class BulkOptions {
   /// Returns the number of threads: by default as many as the machine runs at once.
   int threads() const;
 
-  /// Returns when to show progress: as --progress says, by default as progress_if_watched.
+  /// Returns the rule for progress that --progress sets; by default progress_if_watched.
   /// @param output  the file of -o; "-" is standard output
   ShowProgress progress(const std::string& output) const;
 

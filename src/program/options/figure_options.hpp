@@ -8,7 +8,7 @@
 
 namespace contensou::program {
 
-/// Throws BadInput unless a picture is written, or no options are named.
+/// Throws BadInput if `names` names options and no picture is written.
 void require_picture(const std::string& names, const Output& output);
 
 /// Name of the group of these options in the help.
@@ -17,7 +17,7 @@ std::string figure_group();
 /// The options for the look of a figure on a page: --size, --font, --title and --dpi.
 class FigureOptions {
  public:
-  /// @param several  true: only --size and --font, for several figures with titles of their own and without dots
+  /// @param several  true: only --size and --font, for several figures that have titles of their own and no pixels
   void add(CLI::App& app, bool several = false);
 
   /// Returns the names of the options that were given, for a message.
@@ -29,7 +29,7 @@ class FigureOptions {
   /// Returns the value of --size; empty without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }
 
-  /// Returns the figure with the title, font and resolution of the options. By default it is as high as its content.
+  /// Returns the figure with the title, font and resolution that the options set. By default the height fits.
   /// @param format  format in which the figure is written
   /// @throws BadInput  for --dpi with a format other than png; for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;

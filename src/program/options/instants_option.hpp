@@ -9,45 +9,45 @@
 
 namespace contensou::program {
 
-/// Returns instants from 0 to the end, both included. Half of them lie before `busy`, when most of the motion happens.
-/// They are equidistant if `busy` is not in the first half.
+/// Returns instants from 0 to the end, both included. Half of them lie before `busy`, because most of the motion
+/// happens before it. They are equidistant if `busy` is not in the first half.
 Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
 
-/// --at, --samples and --equidistant: the instants of a motion, or their number.
+/// The options --at, --samples and --equidistant, which set the instants of a motion or their number.
 class InstantsOption {
  public:
-  /// @param time    name of the time, as in the header of the file of --at
+  /// @param time    name of the time, the column of the file of --at
   /// @param unit    symbol of its unit; empty for tau
   /// @param extent  extent of the instants of --samples: "" or " from WHERE to WHERE"
-  /// @return        --at
+  /// @return        the option --at
   CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
-  /// Times >= 0.
+  /// Times >= 0, with their unit.
   struct Times {
     Eigen::ArrayXd values;
     bool in_seconds = false;
   };
 
-  /// Reads a list of times, or the column of that name in a file.
+  /// Reads a list of times, or the column with the name of the time in a file.
   /// @param unit  unit of the list, as in parse_quantity; if empty, the list has no unit, or is in seconds
   static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
   bool given() const { return !names().empty(); }
 
-  /// Returns the names of those of --at, --samples and --equidistant that were given, joined for a message.
+  /// Returns the names of those of the three options that were given, joined for a message.
   std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
 
-  /// Returns the instants of --at, in the order given; null without it.
+  /// Returns the instants of --at, in the order given; null without --at.
   const Times* at() const { return at_.given() ? &*at_ : nullptr; }
 
-  /// Returns the number that --samples gives.
+  /// Returns the number of instants that --samples sets; empty without --samples.
   std::optional<Eigen::Index> asked() const { return samples_.optional(); }
 
-  /// Returns the number of instants without --at.
+  /// Returns the number of instants if --at is not given.
   Eigen::Index samples() const { return samples_.value_or(standard_samples); }
   bool equidistant() const { return equidistant_; }
 
-  /// Returns the instants of --at, or those of instants().
+  /// Returns the instants of --at, or else the result of instants().
   Eigen::ArrayXd between(double busy, double end) const {
     return at_.given() ? at_->values : instants(samples(), equidistant_ ? 0 : busy, end);
   }

@@ -9,30 +9,31 @@
 
 namespace contensou::program {
 
-/// --law, and --param for its formulas.
+/// The option --law, and --param for the parameters of its formulas.
 class LawOption {
  public:
-  /// @param note  sentence that the help adds
+  /// @param note  sentence that is added to the help
   void add(CLI::App& app, const std::string& note = "");
 
-  /// Several laws, as read_several takes them.
+  /// Adds an option for several laws; read_several reads it.
   void add_several(CLI::App& app, const std::string& value_name, const std::string& help);
 
-  /// Under another name, for a second law, whose formulas have no parameters.
+  /// Adds an option under another name, for a second law. Formulas of this law have no parameters.
   void add_second(CLI::App& app, const std::string& name, const std::string& value_name, const std::string& help);
   bool given() const { return law_.given(); }
   const Argument& argument() const { return law_; }
 
   const ParameterOptions& parameters() const { return parameters_; }
 
-  /// The law of that name, of that exponent (pressure:P), of these formulas (phi = F; psi = G), or of the table in that
-  /// file (with a / or ending in .csv); the standard one if none was given: of a start StartOptions::standard_law().
-  /// @throws BadInput           for an unknown name or an exponent out of range, formulas that are no law; BadLine for
-  /// a bad line of the file
+  /// Returns the law with a name, with an exponent (pressure:P), with formulas (phi = F; psi = G), or with the
+  /// pressures in a file (its name contains / or ends in .csv). If none is given, it returns the law `standard`; for a
+  /// start this is StartOptions::standard_law().
+  /// @throws BadInput           for an unknown name, an exponent out of range, or formulas that are no law; BadLine for
+  ///                            a bad line of the file
   /// @throws std::system_error  if the file cannot be read
   reduction::Law read(const std::string& standard) const;
 
-  /// The laws of several names between commas, or the one of formulas. Throws as read.
+  /// Returns the laws with several names, separated by commas, or the law of the formulas. Throws as read.
   std::vector<reduction::Law> read_several(const std::string& standard) const;
 
  private:

@@ -22,7 +22,7 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// Returns the formats of a kind as endings of files.
+/// Returns the formats of a kind as file endings.
 std::string endings_of(const OutputKind& kind) {
   std::vector<std::string> endings = kind.formats;
   std::ranges::replace(endings, std::string("text"), std::string("txt"));
@@ -52,7 +52,7 @@ void Output::write(const std::vector<portraits::Figure>& figures) const { write(
 
 namespace {
 
-/// Says once if another font than the one asked for is drawn.
+/// Prints once that the font is not installed, and which font replaces it.
 void tell_substitute(const std::string& font) {
   static std::once_flag told;
   std::call_once(told, [&] {
@@ -106,7 +106,7 @@ Output OutputOptions::read(std::size_t place) const {
   const std::string path = file_.given() ? file_.text() : kind.path;
   if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
   const std::string format = read_format(kind, path);
-  const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // no run file has
+  const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // not run files
   const bool is_picture = portraits::find_picture_format(format) && is_one_of(kind.formats, "svg");
   if (digits_.given() && !((format == "text" || (format == "tex" && !is_picture)) && has_rounded_text)) {
     digits_.reject(

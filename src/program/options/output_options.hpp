@@ -14,19 +14,19 @@ namespace contensou::program {
 /// A kind of output of a verb, such as a table.
 struct OutputKind {
   std::string noun;                  ///< noun with its article, for messages
-  std::vector<std::string> formats;  ///< names for --format, which are endings of files; for text the ending is txt
+  std::vector<std::string> formats;  ///< names for --format, which are also file endings; for text the ending is txt
   std::string path = "-";            ///< default of -o
   std::string standard = formats.front();
 };
 
-/// Returns formats of numbers, of pictures, and other formats of numbers. Among them tex is a picture.
+/// Returns a list of formats: formats of numbers, the picture formats, and more formats of numbers. tex is a picture.
 std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last = {});
 
 /// Destination and format of a result.
 struct Output {
   std::string path;
   std::string format;
-  Digits digits;  ///< digits in text
+  Digits digits;  ///< number of digits in text
 
   std::optional<portraits::PictureFormat> picture() const { return portraits::find_picture_format(format); }
 
@@ -46,18 +46,18 @@ std::string drawn(const std::vector<portraits::Figure>& figures, portraits::Pict
 /// Returns the name of the group of options that many verbs share.
 std::string usual_group();
 
-/// -o, --format and --digits.
+/// The options -o, --format and --digits.
 class OutputOptions {
  public:
-  /// @param kinds  kinds of output of the verb, the usual one first
+  /// @param kinds  kinds of output of the verb, the default first
   explicit OutputOptions(std::vector<OutputKind> kinds) : kinds_(std::move(kinds)) {}
 
   void add(CLI::App& app);
 
-  /// Reads the three options: the ending of the file decides the format, or else --format, or else the kind.
+  /// Reads the three options. The ending of the file sets the format; without it --format; without that the kind.
   /// @param place  index of the kind
-  /// @throws BadInput  if the format is not one of the kind's, if ending and --format disagree, if a file needs an
-  ///                   ending, and for --digits with a format other than text
+  /// @throws BadInput  if the kind does not have the format, if ending and --format disagree, if a file needs an
+  ///                   ending, or if --digits is given with a format other than text
   Output read(std::size_t place = 0) const;
 
   const Argument& format_argument() const { return format_; }

@@ -8,7 +8,7 @@
 
 namespace contensou::program {
 
-/// --param: numbers for the letters of formulas.
+/// The option --param, which sets the parameters of formulas.
 class ParameterOptions {
  public:
   void add(CLI::App& app);

@@ -32,7 +32,7 @@ std::vector<std::string> names_of(const std::vector<Route>& routes) {
   return names;
 }
 
-/// @param times  not decreasing: a stepper goes forwards only
+/// @param times  times that do not decrease, because a stepper only goes forwards
 Motion step(const ReducedSystem& system, State start, Route route, const Eigen::ArrayXd& times) {
   Motion motion = route == Route::regularised ? reduction::integrate_regularised(system, start, times)
                                               : reduction::integrate_directly(system, start, times);
@@ -40,14 +40,14 @@ Motion step(const ReducedSystem& system, State start, Route route, const Eigen::
   return motion;
 }
 
-/// The flow that a route computes orbits from; none for the steppers.
+/// Returns the flow from which a route computes orbits; empty for the steppers.
 std::optional<Flow> flow_of(const ReducedSystem& system, Route route) {
   if (route == Route::closed) return system;
   if (route == Route::quadrature) return Flow::by_quadrature(system);
   return std::nullopt;
 }
 
-/// tau until the first of the speeds has fallen to 1e-3 of its start: most happens before.
+/// Returns the tau at which the first of the speeds has fallen to 1e-3 of its start. Most of the motion happens before.
 double busy_time(const Orbit& orbit, State start) {
   const double v = start.v > 0 ? orbit.time_of_v(1e-3 * start.v) : 0;
   const double u = start.u != 0 ? orbit.time_of_u(1e-3 * std::abs(start.u)) : 0;

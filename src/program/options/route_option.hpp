@@ -10,10 +10,10 @@
 
 namespace contensou::program {
 
-/// --route.
+/// The option --route.
 class RouteOption {
  public:
-  /// @param offered  routes that the help names
+  /// @param offered  routes that the help lists
   void add(CLI::App& app, const std::vector<reduction::Route>& offered = every_route());
   static const std::vector<reduction::Route>& every_route();
 
@@ -22,16 +22,16 @@ class RouteOption {
   reduction::Route value_or(reduction::Route standard) const { return route_.value_or(standard); }
 
   /// Returns the given route; without one, the best route of the system.
-  /// @throws BadInput  for a route that the system lacks
+  /// @throws BadInput  for a route that is not possible for the system
   reduction::Route read(const reduction::ReducedSystem& system) const;
 
  private:
   ArgumentOf<reduction::Route> route_;
 };
 
-/// Returns the states of a motion by any route.
+/// Returns the states of a motion at given times, computed by any route.
 ///
-/// @param times  tau >= 0, in any order; the rows come in that order
+/// @param times  tau >= 0, in any order; the rows of the result have the same order
 /// @throws std::runtime_error  if a stepper did not reach the stop
 reduction::OrbitColumns motion_at(const reduction::ReducedSystem& system, reduction::State start,
                                   reduction::Route route, const Eigen::ArrayXd& times);
@@ -46,18 +46,18 @@ reduction::OrbitColumns motion_at_time_left(const reduction::ReducedSystem& syst
 /// Returns the states at regularised times.
 ///
 /// @param betas  >= 0
-/// @throws BadInput  for a stepper, which takes only tau
+/// @throws BadInput  for a stepper, which accepts only tau
 reduction::OrbitColumns motion_at_beta(const reduction::ReducedSystem& system, reduction::State start,
                                        reduction::Route route, const Eigen::ArrayXd& betas);
 
 /// Returns the states at instants from the start to the stop, both included.
 /// @param count        number of instants, >= 2
-/// @param equidistant  false: half of them lie before one of the speeds has fallen to 1e-3 of its start
+/// @param equidistant  false: half of the instants lie before one of the speeds has fallen to 1e-3 of its start
 /// @throws std::runtime_error  as above, or if the stop time exceeds the largest double
 reduction::OrbitColumns motion_samples(const reduction::ReducedSystem& system, reduction::State start,
                                        reduction::Route route, Eigen::Index count, bool equidistant);
 
-/// Returns the states of a motion of several orbits, each by quadrature, at equidistant instants from start to stop.
+/// Returns the states of a motion that consists of several orbits, at equidistant instants from the start to the stop.
 /// @param at     returns the state at a time tau
 /// @param stop   tau of the stop
 reduction::OrbitColumns motion_samples(const std::function<reduction::OrbitPoint(double tau)>& at, double stop,

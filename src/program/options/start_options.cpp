@@ -17,7 +17,7 @@ namespace contensou::program {
 
 namespace {
 
-/// A name, or two numbers.
+/// Reads a body: a name, or its two numbers of inertia.
 Body parse_body(const std::string& typed) {
   if (typed.find(',') == std::string::npos) {
     try {
@@ -177,7 +177,7 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     const si::Experiment experiment = read_ball(law);
     try {
       GivenStart start{si::undriven_system(experiment, law), si::reduced_start(experiment), experiment};
-      (void)si::drive_of(experiment);  // says which motion is not one of a reduced system
+      (void)si::drive_of(experiment);  // throws with a reason if the motion has no reduced system
       start.motion = si::Motion::reduced(experiment, law);
       if (!start.motion->is_reduced()) {
         throw std::domain_error(
@@ -241,7 +241,7 @@ const si::Description& StartOptions::ball_of_its_own() const {
   if (own_) return *own_;
   if (!ball_.given() && radius_is_ball_) {
     if (const auto& given = value(si::radius); given.given()) {
-      // Friction and patch are first guesses.
+      // Friction and patch radius are only first guesses.
       own_ = si::describe(si::Experiment{.ball = {.name = "ball", .radius = given->front()},
                                          .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * given->front()}},
                                          .start = si::SlipAndSpin{.slip = 0, .spin = 0}});
@@ -284,7 +284,7 @@ std::optional<si::LoadHistory> StartOptions::load_history() const {
 si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Description& between) const {
   if (ball_.given()) require_one_kind();
   const si::Description given = given_values();
-  // A slip or a spin replaces a whole [start] of velocities; every other option its own number or vector.
+  // A slip or a spin replaces all velocities of [start]. Every other option replaces its own number or vector.
   const bool slip_given = given.find(si::slip) != nullptr, spin_given = given.find(si::spin) != nullptr;
   const bool starts_anew = (slip_given || spin_given) && ball_.given() && names_a_file(ball_.text(), {".toml"}) &&
                            ball_of_its_own().find(si::velocity) != nullptr;
@@ -297,7 +297,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
   try {
     const si::Description described = own.under(between).under(given);
     const si::Experiment experiment = si::experiment_of(described);
-    si::patch_radius_of(experiment, law);  // is one that it can have
+    si::patch_radius_of(experiment, law);  // throws if the patch radius is impossible
     tell_new_patch(experiment, law);
     if (starts_anew && slip_given != spin_given) {
       fmt::print(stderr, "note: {} replaces [start] of {}; the rest of the start is 0\n", start_names(), ball_.text());
@@ -305,7 +305,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
     return experiment;
   } catch (const si::RunFileError&) {
     throw;
-  } catch (const std::domain_error& error) {  // an error of the values together, not of a place in a file
+  } catch (const std::domain_error& error) {  // an error that concerns several values, not one place in a file
     reject_ball(error.what());
   }
 }
@@ -356,7 +356,7 @@ void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduct
     const si::Experiment before = si::experiment_of(ball_of_its_own().under(at_rest("")));
     own = si::patch_radius_of(before, *find_law_or_formulas(si::law_of(before)));
   } catch (const std::domain_error&) {
-    return;  // the file leaves one of them to the command line
+    return;  // the file leaves one of the values to the command line
   }
   const double patch = si::patch_radius_of(experiment, law);
   if (std::abs(patch - own) <= 1e-12 * own) return;

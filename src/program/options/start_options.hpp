@@ -19,11 +19,11 @@ namespace contensou::program {
 
 using si::Body;
 
-/// --mu, --body and --drive.
+/// The options --mu, --body and --drive.
 class BodyOptions {
  public:
   void add_mu(CLI::App& app);
-  /// Lets --mu be a list, for a verb that compares; before add_mu.
+  /// Allows --mu to be a list, for a verb that compares. Call it before add_mu.
   void take_several_mu() { takes_several_mu_ = true; }
   void add_body(CLI::App& app);
   void add_drive(CLI::App& app);
@@ -37,9 +37,9 @@ class BodyOptions {
   /// Returns the body; a homogeneous ball if none was given.
   Body body() const { return body_.value_or({}); }
 
-  /// Returns the system of the body under a law. Its mu is that of --mu, or the one that the body itself determines.
-  /// @param ways  options that give mu, for a message
-  /// @throws BadInput  if there is no mu, or one that the body cannot have
+  /// Returns the system of the body under a law. Its mu is the value of --mu, or of the body itself.
+  /// @param ways  options that set mu, for a message
+  /// @throws BadInput  if mu is not given, or impossible for the body
   reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
 
  private:
@@ -49,25 +49,25 @@ class BodyOptions {
   ArgumentOf<Body> body_;
 };
 
-/// Returns the built-in ball of a name.
+/// Returns the built-in ball with a name.
 /// @throws NotAllowed  for an unknown name
 const si::CatalogueEntry& require_ball(const std::string& name);
 
-/// --mu, --u0, --v0 and --body, or --ball with its overrides.
+/// The options --mu, --u0, --v0 and --body, or --ball and the options that replace its values.
 class StartOptions {
  public:
   void add(CLI::App& app);
 
-  /// Lets --mu be a list, for a verb that compares; before add.
+  /// Allows --mu to be a list, for a verb that compares. Call it before add.
   void take_several_mu() { body_.take_several_mu(); }
 
-  /// Returns a start for each value of --mu under a law, or the bodies without a motion. Throws as read.
+  /// Returns a start for each value of --mu under a law; without a motion, the bodies alone. Throws as read.
   std::vector<GivenStart> read_several(const reduction::Law& law) const;
 
-  /// --drive, for a verb that has an answer with it.
+  /// Adds --drive, for a verb that can compute with a drive.
   void add_drive(CLI::App& app) { body_.add_drive(app); }
 
-  /// Predicate: true if a verb that takes a ball offers an option for a quantity.
+  /// Predicate that is true if a verb with --ball has an option for a quantity.
   using Offer = bool (*)(const si::Quantity& quantity);
   static bool all(const si::Quantity& /*quantity*/) { return true; }
   static bool no_start(const si::Quantity& quantity) { return quantity.section != si::slip.section; }
@@ -77,31 +77,31 @@ class StartOptions {
   void add_ball(CLI::App& app, const std::string& help = "body in SI units, built-in or from a run file",
                 Offer offer = all);
 
-  /// Lets --radius alone be a ball, for a verb that determines its other values.
+  /// Accepts --radius alone as a ball, for a verb that determines the other values.
   void take_radius_for_ball() { radius_is_ball_ = true; }
 
   /// Returns true if any of these options was given, except --body.
   bool given() const { return !given_names().empty(); }
   std::string given_names() const;
 
-  /// Returns the names of the given options, except --body, and except --drive, which many starts share.
+  /// Returns the names of the given options, except --body, and except --drive, which may apply to many starts.
   std::string names_of_one_start() const;
   double drive() const { return body_.drive().value_or(0); }
 
-  /// Returns the drive of a ball whose slip points along x; it does not depend on the speed. Throws as read.
+  /// Returns the drive of a ball whose slip points along x. It does not depend on the speed. Throws as read.
   double drive_along_x(si::Experiment ball) const;
 
   /// Returns true if the options give no motion: neither --u0 nor --v0 nor --ball.
   bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
 
   /// Reads the start from the options.
-  /// @param law  law of the system, under which a measured spin deceleration gives the patch
+  /// @param law  law of the system; a patch that is given by a spin deceleration is computed under it
   /// @throws BadInput           if options are missing, exclude each other or have values that no ball can have
   /// @throws si::RunFileError   for a mistake in a run file
   /// @throws std::system_error  for a run file that cannot be read
   GivenStart read(const reduction::Law& law) const;
 
-  /// Reads --u0 and --v0, of either sign, as a point of another system.
+  /// Reads --u0 and --v0, of either sign, as a point of a system other than (2.6).
   /// @throws BadInput  if one is missing, or if an option of a ball or a body is given
   Eigen::Vector2d read_point() const;
 
@@ -116,44 +116,44 @@ class StartOptions {
   /// Returns the table that --load names. Throws BadLine, and FileFailure if it cannot be read.
   std::optional<si::LoadHistory> load_history() const;
 
-  /// Returns the values given by single options, such as --slip.
+  /// Returns the values that are given by single options, such as --slip.
   si::Description given_values() const;
 
   /// Returns true if an option for the start of the ball was given, such as --slip.
   bool overrides_start() const { return !start_names().empty(); }
   std::string start_names() const;
 
-  /// Returns the name of the law that the body or the ball brings. Throws as read.
+  /// Returns the name of the law that belongs to the body or the ball. Throws as read.
   std::string standard_law() const;
 
-  /// Returns true if the ball names its law, or if its body has another default law than a ball.
+  /// Returns true if the ball has a law of its own, or if its body has another default law than a ball.
   bool brings_law() const;
 
-  /// Prints which spreads of the ball's run file do not apply, because options replace the numbers.
+  /// Prints which spreads in the ball's run file do not apply, because options replace their numbers.
   void tell_spreads_left_out(const si::Experiment& experiment) const;
 
   /// Prints on standard error which effects on a real ball of this kind the model leaves out.
   void tell_left_out() const;
 
   /// Returns the ball of --ball, which must roll. Throws as read_ball, and BadInput for a body that lies flat.
-  /// @param way_out  advice for such a body, for the message
+  /// @param way_out  advice for a user who gives such a body, for the message
   si::Experiment read_rolling_ball(const reduction::Law& law, const std::string& way_out,
                                    const si::Description& between = {}) const;
 
   /// Returns the ball of --ball. Throws as read.
   ///
-  /// @param between  values that replace those of the ball; options replace both
+  /// @param between  values that replace values of the ball; options replace both
   si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
-  /// Rejects --ball, with the options that replace its values.
+  /// Throws an error about --ball and the options that replace its values.
   /// @throws BadInput  always
   [[noreturn]] void reject_ball(const std::string& message) const;
 
-  /// Rejects a ball with rolling friction or on a slope, for a verb that cannot treat them.
+  /// Throws for a ball with rolling friction or on a slope, on behalf of a verb that cannot compute such motions.
   /// @param what  name of the verb or option, for the message
   void require_undriven(const si::Experiment& experiment, const std::string& what) const;
 
-  /// Returns the body without a motion. It needs --mu, a --body with a mu of its own, or --ball. Throws as read.
+  /// Returns the body without a motion. It needs --mu, a --body that determines mu, or --ball. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
   /// Returns the argument --body.
@@ -163,8 +163,8 @@ class StartOptions {
  private:
   const si::Description& ball_of_its_own() const;
 
-  /// Prints on standard error if a measured spin deceleration now stands for another patch than with the ball's own
-  /// values, because options replace some of these or the law.
+  /// Prints a warning on standard error if a measured spin deceleration now gives another patch than with the ball's
+  /// own values, because options replace some of these values or the law.
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   void require_one_kind() const;
@@ -176,8 +176,8 @@ class StartOptions {
   const ArgumentOf<std::vector<double>>& value(const si::Quantity& quantity) const;
 
   bool radius_is_ball_ = false, takes_load_history_ = false;
-  mutable std::optional<si::LoadHistory> load_history_;  ///< read once
-  mutable std::optional<si::Description> own_;           ///< ball of --ball; its file may be a pipe and is read once
+  mutable std::optional<si::LoadHistory> load_history_;  ///< empty until it is read, once
+  mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, because its file may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
 

@@ -11,7 +11,7 @@
 
 namespace contensou::program {
 
-/// --system: a planar system by its formulas, in place of (2.6).
+/// The option --system: a planar system, given by formulas, in place of the equations of motion (2.6).
 class SystemOption {
  public:
   void add(CLI::App& app);
@@ -21,7 +21,7 @@ class SystemOption {
   /// @throws BadInput  as parse_planar_system
   reduction::SmoothField read(const ParameterOptions& parameters) const;
 
-  /// Returns the system for a portrait: solved, or by steps.
+  /// Returns the system for a portrait: solved if possible, else with orbits by steps in time.
   reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;
 
  private:

@@ -20,16 +20,16 @@ namespace contensou::program {
 
 namespace {
 
-/// Some rows of the table, and what becomes of them.
+/// Some rows of the table with their results.
 struct Piece {
   CsvBlock rows;
   std::vector<double> values, results;  ///< values and results of one row
   fmt::memory_buffer lines;
   std::string complaints;
   long overflows = 0;
-  std::string first_overflow;  ///< message on the first infinite result
+  std::string first_overflow;  ///< message about the first infinite result
   ExitStatus status = ExitStatus::done;
-  std::exception_ptr fault;  ///< fault of the first row without a line
+  std::exception_ptr fault;  ///< exception of the first row that has no line number
   double fraction_read = 0;  ///< fraction of the table read up to these rows; NaN if its length is unknown
 };
 
@@ -104,7 +104,7 @@ class Batch {
     progress_.show(static_cast<double>(rows_), static_cast<double>(rows_) / piece.fraction_read);
   }
 
-  /// @throws BadLine, std::runtime_error  beginning with the row's place
+  /// @throws BadLine, std::runtime_error  with the place of the row at the beginning
   void add(const CsvRow& row, Piece& piece) {
     try {
       compute(row, piece);
@@ -132,7 +132,7 @@ class Batch {
     piece.status = std::max(piece.status, status);
   }
 
-  /// @throws BadLine, std::runtime_error  beginning with the row's place
+  /// @throws BadLine, std::runtime_error  with the place of the row at the beginning
   void compute(const CsvRow& row, Piece& piece) const {
     table_.require_complete(row);
     piece.values.clear();
@@ -152,7 +152,7 @@ class Batch {
   const BatchRequest& request_;
   std::vector<CsvColumn> columns_;
   Progress progress_;
-  std::string header_;  ///< is written with the first rows
+  std::string header_;  ///< header, written together with the first rows
   std::size_t rows_ = 0;
   long overflows_ = 0;
   std::string first_overflow_;

@@ -14,28 +14,27 @@ namespace contensou::program {
 
 /// The computation for each row of a table.
 struct BatchRequest {
-  std::vector<std::string> inputs;   ///< columns that are read; the others pass through
+  std::vector<std::string> inputs;   ///< columns that are read; all others are copied
   std::vector<std::string> results;  ///< columns that are added
 
-  /// Computes the results of a row from its inputs and the number of lines before it. Several threads call it.
+  /// Computes the results of a row from its inputs. `line` is the number of lines before the row. Threads call it.
   /// @throws std::domain_error   for a bad row
   /// @throws std::runtime_error  for a row that cannot be computed
   std::function<void(std::span<const double> inputs, std::span<double> results, long line)> compute;
 
-  bool keep_going = false;  ///< report a bad row on standard error and leave its results empty
+  bool keep_going = false;  ///< true: report a bad row on standard error and leave its results empty
   int threads = 1;
   ShowProgress progress = ShowProgress::never;
 };
 
-/// Computes a table of any length, in the memory of a few blocks of it.
-/// Rows are written in order, as soon as they are done. The bytes do not depend on the number of threads. The number of
-/// infinite results is printed on standard error.
+/// Computes a table of any length; only a few blocks of it are in memory. Rows are written in order, as soon as they
+/// are done. The bytes do not depend on the number of threads. Standard error gets the number of infinite results.
 ///
-/// @param output  is not finished here
-/// @return        status of the worst row that was kept without a result; done if there is none
-/// @throws BadLine             for a table that lacks a column or is not CSV and, unless keep_going, for a bad row; the
-///                             rows before it have been written
-/// @throws std::runtime_error  likewise for a row that cannot be computed
+/// @param output  file for the table; the caller finishes it
+/// @return        status of the worst row that has no result; `done` if all rows have results
+/// @throws BadLine             for a table that lacks a column or is not CSV, and, unless keep_going, for a bad row
+///                             after the rows before it have been written
+/// @throws std::runtime_error  likewise, for a row that cannot be computed
 ExitStatus run_batch(CsvReader& table, OutputFile& output, const BatchRequest& request);
 
 }  // namespace contensou::program

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t margin = 22;  ///< column in which meanings begin
 constexpr const char* shared = " ('contensou help ";
-constexpr long most_lines = 110;  ///< limit for the help of a verb
+constexpr long most_lines = 110;  ///< largest number of lines in the help of a verb
 
 /// @param column  column in which the first line begins
 /// @param indent  column in which the other lines begin
@@ -41,7 +41,7 @@ std::string help_paragraph(std::string_view text, std::size_t indent) {
 
 std::string help_entry(std::string_view name, std::string_view meaning) {
   std::string names = wrapped(name, 2, 4);
-  names.pop_back();  // the end of its line
+  names.pop_back();  // removes the line end
   const std::string separator = name.size() + 4 > margin ? fmt::format("\n{:{}}", "", margin) : "";
   return fmt::format("  {:<{}}{}{}", names, separator.empty() ? margin - 2 : 0, separator,
                      wrapped(meaning, margin, margin));
@@ -82,7 +82,7 @@ std::string help_on_fields(const VerbEntry& verb, bool all) {
 
 namespace {
 
-/// Returns the names of the fields of a verb, for a help that would be too long with their meanings.
+/// Returns the names of the fields of a verb. The help shows them if it would be too long with their meanings.
 std::string names_of_fields(const VerbEntry& verb) {
   std::vector<std::string> all;
   for (auto [names, unit, meaning] : verb.fields.front().fields()) {

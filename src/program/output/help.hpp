@@ -22,15 +22,15 @@ std::string help_paragraph(std::string_view text, std::size_t indent = 0);
 /// Returns a name and, beside or below it, its meaning, in lines of at most 80 columns.
 std::string help_entry(std::string_view name, std::string_view meaning);
 
-/// Returns the name of a group of options that several verbs share. The help of a verb lists their names alone, and
-/// 'contensou help TOPIC' explains them.
+/// Returns the name of a group of options that several verbs share. The help of a verb lists only the names of these
+/// options; 'contensou help TOPIC' explains them.
 std::string shared_group(std::string_view title, std::string_view topic);
 
-/// Returns the entries of the options that such a group has in a command line.
+/// Returns the entries of those options of a command line that belong to such a group.
 std::string help_on_group(const CLI::App& app, const std::string& group);
 
 /// Returns the columns and fields of a verb; empty if it has none.
-/// @param all  true: also those with an option such as --batch; false: names these options
+/// @param all  true: also fields with an option such as --batch; false: only the names of these options
 std::string help_on_fields(const VerbEntry& verb, bool all);
 
 /// The format in which CLI11 writes help.

@@ -10,7 +10,7 @@ namespace contensou::program {
 
 namespace {
 
-/// Hours, minutes and seconds as a clock shows them.
+/// Returns a time as hours, minutes and seconds, like a clock.
 std::string clock(double seconds) {
   constexpr double longest = 100 * 3600.0;
   if (!(seconds < longest)) return "more than 100 h";
@@ -19,8 +19,8 @@ std::string clock(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-/// The bar at that fraction of the work, with rate and time left, or how much was done where the total is NaN; without
-/// a line end.
+/// Returns the progress bar for a fraction of the work, with rate and time left. If the total is NaN, it returns the
+/// amount of work that is done. There is no line end.
 std::string progress_line(double done, double total, const std::string& what, double seconds) {
   constexpr int width = 24;
   const double rate = done / seconds;

@@ -7,7 +7,7 @@
 
 namespace contensou::program {
 
-/// The work for which progress is shown: none, work that takes long, or any.
+/// The work whose progress is shown: none, work that takes long, or all work.
 enum class ShowProgress { never, of_long_work, always };
 
 /// Returns the time, s, of a clock that is never set back.
@@ -29,13 +29,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param total  NaN if it is not known
+  /// @param total  total amount of work; NaN if it is not known
   void show(double done, double total);
 
-  /// Erases the line, to make room for a message. The next `show` writes it again.
+  /// Erases the line, to make room for a message. The next call of `show` writes it again.
   void erase();
 
-  /// Writes a last line with the duration, if a line was shown before or progress is always shown.
+  /// Writes a last line with the duration, if a line has been shown or progress is always shown.
   void finish(double done);
 
  private:

@@ -1,4 +1,4 @@
-// Notation: V, omega velocities of ball and centre, c that of the point of contact, e = c/v its direction, n across it.
+// Notation: V and omega are the velocities of centre and ball, c that of the contact point, e = c/v, n across e.
 #include <Eigen/Geometry>
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -19,7 +19,7 @@ using zh98::pi;
 
 double cross(Vector2d a, Vector2d b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Moment of inertia of a homogeneous ball over m R^2: 2/3 r^2, with 3 r^2 dr of unit mass and radius.
+/// Returns the moment of inertia of a homogeneous ball divided by m R^2: 2/3 r^2, averaged with 3 r^2 dr.
 double moment_of_inertia() {
   return boost::math::quadrature::gauss<double, 7>::integrate([](double r) { return 2 * r * r * r * r; }, 0, 1);
 }
@@ -34,7 +34,7 @@ std::vector<Statement> ball_statements() {
   const double fN = experiment.contact.friction * m * experiment.environment.gravity;
   const auto [V, omega] = si::velocities_of(experiment.start);
 
-  // Compute velocities, forces and rates by mechanics in vectors.
+  // Compute velocities, forces and rates from mechanics in vector form.
   const Vector3d arm(0, 0, -R);  // the point of contact is below the centre
   const Vector2d c = V + omega.cross(arm).head<2>();
   const double v = c.norm(), alpha = std::atan2(c.y(), c.x());
@@ -49,7 +49,7 @@ std::vector<Statement> ball_statements() {
   rates << omega_rate.x(), omega_rate.y(), R * omega_rate.z(), c_rate.dot(e), cross(e, c_rate) / v;
   rates *= 2 * m / (3 * pi * fN);  // dt/dtau
 
-  // Integrate the equations of motion; take the states at 0.02, 1, 1.5 and 2 stop times.
+  // Integrate the equations of motion. Take the states at 0.02, 1, 1.5 and 2 stop times.
   const si::Motion motion = si::Motion::in_steps(experiment, law);
   const double stop = motion.stop_time();
   const Eigen::ArrayXd times = stop * (Eigen::ArrayXd(4) << 0.02, 1, 1.5, 2).finished();
@@ -59,7 +59,7 @@ std::vector<Statement> ball_statements() {
   const auto position_at = [&](int i) { return Vector2d(at.x[i], at.y[i]); };
   const auto c_at = [&](int i) { return Vector2d(V_at(i) + R * Vector2d(-omega_at(i).y(), omega_at(i).x())); };
   const double omega_along = omega.head<2>().dot(e);
-  const double first_integral = 7 * R * omega.head<2>().dot(n) + 5 * v;  // omega_y is across the slip
+  const double first_integral = 7 * R * omega.head<2>().dot(n) + 5 * v;  // along n is omega_y of the paper
 
   // Evaluate the formulas as printed in the paper.
   const Vector2d printed_c = zh98::contact_velocity(R, V, omega);

@@ -24,7 +24,7 @@ constexpr double rounding = 1e-12, three_digits = 5e-4;
 
 Law law_named(std::string_view name) { return *reduction::find_law(name); }
 
-/// Returns the system of a body that lies flat on its whole face: mu = 1.
+/// Returns the system of a body that rests on its whole flat face: mu = 1.
 /// @param gyration  radius of gyration about the vertical divided by the radius of the body, > 0
 reduction::ReducedSystem flat(std::string_view law, double gyration) {
   return {law_named(law), 1, {.chi = 1, .gamma = 1 / (gyration * gyration)}};
@@ -32,8 +32,8 @@ reduction::ReducedSystem flat(std::string_view law, double gyration) {
 
 const double disc_gyration = std::sqrt(0.5);
 
-/// Returns the time at which a puck's spin has fallen to a millionth, divided by that of its slip. The puck has a
-/// radius of 38 mm and starts with 5 m/s and 100 rad/s; the motion is integrated by steps in time.
+/// Returns the time at which a puck's spin has fallen to a millionth, divided by the same time for its slip. The puck
+/// has a radius of 38 mm and starts with 5 m/s and 100 rad/s. The motion is integrated in steps in time.
 double ends_of_puck() {
   const reduction::State start{.u = 3.8, .v = 5};
   const reduction::OrbitColumns steps = reduction::integrate_directly(flat("uniform", disc_gyration), start).points;
@@ -44,7 +44,7 @@ double ends_of_puck() {
   return first_below(steps.u) / first_below(steps.v);
 }
 
-/// Returns the sliding distance of a ring with v = u divided by that of a ring with the same v and u = 0.
+/// Returns the sliding distance of a ring with v = u, divided by the distance with the same v and u = 0.
 double way_of_ring() {
   const reduction::ReducedSystem ring = flat("ring", 1);
   const reduction::Flow flow(ring);
@@ -52,7 +52,7 @@ double way_of_ring() {
   return way({.u = 1, .v = 1}) / way({.u = 0, .v = 1});
 }
 
-/// A bowling ball of the textbooks, which slides at 8 m/s without spin at the start.
+/// A bowling ball in the textbooks' example: it starts by sliding at 8 m/s without spin.
 struct Bowled {
   double speed = 8;
   si::Experiment ball = [this] {
@@ -65,7 +65,7 @@ struct Bowled {
   double friction = ball.contact.friction * ball.environment.gravity;
 };
 
-/// Returns the speed at which a ball rolls, divided by its first speed v. It starts with backspin of (5/2) v/R.
+/// Returns the speed at which a ball begins to roll, divided by v at the start. It starts with backspin (5/2) v/R.
 double speed_of_draw() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const double speed = 1;
@@ -74,8 +74,8 @@ double speed_of_draw() {
   return motion.at(motion.stop_time()).velocity.norm() / speed;
 }
 
-/// Returns the height above the centre, in radii, at which a level cue makes a ball roll at once. The slip divided by
-/// the speed is linear in the height.
+/// Returns the height of a level cue's tip above the centre, in radii, for which the ball rolls at once. The slip
+/// divided by the speed is a linear function of this height.
 double height_of_rolling() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const auto slip_over_speed = [&](double above) {
@@ -86,8 +86,8 @@ double height_of_rolling() {
   return high * centre / (centre - slip_over_speed(high));
 }
 
-/// Returns the spin deceleration of a curling stone with its typical spin, times v, m/s^3. The friction is that of the
-/// program DigitalCurling.
+/// Returns the spin deceleration of a curling stone with its typical spin, multiplied by v, m/s^3. Its friction is that
+/// of the program DigitalCurling.
 /// @param v  slip, m/s, > 0
 double spin_decay_of_stone(double v) {
   const si::Experiment& stone = si::find_ball("curling-stone")->experiment;

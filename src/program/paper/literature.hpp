@@ -5,11 +5,11 @@
 
 namespace contensou::program {
 
-/// A number that others published, and the same number computed here.
+/// A number that others have published, and the same number computed by this library.
 struct Published {
   std::string_view name;    ///< the quantity
   std::string_view source;  ///< authors, journal or title, year
-  std::string_view link;    ///< its DOI or repository; empty if it has none
+  std::string_view link;    ///< DOI or repository of the source; empty if there is none
   std::string_view read;    ///< part of the source that was read: "abstract", "code", "in textbooks" or "as cited"
   double published;
   double allowed;         ///< half a unit of the last printed digit; for a closed expression, the rounding
@@ -19,7 +19,7 @@ struct Published {
   bool agrees() const;
 };
 
-/// Disc and ring, the textbook's ball, cue and stone.
+/// Returns published numbers of disc and ring, and of a ball, a cue and a stone in textbooks.
 std::vector<Published> published_numbers();
 
 }  // namespace contensou::program

@@ -18,8 +18,8 @@ namespace {
 using namespace reduction;
 using namespace zh98;
 
-constexpr double limit = 1e-6;  ///< a limit read off at a small distance from it
-constexpr double a = 2;         ///< the factor of the similarity
+constexpr double limit = 1e-6;  ///< allowed error of a limit that is computed at a small distance from it
+constexpr double a = 2;         ///< factor of the similarity (u, v) -> (a u, a v)
 
 constexpr State start{1, 0.5}, mirrored{-1, 0.5}, scaled{a * start.u, a*start.v};
 
@@ -28,10 +28,10 @@ Orbit orbit(double mu) { return Flow(system(mu)).orbit(start); }
 
 double slope_of(Rate rate) { return rate.v / rate.u; }
 
-/// Returns the motion when this fraction of the stop time is left. A small fraction stands for the limit.
+/// Returns the motion when a fraction of the stop time is left. A small fraction stands for the limit.
 OrbitPoint late(const Orbit& motion, double fraction) { return motion.at_time_left(fraction * motion.stop_time()); }
 
-/// The exponent of beta by which ln y falls next to the stop.
+/// Returns the exponent with which y falls as a power of beta next to the stop.
 template <class Logarithm>
 double exponent(const Orbit& motion, Logarithm ln_y) {
   const OrbitPoint before = late(motion, 1e-8), after = late(motion, 1e-12);
@@ -40,9 +40,9 @@ double exponent(const Orbit& motion, Logarithm ln_y) {
 double ln_u(const OrbitPoint& at) { return std::log(at.u); }
 double ln_v(const OrbitPoint& at) { return at.ln_v; }
 
-/// The integral of (2.8) from beta = lower along the solution u = u1/beta of (2.7) with v = 0, where 1/u1 = -u'/u^2.
+/// Returns the integral of (2.8) from beta = lower along the solution u = u1/beta of (2.7) with v = 0, 1/u1 = -u'/u^2.
 double time_from(double mu, double lower) {
-  if (lower == 0) return infinity;  // 1/beta^2 there
+  if (lower == 0) return infinity;  // the integrand is like 1/beta^2 there
   const double u1 = -1 / regularised_field(mu, {1, 0}).u;
   boost::math::quadrature::exp_sinh<double> rule;
   const auto along = [&](double beta) { return weight(mu, {u1 / beta, 0}); };
@@ -57,13 +57,13 @@ double vanishes(const Orbit& motion, Logarithm ln_y, double power) {
   return (after.tau - ratio * before.tau) / (1 - ratio) / motion.stop_time();
 }
 
-/// dp/dq with q = v/u, p = ln v, from the printed field.
+/// Returns dp/dq with q = v/u, p = ln v, from the printed field.
 double dp_dq(double mu, State state) {
   const Rate rate = field(mu, state);
   return rate.v / state.v / (rate.v / state.u - state.v * rate.u / (state.u * state.u));
 }
 
-/// The change of p = ln v while ln q grows by 1 up to its value at the start.
+/// Returns the change of p = ln v while ln q grows by 1 up to its value at the start.
 double change_by_quadrature(double mu) {
   const double top = std::log(start.v / start.u);
   const auto integrand = [&](double ln_q) {
@@ -77,7 +77,7 @@ double change_of_orbit(const Orbit& motion) {
   return motion.at_log_ratio(top).ln_v - motion.at_log_ratio(top - 1).ln_v;
 }
 
-/// Relative error of the estimate E2 of the stop time for small mu.
+/// Returns the relative error of the estimate E2 of the stop time for small mu (reduction/small_mu.hpp).
 double estimate_error(double mu) {
   return std::abs(small_mu_estimates(system(mu), start).back().tau / orbit(mu).stop_time() - 1);
 }
@@ -100,7 +100,7 @@ std::vector<Statement> plane_statements(double mu) {
        regularised_field(mu, start).u / reduced.field(start).u, arithmetic},
       {"(2.7)", "reaches rest in infinite beta only: beta grows without bound, by", 1000.,
        late(motion, 1e-12).beta / late(motion, 1e-8).beta, lower_bound, 0, "tau* - tau from 1e-8 to 1e-12 tau*"},
-      // Along u = u1/beta, v = v1/beta both fall at the same relative rate.
+      // On u = u1/beta, v = v1/beta both speeds fall at the same relative rate.
       {"(2.7)", "u = u(1)/beta, v = v(1)/beta is a solution: (v'/v)/(u'/u)", 1.,
        slope_of(regularised_field(mu, start)) * start.u / start.v, arithmetic, 0, "", Verdict::not_true,
        "only on the axes u = 0 and v = 0"},
@@ -112,13 +112,13 @@ std::vector<Statement> plane_statements(double mu) {
        time_from(mu, 1)},
       {"(2.8)", "with beta = 0 at the start it converges, to the stop time",
        stop_time(reduced, start, Route::regularised).tau, motion.stop_time(), stepping},
-      // The axis that is reached last: tau* <= 16 u0/(5 mu) + (15 pi/14) v0, README (R6).
+      // The speed that vanishes last is bounded: tau* <= 16 u0/(5 mu) + (15 pi/14) v0, README (R6).
       {"", "every curve arrives in finite time: a bound over tau*", 1.,
        reduced.stop_time_bounds(start).upper / motion.stop_time(), lower_bound},
       {"", "u and v vanish at the same time: that of v over that of u", 1.,
        vanishes(motion, ln_v, 2 / reduced.r()) / vanishes(motion, ln_u, 1), limit},
       {"", "and that is the stop time", 1., vanishes(motion, ln_u, 1), limit},
-      // u' = a u, v' = a v in the same time: the velocity would have to be a times as large.
+      // If the times were equal, the velocity dv/dtau at a times the state would have to be a times as large.
       {"", "(u, v) -> (a u, a v) is a symmetry of (2.6): dv/dtau there, a = 2", a * field(mu, start).v,
        reduced.field(scaled).v, arithmetic, 0, "", Verdict::erratum, "with tau -> a tau (and beta -> beta/a in (2.7))",
        field(mu, start).v},

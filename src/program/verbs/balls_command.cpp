@@ -18,7 +18,7 @@ namespace {
 
 using si::CatalogueEntry;
 
-/// The ball's own law.
+/// Returns the law that belongs to the ball.
 reduction::Law own_law(const CatalogueEntry& entry) { return *reduction::find_law(si::law_of(entry.experiment)); }
 
 constexpr Field<CatalogueEntry> ball_fields[]{
@@ -58,7 +58,7 @@ Answer list() {
       const auto word = [&](const char* name) { return ball[name].get<std::string>(); };
       table.add({word("name"), word("description"), "mu = " + digits(ball["mu"])});
       std::string sources = help_paragraph(word("sources"), 15);
-      sources.pop_back();  // the end of its line
+      sources.pop_back();  // removes the line end
       table.add({sources});
     }
     return table.text();

@@ -88,7 +88,7 @@ class CheckCommand final : public Verb {
     const GivenStart start = start_.read(law);
     if (start.at_rest()) throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
     if (!start.motion) return verify(start.system, start.state);
-    std::vector<Check> worst;  // worst check of each orbit of the motion
+    std::vector<Check> worst;  // for each check the worst result over the orbits of the motion
     for (const si::ReducedPiece& piece : start.pieces()) take_worse(worst, verify(piece.flow.system(), piece.start));
     return worst;
   }

@@ -31,7 +31,7 @@ using fit::Fit;
 constexpr const char* stop = "stop";
 constexpr const si::Quantity* of_patch[]{&si::patch_radius, &si::spin_deceleration, &si::youngs_modulus};
 
-/// NAME=SD, ... with units.
+/// Reads "NAME=SD, ...", where SD may have a unit.
 NoiseByName parse_noise(const std::string& typed) {
   NoiseByName noise;
   std::vector<std::string> names = observable_names();
@@ -47,7 +47,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const auto place = static_cast<std::size_t>(found - names.begin());
     const std::string_view unit = name == stop ? "s" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);
-    // A plain angle is in radians, which angles elsewhere are not.
+    // A plain angle is in radians here, in contrast to other angles.
     const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
@@ -68,7 +68,7 @@ fit::Free parse_free(const std::string& typed) {
   return free;
 }
 
-/// Reads a time or a length above zero.
+/// Reads a time or a length that is above zero.
 auto positive(const char* what, const char* unit) {
   return [=](const std::string& typed) {
     const double value = parse_quantity(typed, unit);
@@ -229,7 +229,7 @@ class FitCommand final : public Verb {
     return tracks;
   }
 
-  /// Tracks with the times and errors of a film of the ball.
+  /// Returns tracks with the times and the errors of a planned film of the ball.
   std::vector<fit::Track> planned_tracks(const fit::FitRequest& request) const {
     if (files_.given()) throw BadInput("--plan predicts a film that is not made yet: leave out FILE");
     if (from_.given()) from_.reject("a film that is planned begins with the motion: leave it out");

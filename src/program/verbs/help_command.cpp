@@ -161,7 +161,7 @@ Proofs and numerics: numerics.md. Both files are in share/doc/contensou of the
 installation; in the sources they are reduction/README.md and numerics.md.
 )";
 
-/// The words of its headings, which are also topics.
+/// Words in the headings of `help theory`, which are topics, too.
 constexpr std::string_view theory_words[]{"equations", "symmetry", "generator", "reduction",
                                           "canonical", "integral", "theorem"};
 

@@ -15,7 +15,7 @@ namespace contensou::program {
 
 namespace {
 
-/// A law at some ratios k.
+/// A law with its values at some ratios k.
 struct LawReport {
   reduction::Law law;
   Eigen::ArrayXd k, phi, psi;
@@ -56,7 +56,7 @@ class LawCommand final : public Verb {
       std::vector<reduction::Law> laws = reduction::paper_laws();
       if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
       if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) {
-        if (!surface_) laws.clear();  // the paper's two are compared with each other, Fig. 2
+        if (!surface_) laws.clear();  // the figure (Fig. 2 of the paper) compares the paper's two laws
         laws.push_back(law);
       }
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;

@@ -30,7 +30,7 @@ constexpr Field<Published> number_fields[]{
      [](const Published& n) -> Json { return n.confirmed ? "agrees" : "differs"; }},
 };
 
-/// The number of a source in the list below the table, and that list.
+/// The list of sources below the table, and the number of each source in it.
 struct Sources {
   std::vector<std::string> list{};
 

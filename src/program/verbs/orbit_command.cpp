@@ -21,7 +21,7 @@ namespace contensou::program {
 
 namespace {
 
-/// An orbit at the instants that are asked for; columns that are not are empty.
+/// An orbit at the requested instants. Columns that were not requested are empty.
 struct OrbitReport {
   const GivenStart& start;
   reduction::Route route;
@@ -50,7 +50,7 @@ constexpr Field<OrbitReport> orbit_fields[]{
      " {`t` [...], `load` [...]}"},
 };
 
-/// The values of a column; none of one that is not asked for.
+/// Returns the values of a column; null if the column was not requested.
 const Eigen::ArrayXd* unless_empty(const Eigen::ArrayXd& values) { return values.size() > 0 ? &values : nullptr; }
 
 constexpr ColumnField<OrbitReport> orbit_columns[]{
@@ -127,7 +127,7 @@ class OrbitCommand final : public Verb {
     const auto load = start_.load_history();
     if (load) {
       fmt::print(stderr, "{}", require_load_alone(*start.experiment, system.law()));
-      // In seconds it would be of the load that is still to come.
+      // Under a changing load, seconds of the time left would depend on the load that is still to come.
       if (time_left_.given() && time_left_->in_seconds)
         time_left_.reject("with a load that changes so much tau is left, and no seconds: leave the unit out");
     }
@@ -140,7 +140,7 @@ class OrbitCommand final : public Verb {
         : beta_.given()      ? motion_at_beta(system, start.state, route, *beta_)
         : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start, load))
                              : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
-    // At rest k is what it tends to.
+    // At rest, k is replaced by its limit.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
       const double k0 = start.state.u == 0 ? infinity : start.state.v / (system.mu() * std::abs(start.state.u));
       const reduction::Flow last = pieces.empty() ? reduction::Flow(system) : pieces.back().flow;
@@ -155,7 +155,7 @@ class OrbitCommand final : public Verb {
         const double nominal = si::seconds(*start.experiment, tau);
         return load ? load->time_of(nominal) : nominal;
       };
-      const bool given = at != nullptr && at->in_seconds;  // keep the typed values unconverted
+      const bool given = at != nullptr && at->in_seconds;  // true: keep the typed values unconverted
       report.t = given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds));
     }
     if (reduction_) add_canonical(report);
@@ -164,7 +164,7 @@ class OrbitCommand final : public Verb {
   }
 
  private:
-  /// @throws BadInput  for options of a single orbit, if rolling friction makes a motion of several orbits
+  /// @throws BadInput  for options that need a single orbit, if rolling friction makes a motion of several orbits
   void require_one_orbit(reduction::Route route) const {
     const char* const why = " needs one orbit, and rolling friction divides this motion into several";
     if (route != reduction::Route::quadrature)
@@ -174,7 +174,7 @@ class OrbitCommand final : public Verb {
     if (reduction_) throw BadInput(fmt::format("--reduction{}: leave it out", why));
   }
 
-  /// At these times, or with so much left, or else at equal times.
+  /// Returns the states at the given times, or at the given times left, or else at equal times.
   reduction::OrbitColumns motion_of_pieces(const std::vector<si::ReducedPiece>& pieces, const Eigen::ArrayXd& at,
                                            const Eigen::ArrayXd& lefts) const {
     const auto state = [&](double tau) { return si::state_at(pieces, tau); };
@@ -207,8 +207,8 @@ class OrbitCommand final : public Verb {
     }
   }
 
-  /// Adds q = v/u, p = ln v and the first integral, which is infinite where it has no value: on the axes, on an
-  /// invariant ray and at rest.
+  /// Adds q = v/u, p = ln v and the first integral. The first integral is infinite where it has no value: on the axes,
+  /// on an invariant ray and at rest.
   static void add_canonical(OrbitReport& report) {
     const reduction::OrbitColumns& motion = report.motion;
     const reduction::Flow flow = report.start.flow();
@@ -217,11 +217,11 @@ class OrbitCommand final : public Verb {
       try {
         report.integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
       } catch (const std::domain_error&) {
-        // none here
+        // no first integral here
       }
     }
     const double factor = report.start.system.mu() * (report.start.state.u < 0 ? -1 : 1);
-    report.q = factor * motion.k + 0.0;  // + 0: not -0
+    report.q = factor * motion.k + 0.0;  // adding 0 avoids -0
     report.p = motion.ln_v;
   }
 

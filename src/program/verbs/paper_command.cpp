@@ -32,12 +32,12 @@ namespace fs = std::filesystem;
 using portraits::Figure;
 using portraits::PictureFormat;
 
-/// mu of the statements on the plane, and of Fig. 4: there the largest of a ball, so that the orbits' way into the
-/// origin is seen.
+/// mu of the statements about the plane. In Fig. 4 mu has the largest value of a ball, so that the way of orbits into
+/// the origin is visible.
 constexpr double stated_patch_ratio = 0.3;
 constexpr double drawn_patch_ratio = 1;
 
-/// A statement and what was found, for people.
+/// A statement and its verdict, as text for people.
 struct StatementRow {
   Statement statement;
   Finding found = statement.examine();
@@ -65,7 +65,7 @@ constexpr Field<StatementRow> statement_fields[]{
      [](const StatementRow& row) -> Json { return row.where; }},
 };
 
-/// All statements in the order of the paper.
+/// Examines all statements, in the order of the paper.
 std::vector<StatementRow> recompute() {
   std::vector<StatementRow> rows;
   for (const auto& section : {patch_statements(), ball_statements(), plane_statements(stated_patch_ratio)}) {
@@ -98,7 +98,7 @@ struct File {
   std::string content;
 };
 
-/// All figures in both formats, drawn side by side.
+/// Draws all figures in both formats, several at a time.
 std::vector<File> draw_figures(const fs::path& folder, const FigureOptions& looks) {
   std::vector<std::pair<std::string, std::future<std::string>>> drawings;
   for (const auto& [name, figure] : figures(looks.size())) {
@@ -113,12 +113,12 @@ std::vector<File> draw_figures(const fs::path& folder, const FigureOptions& look
   return files;
 }
 
-/// Writes all files or none, into a folder that is made if there is none.
+/// Writes all files or none, into a folder that is created if it does not exist.
 void write_files(const Argument& out, const std::vector<File>& files) {
   const BlockedSignals wait;
   const fs::path folder = fs::absolute(path_of(out.text()));
   std::error_code error;
-  std::vector<fs::path> missing;  // the deepest first
+  std::vector<fs::path> missing;  // folders to create, the deepest first
   for (fs::path path = folder; !fs::exists(path, error); path = path.parent_path()) missing.push_back(path);
   try {
     fs::create_directories(folder, error);

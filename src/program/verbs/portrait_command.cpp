@@ -30,7 +30,7 @@ using Eigen::Vector2d;
 using portraits::View;
 using reduction::State;
 
-/// Reads U,V, or U1:U2,V1:V2.
+/// Reads a window: "U,V" or "U1:U2,V1:V2".
 void read_window(const std::string& typed, portraits::PortraitRequest& request) {
   if (typed.find(':') == std::string::npos) {
     const std::vector<double> sides = numbers(typed, 2, "U,V");
@@ -50,7 +50,7 @@ void read_window(const std::string& typed, portraits::PortraitRequest& request) 
   }
 }
 
-/// T1,T2,... or T,
+/// Reads times: "T1,T2,..." or, for a single time, "T,".
 std::vector<double> parse_times(const std::string& typed) {
   std::vector<std::string> parts = split(typed, ',');
   if (parts.size() > 1 && parts.back().empty()) parts.pop_back();
@@ -69,18 +69,18 @@ State parse_point(const std::string& typed) {
   return {pair[0], pair[1]};
 }
 
-/// Takes the value of an option into a variable.
+/// Stores the value of an option in a variable.
 template <class Target, class Read>
 Argument::Take into(Target& target, Read read) {
   return [&target, read = std::move(read)](const std::string& typed) { target = read(typed); };
 }
 
-/// Reads how many are wanted.
+/// Reads a number of curves, from 0 to a limit.
 auto at_most(int highest) {
   return [=](const std::string& typed) { return static_cast<int>(parse_integer(typed, 0, highest)); };
 }
 
-/// Fields of the data of a portrait, which the library of portraits writes.
+/// Returns the fields of the data of a portrait. The library portraits writes these data.
 std::vector<FieldText> portrait_fields() {
   return {
       {"CSV `kind`, `index`", "", "orbit, highlight, through, isochrone, ...; number of the line of that kind"},
@@ -103,7 +103,7 @@ std::vector<FieldText> portrait_fields() {
   };
 }
 
-/// Fields of the data of a portrait of --system.
+/// Returns the fields of the data of a portrait of --system.
 std::vector<FieldText> system_portrait_fields() {
   return {
       {"CSV `kind`, `index`", "", "orbit, highlight, through, separatrix, isochrone; number of the line of that kind"},
@@ -198,7 +198,7 @@ class PortraitCommand final : public Verb {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
     start_.require_point_or_none();
-    // Sample the field in the window, or as far from 0 as the start.
+    // Sample the field at a point of the window, or at the distance of the start from 0.
     Vector2d around = request_.window
                           ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
                           : request_.sides.value_or(Vector2d(1, 1));
@@ -213,7 +213,7 @@ class PortraitCommand final : public Verb {
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 
-  /// Reads where and how the result is written, and rejects options that have no effect there.
+  /// Reads destination and format of the result, and throws for options that have no effect on it.
   Output read_output() {
     Output output = output_.read();
     figure_.require_picture(output);
@@ -235,7 +235,7 @@ class PortraitCommand final : public Verb {
     return ExitStatus::done;
   }
 
-  /// Rejects windows and points that the half-plane does not contain.
+  /// Throws for windows and points that the half-plane does not contain.
   void require_half_plane() const {
     const auto& window = request_.window;
     if (window && window->low[1] < 0) window_->reject("here v is 0 or more: the plane is a half-plane");
@@ -255,7 +255,7 @@ class PortraitCommand final : public Verb {
     }
   }
 
-  /// Adds the options for content and look of the portrait.
+  /// Adds the options for the contents and the look of the portrait.
   void add_looks(CLI::App& app) {
     constexpr int max_orbits = 200;
     constexpr int max_isochrones = 100;
@@ -324,7 +324,7 @@ class PortraitCommand final : public Verb {
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
-  /// Returns the names of the looks that were given, joined for a message, from this place in looks_ on.
+  /// Returns the names of the given options in looks_, from a place on, joined for a message.
   std::string names_of_looks(std::size_t first) const {
     std::vector<const Argument*> arguments;
     for (; first < looks_.size(); ++first) arguments.push_back(&looks_[first]);
@@ -347,7 +347,7 @@ class PortraitCommand final : public Verb {
   LawOption law_, against_;
   RouteOption route_;
   std::deque<Argument> looks_;
-  std::size_t first_of_drawing_ = 0;  ///< place in looks_ from which options change only the drawing, not the data
+  std::size_t first_of_drawing_ = 0;  ///< place in looks_ from which on options change the drawing only, not the data
   /// Single options in looks_.
   const Argument *window_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
   portraits::PortraitRequest request_;

@@ -39,7 +39,7 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
                                   .finished()};
 }
 
-/// The picture of the motion at these instants, beside the textbook's.
+/// Returns the data for the picture of the motion at these instants, beside the motion of the uncoupled model.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const si::Experiment& experiment = roll.experiment;
   const double rolls = roll.whole.rolls(roll.rolling_below);
@@ -79,9 +79,9 @@ double parse_end(const std::string& typed) {
   return end;
 }
 
-constexpr long max_frames = 1000;  ///< limit for a film: 40 s
+constexpr long max_frames = 1000;  ///< largest number of frames of a film: 40 s
 
-/// Columns of the tables of --batch.
+/// Columns of the tables that --batch reads.
 constexpr ColumnText straight_shots{"slip,spin", "m/s, 1/s", "start along x; all other columns pass through"};
 constexpr ColumnText general_shots{"vx,vy,wx,wy,wz", "m/s, 1/s", "start by velocities, in place of slip and spin"};
 constexpr std::initializer_list<ColumnText> shot_events{
@@ -237,7 +237,7 @@ class RollCommand final : public Verb {
     const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
     const si::Shots shots(still, law);
     const double rolling_below = rolling_below_.value_or(si::rolling_slip);
-    // Else it rolls down for ever.
+    // otherwise the body rolls down for ever
     const bool may_rest = u_r * si::pressing(still.environment) > (1 - 1 / chi) * si::pull(still.environment).norm();
     OutputFile output(out.path);
     CsvReader table(batch_.text());
@@ -262,14 +262,14 @@ class RollCommand final : public Verb {
                          .progress = bulk_.progress(out.path)};
     std::vector<std::string>& names = request.results;
     if (still.ball.body.lies_flat())
-      std::copy(names.end() - 3, names.end(), names.begin());  // it rests in place of rolling
+      std::copy(names.end() - 3, names.end(), names.begin());  // these columns are of rest in place of rolling
     if (!may_rest) names.resize(names.size() - 3);
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
     return status;
   }
 
-  /// The events of a row.
+  /// Writes the events of a row.
   static void write(const si::Events& events, std::span<double> results) {
     const auto& [rolls, spin_ends, rest, slip_length, turns, path] = events;
     auto place = results.begin();
@@ -282,7 +282,7 @@ class RollCommand final : public Verb {
     if (place != results.end()) add(rest.value_or(si::Event{infinity, {infinity, infinity}}));
   }
 
-  /// The load, if it changes.
+  /// Returns the load if it changes; else empty.
   /// @throws BadInput  if the patch would change with the load, and for options that need a constant load
   std::optional<si::LoadHistory> load_for(const si::Experiment& experiment, const reduction::Law& law) const {
     const auto load = start_.load_history();
@@ -292,7 +292,7 @@ class RollCommand final : public Verb {
     return load;
   }
 
-  /// @throws NotAllowed  for an option of rolling with a body that lies flat
+  /// @throws NotAllowed  for an option about rolling that is given with a body that lies flat
   void require_rolling_options(const si::Experiment& experiment) const {
     if (!experiment.ball.body.lies_flat() || !rolling_below_.given()) return;
     rolling_below_.reject(fmt::format("a {} lies flat and never rolls: leave it out", experiment.ball.body.name));

@@ -20,7 +20,7 @@ namespace contensou::program {
 
 namespace {
 
-/// Columns of the tables of --batch, without and with --ball.
+/// Columns of the tables that --batch reads, without and with --ball.
 constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed",
                                     "radius of the patch divided by R, R omega_z and slip"};
 constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "start of a ball, with --ball"};
@@ -97,8 +97,8 @@ class StopCommand final : public Verb {
     const Output out = output_.read(1);
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
     const auto ball = has_ball ? std::optional(start_.read_ball(laws.front(), at_rest("--batch"))) : std::nullopt;
-    std::deque<StopTimes> stop_times;  // stay where they are
-    std::vector<double> mu;            // mu of the ball, by each law
+    std::deque<StopTimes> stop_times;  // a deque, because its elements must keep their addresses
+    std::vector<double> mu;            // mu of the ball under each law
     BatchRequest request{.inputs = names_of({has_ball ? ball_starts : reduced_starts}),
                          .results = {},
                          .compute =
@@ -131,7 +131,7 @@ class StopCommand final : public Verb {
           results[i] = si::seconds(experiment, stop_times[i](mu[i], start, 0));
       };
     }
-    OutputFile output(out.path);  // before the input, which may be long in coming
+    OutputFile output(out.path);  // opened before the input, which may be slow to arrive
     CsvReader table(batch_.text());
     const bool si_columns = table.has_column("slip") || table.has_column("spin");
     if (!has_ball && !table.has_column("mu") && si_columns) {

@@ -19,12 +19,12 @@ using reduction::State;
 
 namespace {
 
-/// A curve by quadrature takes some 300 kB, and a table as much. In rows that each have a mu of their own nothing is
-/// used twice, and of a grid one mu at a time.
+/// Largest number of curves that are kept. A curve by quadrature takes about 300 kB, and so does a table. If each row
+/// has its own mu, no curve is used twice; a grid uses one mu at a time.
 constexpr std::size_t max_curves = 256;
 constexpr std::size_t max_tables = 16;
 
-/// And StopTimesOfMu as long as so many curves.
+/// Number of different mu from which on StopTimesOfMu is faster: making it takes as long as this number of curves.
 constexpr long mus_that_pay = 1000;
 
 }  // namespace
@@ -87,7 +87,7 @@ std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
     }
     made_once = place;
   }
-  return made_once.get();  // the first thread makes it, and others wait
+  return made_once.get();  // the first thread makes it, and other threads wait
 }
 
 double StopTimes::operator()(double mu, State start, long row) {

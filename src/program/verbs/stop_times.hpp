@@ -29,7 +29,7 @@ class StopTimes {
     double operator()(reduction::State start) const { return flow ? flow->stop_time(start).tau : one(start); }
 
     /// Computes the stop times of (u0[i], v0).
-    /// @param taus  receives them; as long as u0
+    /// @param taus  receives the stop times; as long as u0
     void row(std::span<const double> u0, double v0, std::span<double> taus) const;
   };
 
@@ -40,7 +40,7 @@ class StopTimes {
   /// Prepares stop times by the best route, for `mus` values of mu with `starts` starts each.
   StopTimes(const reduction::Law& law, reduction::Inertia body, double drive, long starts, long mus);
 
-  /// Switches to a ball with rolling friction. Its motions consist of several orbits; each start is computed alone.
+  /// Switches to a ball with rolling friction. Its motions consist of several orbits, so each start is computed alone.
   /// @throws BadInput  if a route was given
   void resist(const si::Experiment& ball);
 
@@ -48,9 +48,9 @@ class StopTimes {
   /// @throws  as RouteOption::read and the computation of the solution
   std::shared_ptr<const AtMu> at(double mu);
 
-  /// Returns the stop time of one row of a table, whose rows may all have different mu. After many rows, a solution for
-  /// every mu replaces the curves of single mu, unless there is a drive or a given route.
-  /// @param row  number of rows before this one; the bits of the result do not depend on their content
+  /// Returns the stop time of one row of a table, whose rows may all have different mu. After many rows, one solution
+  /// for every mu replaces the curves of single mu, unless there is a drive or a given route.
+  /// @param row  number of rows before this one; the bits of the result do not depend on the contents of those rows
   /// @throws     as at and stop_time
   double operator()(double mu, reduction::State start, long row);
 
@@ -63,7 +63,7 @@ class StopTimes {
   double drive_;
   RouteOption route_;
   std::optional<si::Experiment> resisted_;
-  std::size_t starts_ = 0;  ///< number of starts of each mu of a grid
+  std::size_t starts_ = 0;  ///< number of starts for each mu of a grid
   bool many_mus_ = false;
   std::once_flag of_every_mu_made_;
   std::optional<reduction::StopTimesOfMu> of_every_mu_;

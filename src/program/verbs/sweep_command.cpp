@@ -33,15 +33,15 @@ namespace {
 
 constexpr long points_at_once = 1 << 15;
 constexpr long longest_kept_axis = 1 << 20;
-constexpr double max_points = 1e18;  // times 8 bytes, below the largest file size
+constexpr double max_points = 1e18;  // multiplied by 8 bytes, this is below the largest file size
 
-/// Numbers from least to most in equal steps, or in equal ratios; both ends are among them.
+/// Numbers from the least to the largest, both included, in equal steps or in equal ratios.
 struct Range {
   double min, max;
   long count = 1;
   bool in_ratios = false;
 
-  /// The number at a place from 0 to count - 1, rounded once where long double has digits to spare.
+  /// Returns the number at a place from 0 to count - 1. It is rounded only once if long double is longer.
   double operator[](long place) const {
     const long last = count - 1;
     if (place == 0) return min;
@@ -55,15 +55,15 @@ struct Range {
   }
 };
 
-/// The starts of a sweep: every mu with every v0 with every u0. They are in the order of a C array; u0 changes fastest.
+/// The starts of a sweep: all combinations of mu, v0 and u0, in the order of a C array. u0 changes fastest.
 struct SweepGrid {
   Range mu;
   bool mu_is_range;  ///< true if the array has an axis for mu
-  Range u0;          ///< u0; for a ball its spin
+  Range u0;          ///< values of u0; for a ball, of its spin
   Range v0;
-  std::optional<si::Experiment> ball = {};  ///< the grid and the stop times are in SI
+  std::optional<si::Experiment> ball = {};  ///< if it is set, grid and stop times are in SI units
 
-  /// Also where it would not fit an integer.
+  /// Returns the number of starts, also if it does not fit an integer.
   double points() const {
     return static_cast<double>(mu.count) * static_cast<double>(v0.count) * static_cast<double>(u0.count);
   }
@@ -71,7 +71,7 @@ struct SweepGrid {
 
 enum class SweepFormat { npy, csv };
 
-/// Columns of a table, without and with --ball; npy contains the last.
+/// Columns of a table, without and with --ball; npy contains only the last column.
 constexpr ColumnText system_columns{"mu,u0,v0,tau_stop", "1, speed, speed, speed",
                                     "start, and stop time; an npy contains tau_stop alone, in the shape (N_v0, N_u0) "
                                     "or (N_mu, N_v0, N_u0)"};
@@ -97,8 +97,8 @@ std::vector<double> values_of(const Range& range, long begin, long count) {
   return values;
 }
 
-/// Returns the beginning of a file: the names of the columns, or NumPy's description of the array. The doubles of the
-/// array follow as they are in memory.
+/// Returns the beginning of a file: the names of the columns, or NumPy's description of the array. In an npy file the
+/// doubles of the array follow as they are stored in memory.
 std::string heading(const SweepRequest& request) {
   if (request.format == SweepFormat::csv)
     return csv_line(names_of({request.grid.ball ? ball_columns : system_columns}));
@@ -204,24 +204,23 @@ class Sweep {
   }
 
   const SweepRequest& request_;
-  std::string heading_;  ///< is written with the first stop times
+  std::string heading_;  ///< heading, written together with the first stop times
   const SweepGrid& grid_ = request_.grid;
   OutputFile& output_;
   const long starts_of_mu_ = grid_.v0.count * grid_.u0.count;
   StopTimes stop_times_;
   Progress progress_;
-  std::vector<double> u0_;  ///< all values; empty if they are too many to be kept
-  long next_ = 0;           ///< start that is not taken yet
+  std::vector<double> u0_;  ///< all values of u0; empty if they are too many to be kept
+  long next_ = 0;           ///< number of the first start that is not taken yet
   double done_ = 0;
 };
 
-/// Writes the stop times of all starts in the memory of a few blocks of them; the bytes do not depend on the number of
-/// threads.
+/// Writes the stop times of all starts; only a few blocks of them are in memory. The bytes do not depend on `threads`.
 ///   npy  NumPy's format 1.0: float64, shape (v0, u0), or (mu, v0, u0) if mu is a range
 ///
-/// @param output  not finished here
+/// @param output  file for the result; the caller finishes it
 /// @throws BadInput     if the array would be larger than any file
-/// @throws FileFailure  if there is no room for it
+/// @throws FileFailure  if the disk has no room for the array
 void sweep(const SweepRequest& request, OutputFile& output) {
   const SweepGrid& grid = request.grid;
   if (grid.points() > max_points) {
@@ -236,8 +235,8 @@ void sweep(const SweepRequest& request, OutputFile& output) {
   Sweep(request, std::move(begins), output).run();
 }
 
-/// MIN:MAX:N, or a number alone.
-/// @param unit  as parse_quantity
+/// Reads "MIN:MAX:N", or a single number.
+/// @param unit  as for parse_quantity
 Range parse_range(const std::string& typed, std::string_view unit) {
   const std::vector<std::string> parts = split(typed, ':');
   if (parts.size() == 1) return {.min = parse_quantity(typed, unit), .max = parse_quantity(typed, unit)};

@@ -32,7 +32,7 @@ class TerminalCommand final : public Verb {
       output.write(terminal_answer(body_.read(law)));
       return ExitStatus::done;
     }
-    // All r are drawn; the r of a body is marked.
+    // The figure shows all r. If a body is given, its r is marked.
     std::optional<double> r;
     if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();
     output.write(

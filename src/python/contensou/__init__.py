@@ -1,7 +1,7 @@
 """Balls and pucks that slide and spin at once, under the friction of Contensou and Zhuravlev.
 
     import contensou as ct
-    ct.stop_time(u=1, v=1, mu=0.1)              # the paper's time until slip and spin end
+    ct.stop_time(u=1, v=1, mu=0.1)              # the time tau until slip and spin end
     ct.Flow(mu=0.3).orbit(u=1, v=1).at(tau=2)   # the state at a time
     ct.Ball.pool().roll(slip=1, spin=100)       # a real ball, in SI units
     ct.wrench("exact", (1, 0, 100), 1.7, (0.2, 3e-3, 1e-4))  # force and moment of a contact patch
@@ -9,10 +9,10 @@
     ct.portrait(mu=1).plot()                    # a phase portrait
     ct.reduce("u' = -v - a*u; v' = u - a*v", u=1, v=1, a=0.1)  # the symmetry of any planar system, and its motion
 
-u = R omega_z is the speed of pivoting and v >= 0 that of sliding. mu is the radius of the contact patch divided by R,
-the radius of the body. tau = (3 pi/2) f g t is the paper's time. u, v and tau have one unit, which is arbitrary; a Ball
-is in SI units. Numbers may be arrays of any shapes that broadcast; masked entries become NaN. Errors of the library are
-ValueErrors.
+u = R omega_z is the speed of pivoting and v >= 0 the speed of sliding. mu is the radius of the contact patch divided by
+R, the radius of the body. tau = (3 pi/2) f g t is the time in the model of V. F. Zhuravlev, 1998, with the coefficient
+of friction f. u, v and tau have one unit, which is arbitrary; a Ball is in SI units. Numbers may be arrays of any
+shapes that broadcast; masked entries become NaN. Errors of the library are ValueErrors.
 """
 
 from ._core import __version__

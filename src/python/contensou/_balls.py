@@ -107,8 +107,8 @@ class Ball:
         return cls(**_core.changed(known, changes), **law)
 
     def but(self, **changes: Any) -> Ball:
-        """Returns the ball with other fields. A field replaces those that give the same value in another way:
-        patch_radius moduli, a load gravity, slip with spin velocities."""
+        """Returns the ball with other fields. A field replaces fields that determine the same value in
+        another way: patch_radius replaces moduli, a load gravity, slip with spin the velocities."""
         return self._of(self._given(), changes)
 
     @classmethod
@@ -194,11 +194,12 @@ class Ball:
         threads: int = 1,
         out: Optional[NDArray[Any]] = None,
     ) -> Any:
-        """Returns the motion of the ball, or of the body that lies flat, as a Roll. By default it starts as the ball
-        does. If one of the following has an axis of N more, there are N starts, and the result is Rolls.
+        """Returns the motion of the ball, or of the body that lies flat, as a Roll. By default it has the ball's own
+        start. If one of the following arguments has one more axis, of length N, there are N starts, and the result is
+        Rolls.
 
-        velocity, angular_velocity:  of the centre, (x, y) or (x, y, 0), m/s; of the ball, (x, y, z), rad/s, z up
-        slip, spin:  m/s along x; rad/s about the vertical
+        velocity, angular_velocity:  (x, y) or (x, y, 0) of the centre, m/s; (x, y, z) of the ball, rad/s, z up
+        slip, spin:  slip along x, m/s; spin about the vertical, rad/s
         strike, tip, elevation, cue_mass:  a cue strikes the ball at rest along x: its speed, m/s; the place of its tip
                      to the right of and above the centre in radii, default (0, 0); elevation of its butt in degrees,
                      default 0; its mass, default 0.54 kg
@@ -210,7 +211,7 @@ class Ball:
                            after the last. The patch is constant; only friction may act
         threads, out:      for N starts: number of threads; array for their events, shape (N,), dtype Rolls.dtype
 
-        Raises ValueError for values that no ball can have, naming the row.
+        Raises ValueError for values that no ball can have, with the row in the message.
         """
         given = {"velocity": velocity, "angular_velocity": angular_velocity, "slip": slip, "spin": spin,
                  "strike": strike, "tip": tip, "elevation": elevation, "cue_mass": cue_mass}
@@ -471,7 +472,7 @@ class Roll:
     def uncertainty(self, *own: str, **spreads: Union[str, float]) -> dict[str, Any]:
         """Returns the uncertainty of the events from standard deviations of numbers of the ball or of its start:
         `roll.uncertainty(slip="1%", spin="2 rad/s", friction=0.01)`; vx, vy, wx, wy, wz for a start by velocities.
-        `roll.uncertainty("fit")` takes those of the ball (Ball.uncertainty); further arguments replace them.
+        `roll.uncertainty("fit")` uses the deviations of the ball (Ball.uncertainty); arguments replace them.
 
         The result is the member uncertainty of `contensou roll --uncertainty --format json`. For each number of an
         event it contains the standard deviation to first order, the shares in it by name, quantiles of 10 000 samples,

@@ -29,8 +29,8 @@ class Estimate(NamedTuple):
 
 
 class RollingFrictionSeen(NamedTuple):
-    """Rolling friction that was not free, but would fit a film far better; sliding friction then, and the decrease of
-    chi^2."""
+    """Rolling friction that was not free but would make the fit far better, with the sliding friction in that case and
+    the decrease of chi^2."""
 
     value: float
     standard_error: float
@@ -54,10 +54,10 @@ class Fit:
 
     ball:          the ball with the fitted contact and start; its uncertainty contains the covariance of all free
                    numbers that the film determines
-    estimates:     friction, patch_radius, slip, spin, and those that place the film: direction, vx, vy, x, y, angle at
+    estimates:     friction, patch_radius, slip, spin, and those placing the film: direction, vx, vy, x, y, angle at
                    the start; with rolling friction also rolling_friction, and rolling (m/s, R omega along the slip)
                    instead of vx and vy
-    names, correlation_matrix:  of the free numbers
+    names, correlation_matrix:  names of the free numbers, and their correlations
     correlation:   correlation of friction and patch_radius
     noise:         standard deviation of each observable, given or estimated
     reduced_chi2:  nan or inf if there are no more values than free numbers
@@ -203,7 +203,7 @@ def fit(
     free:    names among friction, patch_radius, rolling_friction, slip and spin; by default all, except the patch of a
              body that rests on its whole face, and rolling friction of a ball without it
     sd:      standard deviations by observable, numbers or arrays; others are estimated, from 10 values or more
-    robust:  True for Huber's loss, by which outliers count less
+    robust:  True for Huber's loss, under which outliers count less
     """
     t = numbers("t", t)
     given = {"slip": slip, "spin": spin, "x": x, "y": y, "vx": vx, "vy": vy, "angle": angle}

@@ -1,4 +1,4 @@
-"""Laws, flows, orbits: the paper's plane (u, v)."""
+"""Laws, flows, orbits: the phase plane (u, v)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Ray(NamedTuple):
 
 
 class SingularPoint(NamedTuple):
-    """A singular point of Zhuravlev's plane, at the origin or at infinity, and its eigenvalues."""
+    """A singular point of the phase plane, at the origin or at infinity, and its eigenvalues."""
 
     half_line: str
     place: str
@@ -46,8 +46,8 @@ class End(NamedTuple):
 
 
 class Terminal(NamedTuple):
-    """The limits of k = v/(mu |u|): r = gamma mu^2/chi, the r at which the regime changes, rays and ends by increasing
-    k."""
+    """The limits of k = v/(mu |u|) at the stop: r = gamma mu^2/chi, the values of r at which the regime changes, and
+    rays and ends in the order of k."""
 
     r: float
     r_low: float
@@ -57,7 +57,7 @@ class Terminal(NamedTuple):
 
     @property
     def k_star(self) -> float:
-        """The limit of the largest sector of starts."""
+        """The limit of k for the largest sector of starts."""
         return max(self.ends, key=lambda end: math.atan(end.k_to) - math.atan(end.k_from)).k_star
 
 
@@ -89,7 +89,7 @@ class Orbit:
     def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
            beta: Optional[ArrayLike] = None) -> Any:
         """Returns the states at times tau >= 0 after the start, at times tau_left before the stop, or at regularised
-        times beta >= 0 (2.8), as a structured array of their shape with fields tau, u, v, ln_v, k, beta. Near the stop
+        times beta >= 0, as a structured array of their shape with fields tau, u, v, ln_v, k, beta. Near the stop
         v underflows, unlike ln_v."""
         if sum(given is not None for given in (tau, tau_left, beta)) != 1:
             raise TypeError("at: one of tau, tau_left and beta is needed")
@@ -201,7 +201,7 @@ class Flow:
         return Terminal(r, low, high, tuple(Ray(*ray) for ray in rays), tuple(End(*end) for end in ends))
 
     def reduction(self) -> FlowReduction:
-        """Returns the symmetry of (2.6), found numerically, and the plane reduced by it."""
+        """Returns the symmetry of the equations of motion, found numerically, and the plane reduced by it."""
         return FlowReduction(self)
 
     def facts(self) -> tuple[SingularPoint, ...]:
@@ -210,7 +210,7 @@ class Flow:
 
 
 class FlowReduction(Reduction):
-    """The reduction of Zhuravlev's system in the paper's coordinates, q = v/u and p = ln v. The first integral is ln
+    """The reduction of the equations of motion in the coordinates q = v/u and p = ln v. The first integral is ln
     |u| - ln w(k)."""
 
     def __init__(self, flow: Flow) -> None:
@@ -279,7 +279,7 @@ def stop_time(
 
 
 class Check(NamedTuple):
-    """One statement of the theory about one motion; what is measured must not exceed what is allowed."""
+    """One statement of the theory about one motion; the measured error must not exceed the allowed one."""
 
     law: str
     check: str
@@ -289,7 +289,7 @@ class Check(NamedTuple):
 
 
 class Checks(tuple[Check, ...]):
-    """The rows of `check`."""
+    """The statements that `check` returns."""
 
     @property
     def passed(self) -> bool:
@@ -297,7 +297,7 @@ class Checks(tuple[Check, ...]):
 
     def raise_for_failure(self) -> Checks:
         """Returns itself if every check passed.
-        Raises ArithmeticError, naming the others."""
+        Raises ArithmeticError, with the names of the others."""
         if self.passed:
             return self
         raise ArithmeticError("\n".join(str(Checks([row])) for row in self if not row.passed))

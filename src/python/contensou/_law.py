@@ -96,7 +96,7 @@ def law(
 
 
 def body_of(given: Body) -> Body:
-    """Returns one name for each body, or its two numbers."""
+    """Returns the canonical name of a body, or its two numbers of inertia."""
     if isinstance(given, str):
         return "disc" if given == "puck" else given
     pair = numbers("body", given)

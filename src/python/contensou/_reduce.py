@@ -45,7 +45,7 @@ class Equilibrium(NamedTuple):
 class Reduction:
     """The result of `reduce`.
 
-    generators:       all of the form c t d/dt + (A x + b) . d/dx, the one that solves the system first; () for none
+    generators:       generators c t d/dt + (A x + b) . d/dx; the one that solves the system is first; () for none
     singular_values:  of the determining equations, increasing, relative to the largest; below level they count as 0
     gap:              distance of the values that count as 0 from the others
     verdict:          found, none, or undecided: the field's noise hides the effect of a generator
@@ -95,12 +95,12 @@ class Reduction:
 
     @property
     def equilibria(self) -> tuple[Equilibrium, ...]:
-        """Those where |u| and |v| are at most 2.5 times the larger of |u|, |v| of the start given to reduce."""
+        """The equilibria with |u|, |v| up to 2.5 times the larger of |u|, |v| of the start given to reduce."""
         return tuple(Equilibrium(*each) for each in self._core.equilibria)
 
     @property
     def reversors(self) -> tuple[str, ...]:
-        """Images of (u, v) under the linear maps R that turn motions back, f(R x) = -R f(x), such as "(u, -v)"."""
+        """Images of (u, v) under the linear maps R that reverse motions, f(R x) = -R f(x), such as "(u, -v)"."""
         return tuple(self._core.reversors)
 
     @property
@@ -109,12 +109,12 @@ class Reduction:
 
     @property
     def turn(self) -> Optional[tuple[float, float]]:
-        """For a focus the factor of exp(p) in a turn, and its length in sigma, d sigma = exp(-c p) dt; else None."""
+        """For a focus, the factor of exp(p) in a turn, and sigma of a turn, d sigma = exp(-c p) dt; else None."""
         return self._core.turn
 
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
-        """Returns q, the angle, and p, which alone the symmetry moves: ln of the distance divided by that of reduce's
-        start."""
+        """Returns q, the angle, and p, the only coordinate that the symmetry changes. p is ln(d/d0) with the distance d
+        from the centre, and d0 that of reduce's start."""
         q, p = self._core.canonical(*together(u=u, v=v))
         return q[()], p[()]
 
@@ -180,10 +180,10 @@ def _of_plane(asked: dict[str, Any]) -> _core.Portrait:
 class PlanarOrbit:
     """One motion; Reduction.orbit makes it.
 
-    end:        centre, infinity, rest (another point with a field of 0), border (of the field, or a jump), periodic,
-                equilibrium or cycle (which it nears for ever); None if it is not decided
+    end:        centre, infinity, rest (another point with a field of 0), border (a jump or end of values), periodic,
+                equilibrium or cycle (approached for ever); None if it is not decided
     end_time:   time of the end, by quadrature, relative 1e-12; inf if it takes for ever, or is not known
-    stop_time:  time at the centre; inf if it never reaches it; NaN if it comes to a border
+    stop_time:  time at the centre; inf if it is never reached; NaN if the motion ends at a border
     period:     period of a motion that returns; else None
     """
 

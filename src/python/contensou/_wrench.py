@@ -17,7 +17,7 @@ def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[ArrayL
     last axis of an array. One contact or a million contacts may be given; a million take about 0.1 s.
 
     law:     a name, a Law or a function, as in `law`; exact, uniform, elliptic and pade are the fastest
-    motion:  vx, vy of the patch centre over the other body in m/s and omega about the normal in rad/s, along the last axis
+    motion:  vx, vy of the patch centre relative to the other body, m/s, and omega about the normal, rad/s, on the last axis
     load:    N in newtons; for 0 or less there is no contact, and the result is 0
     patch:   (f, radius in m, creep speed in m/s); f, radius >= 0, creep > 0, below which friction is viscous
     slopes:  True: returns a pair, the second with the derivatives by vx, vy and omega along one more axis

@@ -17,23 +17,24 @@
 //
 //     dv/ds = -Phi,   dw/ds = -r Psi,   w = mu |u|,   mu = c/(f R),   r = gamma mu^2/chi,   k = v/w = f v/(c |omega|),
 //
-// Friction is that (Phi, Psi) of the cone that maximises Phi v + Psi w, the power divided by f N.
+// The friction is the pair (Phi, Psi) of the cone that maximises Phi v + Psi w, the power divided by f N.
 //
-// Ellipse, Phi^2 + Psi^2 <= 1. The velocity is normal to the ellipse at this point: the law elliptic:1.
+// Ellipse, Phi^2 + Psi^2 <= 1. At the maximum the velocity is normal to the ellipse. This is the law elliptic:1.
 //
-// Box, Phi <= 1, Psi <= 1. It is the corner for all v and w: the slip lasts S(v0), the spin P(u0) of that law.
+// Box, Phi <= 1, Psi <= 1. The maximum is the corner for all v and w: the slip ends after S(v0), the spin after P(u0).
 //
-// Pyramid, Phi + Psi <= 1. A linear function is largest at a corner: (1, 0) for k > 1, where the ball slides and its
-// spin is constant, and (0, 1) for k < 1, where it spins and its slip is constant. Each moves k to 1. There every point
-// of the edge has the same power, and only Phi = r Psi = r/(1 + r) keeps k = 1: v and w fall together, v = (c/f)
-// |omega|, until both are 0. So a ball that starts with k > 1 slides until v = w0, and then its slip is (c/f) |omega|
-// until the spin ends; it does not roll before. On the ray dv/ds = -r/(1 + r). From v = w the stop takes v (1 + r)/r =
-// v + w/r, in tau S(v) + P(u), and this sum is the stop time from any start; under the box it is the larger of the two:
+// Pyramid, Phi + Psi <= 1. A linear function is largest at a corner. For k > 1 this is (1, 0): the ball slides and its
+// spin is constant. For k < 1 it is (0, 1): the ball spins and its slip is constant. Each moves k to 1. At k = 1 every
+// point of the edge has the same power, and only Phi = r Psi = r/(1 + r) keeps k = 1: v and w fall together, v = (c/f)
+// |omega|, until both are 0. So a ball that starts with k > 1 slides until v = w0; then its slip is (c/f) |omega| until
+// the spin ends. It does not roll before. On the ray k = 1, dv/ds = -r/(1 + r). From v = w the stop takes the time v (1
+// + r)/r = v + w/r, in tau S(v) + P(u). This sum is the stop time from any start; under the box the stop time is the
+// larger of the two terms:
 //
 //     s - s0 = v0 + w0/r
 //
-// Points: n points at c/f from the middle with the load N/n each. If the body turns often while its slip changes
-// little, the mean over a turn acts. This is the law ring of that radius, with mu = c/(f R).
+// Points: n points at c/f from the middle, each with the load N/n. If the body turns often while its slip changes
+// little, the mean over a turn acts. This mean is the law ring for this radius, with mu = c/(f R).
 
 namespace contensou::si {
 
@@ -54,7 +55,7 @@ double mu_of(const Experiment& experiment, double moment_arm) {
   return moment_arm / experiment.contact.friction / experiment.ball.radius;
 }
 
-/// The motion under the pyramid: first v or w falls at a constant rate until v = w, then both fall.
+/// The motion under the pyramid. First v or w falls at a constant rate until v = w; then both fall.
 class PyramidMotion {
  public:
   PyramidMotion(const Experiment& experiment, double mu)
@@ -64,7 +65,7 @@ class PyramidMotion {
     stop_ = seconds(experiment, system.sliding_limit(v0) + system.pivoting_limit(w0 / mu));
   }
 
-  /// Returns v or w at the time t; `from` is its value at the start.
+  /// Returns v or w at the time t. `from` is the value of the same speed at the start.
   double speed(double from, double t) const {
     if (t < ray_) return from - (from - on_ray_) * (t / ray_);
     return t < stop_ ? on_ray_ * ((stop_ - t) / (stop_ - ray_)) : 0;
@@ -75,7 +76,7 @@ class PyramidMotion {
     return speed >= on_ray_ ? ray_ * ((from - speed) / (from - on_ray_)) : stop_ - (stop_ - ray_) * (speed / on_ray_);
   }
 
-  /// Returns the integral over time of v or w; `from` is its value at the start.
+  /// Returns the integral of v or w over time. `from` is the value of the same speed at the start.
   double integral(double from) const { return ((from + on_ray_) * ray_ + on_ray_ * (stop_ - ray_)) / 2; }
 
   double v0;  ///< slip at the start, m/s
@@ -120,7 +121,7 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
   const reduction::Law law =
       cone == Cone::points ? *reduction::find_law("ring") : reduction::Law(reduction::EllipticLaw(1));
   const ReducedSystem system(law, mu > 0 ? mu : 1,
-                             experiment.ball.body.inertia);  // any system, if mu is 0: only its sliding is used
+                             experiment.ball.body.inertia);  // for mu = 0 any system will do: only its sliding is used
   if (mu > 0 && is_law) return fade_times(experiment, Motion::reduced(experiment, reduction::Flow(system)));
   if (mu > 0 && cone == Cone::pyramid) {
     const PyramidMotion motion(experiment, mu);

@@ -12,12 +12,12 @@ namespace {
 constexpr EngineNumber f_alone{1, true}, f_a_psi{1, true, true, true}, a_psi{1, false, true, true}, nothing{0},
     pure_one{}, f_a{1, true, true}, two_a{2, false, true}, f_a_psi_by_R{1, true, true, true, -1},
     f_a_psi_by_R2{1, true, true, true, -2};
-constexpr EngineNumber five_millimetres{0.005};  ///< default of MuJoCo and of the engines that copy it
+constexpr EngineNumber five_millimetres{0.005};  ///< default of MuJoCo, and of engines that copy it
 
-/// Returns the use of an engine whose contact points lie on the rim of a cylinder. Their distance from the middle
-/// determines the moment. So the radius of the collision shape replaces a number for torsional friction.
-/// @param name  the engine's name of f
-/// @param cone  box for one row of twist, points for friction at each point
+/// Returns the use of an engine whose contact points lie on the rim of a cylinder. The distance of the points from the
+/// middle determines the moment. So the user sets the radius of the collision shape instead of a torsional friction.
+/// @param name  name of f in the engine
+/// @param cone  box for an engine with one row of twist, points for an engine with friction at each point
 EngineUse face_on_rim(std::string_view name, Cone cone, std::vector<std::string_view> needs = {},
                       std::vector<EngineSetting> settings = {}) {
   needs.insert(needs.begin(), "the body's own mass and inertia: those of a smaller shape are smaller");

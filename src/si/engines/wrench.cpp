@@ -15,7 +15,7 @@ namespace contensou::si {
 
 namespace {
 
-/// Returns a description of a wrong number; null if there is none.
+/// Returns a description of the first wrong number; null if there is none.
 const char* fault_of(const Eigen::Vector3d& motion, double load, const Patch& patch) {
   if (!(patch.friction >= 0)) return "friction must be >= 0";
   if (!(patch.radius >= 0)) return "the patch radius must be >= 0";

@@ -16,7 +16,7 @@ namespace {
 
 using Way = Ways::value_type;
 
-/// Returns the names, followed by their section if they share one, or each with its own.
+/// Returns the names in one text. A common section follows them once; otherwise each name has its own section.
 std::string joined(const std::vector<Source>& sources) {
   const bool together =
       std::ranges::all_of(sources, [&](const Source& source) { return source.section == sources.front().section; });
@@ -38,7 +38,7 @@ std::string ways_out(const Description& described, const Ways& ways) {
   return fmt::format("give {}", fmt::join(texts, ", or "));
 }
 
-/// Returns the first quantity of a way that is given; null if none is.
+/// Returns the first given quantity of a way; null if none is given.
 const Quantity* given_of(const Description& described, const Way& way) {
   const auto found = std::ranges::find_if(way, [&](const Quantity* quantity) { return described.find(*quantity); });
   return found == way.end() ? nullptr : *found;

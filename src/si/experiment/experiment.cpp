@@ -131,7 +131,7 @@ Experiment without_spin(Experiment experiment) {
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment) {
   const auto [centre, body] = velocities_of(experiment.start);
   const double R = experiment.ball.radius;
-  // A sum that is only the rounding of its terms becomes 0, so that a ball that is meant to roll rolls.
+  // A sum that is only the rounding of its terms becomes 0, so that a ball that is meant to roll does roll.
   const auto sum = [](double a, double b) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     return std::abs(a + b) <= rounding * std::abs(a) ? 0 : a + b;
@@ -192,7 +192,7 @@ void require_experiment(const Experiment& experiment) {
 void require_finite_motion(const Experiment& experiment, double braked, double last) {
   constexpr double largest = std::numeric_limits<double>::max() / 100;
   const Velocities start = velocities_of(experiment.start);
-  // Bounds of all speeds (m/s) and rates of turning (1/s).
+  // Upper bounds of all speeds (m/s) and rates of turning (1/s).
   const double speed =
       start.velocity.stableNorm() + std::max(1.0, experiment.ball.radius) * start.angular_velocity.stableNorm();
   const double allowed = std::min({std::sqrt(largest / std::max(1.0, experiment.ball.mass)),

@@ -26,15 +26,15 @@ namespace contensou::si {
 
 namespace {
 
-/// A table of the file, with the data for messages.
+/// A table of the file, with its name for messages.
 struct Section {
   std::string path;          ///< path as in the header; empty for the file itself
-  const toml::table* table;  ///< empty if the file does not have it
+  const toml::table* table;  ///< null if the file does not contain the table
   toml::source_position position;
 };
 
-/// Returns the shortest digits that read back to the same double. From 1e6 on they have an exponent, because TOML takes
-/// digits alone for a 64-bit integer.
+/// Returns the shortest digits that read back to the same double. From 1e6 on they have an exponent, because TOML reads
+/// digits alone as a 64-bit integer.
 std::string shortest(double value) {
   std::array<char, 32> digits{};
   char* const first = digits.data();
@@ -54,15 +54,15 @@ bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7
 constexpr std::size_t max_size = 1 << 16;
 constexpr std::size_t max_depth = 16;
 
-/// The place of text that must not reach the parser, and the reason.
+/// A place in a text that the parser must not read, and the reason.
 struct Misfit {
   toml::source_position where;
   std::string reason;
 };
 
-/// Finds the first place of a text at which toml++ 3.3 would have a failed assertion, undefined behaviour or a stack
-/// overflow instead of a parse_error: a character that TOML allows only in strings and comments, a string of several
-/// lines, quotes, brackets or '=' in wrong places, or deep nesting.
+/// Finds the first place of a text at which toml++ 3.3 would fail an assertion, have undefined behaviour or overflow
+/// the stack instead of throwing parse_error. Such places are: a character that TOML allows only in strings and
+/// comments, a string of several lines, quotes, brackets or '=' in wrong places, or deep nesting.
 class Screen {
  public:
   explicit Screen(std::string_view text) : rest_(text) {}
@@ -141,8 +141,8 @@ class Screen {
   std::string_view rest_;
   toml::source_position here_{1, 1};
   std::string open_;       ///< open brackets
-  bool assigned_ = false;  ///< the last key already has its '='
-  std::size_t dots_ = 0;   ///< dots of the key that is being read
+  bool assigned_ = false;  ///< true: the current key already has its '='
+  std::size_t dots_ = 0;   ///< number of dots in the key that is being read
 };
 
 /// A key whose value is text, not a number.
@@ -152,7 +152,7 @@ struct WordKey {
 constexpr WordKey name_key{"ball", "name"}, body_key{"ball", "body"}, law_key{"contact", "law"},
     param_key{"contact", "param"};
 
-/// The sections of standard deviations and of correlations.
+/// Paths of the sections of standard deviations and of correlations.
 constexpr std::string_view spreads_path = "uncertainty", correlation_key = "correlation",
                            correlation_path = "uncertainty.correlation";
 
@@ -251,7 +251,7 @@ class Reader {
     }
   }
 
-  /// Returns the table of a path, empty if it is missing; its parent is one of the sections `before`.
+  /// Returns the table with a path; it is null if it is missing. Its parent is one of the sections `before`.
   Section section(const std::vector<Section>& before, std::string_view path) const {
     const std::size_t dot = path.rfind('.');
     const std::string_view of = dot == std::string_view::npos ? "" : path.substr(0, dot);
@@ -264,7 +264,7 @@ class Reader {
     return {std::string(path), node->as_table(), node->source().begin};
   }
 
-  /// Throws for a key that is no quantity, text or section.
+  /// Throws if a key is no quantity, text or section.
   void require_known_keys(const Section& section, const std::vector<Section>& sections) const {
     std::vector<std::string> names;
     for (const WordKey& word : {name_key, body_key, law_key, param_key}) {
@@ -299,7 +299,7 @@ class Reader {
     return text;
   }
 
-  /// Returns [contact.param] in the form of a law's text.
+  /// Returns the numbers of [contact.param], in the form that a law's text has.
   std::string parameters_of(const Section& contact) const {
     const toml::node* node = contact.table->get(param_key.key);
     if (node == nullptr) return "";
@@ -364,7 +364,7 @@ class Reader {
     return value;
   }
 
-  /// Returns the numbers of a vector, an array in the file.
+  /// Returns the numbers of a vector. In the file it is an array.
   std::vector<double> numbers(const toml::node& node, const Section& section, const Quantity& quantity) const {
     const std::size_t count = quantity.count();
     if (count == 1) return {number(node, section, quantity)};

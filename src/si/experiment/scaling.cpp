@@ -76,7 +76,7 @@ double drive_of(const Experiment& experiment) {
 void require_stop(const Experiment& experiment) {
   const auto& [ball, contact, start, environment, spreads] = experiment;
   if (environment.slope == 0) return;
-  // A body that turns slides with both drives; a body that resistance holds is a puck.
+  // A body that turns has both drives. A body that resistance holds slides like a puck.
   const double chi = ball.body.inertia.chi, friction = contact.friction, u_r = contact.rolling_friction;
   const double most = (chi - 1) * friction > chi * u_r ? chi * (friction - u_r) : friction;
   const double angle = std::atan(most) * (180 / std::numbers::pi);
@@ -96,7 +96,7 @@ void require_undriven(const Experiment& experiment, std::string_view what) {
 }
 
 double seconds(const Experiment& experiment, double tau) {
-  // Divide by one factor at a time, because f g may underflow.
+  // Divide by one factor after the other, because the product f g may underflow.
   return tau * (2 / (3 * std::numbers::pi)) / experiment.contact.friction / pressing(experiment.environment);
 }
 

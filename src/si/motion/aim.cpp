@@ -61,7 +61,7 @@ void require_level(const Experiment& experiment) {
                   goal.place, goal.speed, goal.spin));
 }
 
-/// Returns true if a value is the demanded one, to 1e-6.
+/// Returns true if a value equals the demanded value to 1e-6.
 bool comes_to(double there, double asked) {
   constexpr double close = 1e-6;
   return std::isfinite(there) && std::abs(there - asked) <= close * asked;
@@ -83,13 +83,14 @@ std::string out_of_reach(const Goal& goal, double least) {
                   "in place");
 }
 
-/// Finds the start of a ball with rolling friction from its turns, and from the distance or time until nothing moves
-/// any more. Lengths and turns are proportional to the square of the speeds, times to the speeds, except for
-/// resting_slip. So the ratio k at the start is the root of a quotient (reduction/README.md), and the speeds follow.
+/// Finds the start of a ball with rolling friction from its turns, and from the distance or time until nothing moves.
+/// Lengths and turns are proportional to the square of the speeds, and times to the speeds, except for the effect of
+/// resting_slip. So the ratio k at the start is the root of a quotient (reduction/README.md), and the speeds follow
+/// from it.
 /// @param goal  turns and one other demand
 SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {
   struct Reached {
-    double turns, other;  ///< other: the distance or the square of the time, both proportional to speed squared
+    double turns, other;  ///< other: the distance or the square of the time; both grow like speed squared
   };
   const double R = experiment.ball.radius, turns = std::abs(*goal.turns);
   const double other = goal.distance ? *goal.distance : *goal.time * *goal.time;
@@ -99,7 +100,7 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& f
     const double time = motion.last_time();
     return {motion.turns(), goal.distance ? motion.rest()->place.x() : time * time};
   };
-  // Returns the start with speeds of a given ratio that fulfils a demand.
+  // Returns the start that has speeds of a given ratio and fulfils a demand.
   const auto settled = [&](const auto& start_of) {
     // The results may jump by more than the first tolerance at the root.
     constexpr double rounding = 1e-11, enough = 1e-9;
@@ -141,7 +142,7 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& f
       const Reached at = reached(start_of(ln_k));
       return at.other * turns < other * at.turns;
     };
-    constexpr double far = 30;  // beyond this |ln k| a start only spins or only slides, to rounding
+    constexpr double far = 30;  // beyond this |ln k| a start only spins or only slides, up to rounding
     return start_of(reduction::last_where(falls_short, -far, far, 60));
   });
   if (!std::isfinite(other)) too_far_apart(goal);
@@ -165,7 +166,7 @@ SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, con
         "with rolling friction one distance in one time may have two starts, a slow spin and a fast one: give turns "
         "with one of them; --rolling-friction 0 leaves it out");
   }
-  const double second = 1 / seconds(experiment, 1);  // s in the paper's time; the same factor applies to lengths
+  const double second = 1 / seconds(experiment, 1);  // 1 s as tau; the same factor converts lengths
   const double turn = 2 * std::numbers::pi * experiment.ball.radius;
   const auto times = [](const std::optional<double>& value, double factor) {
     return value ? std::optional(std::abs(*value) * factor) : std::nullopt;
@@ -201,7 +202,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
         "aim finds where a ball begins to roll only without rolling friction; --rolling-friction 0 leaves it out");
   }
   reduction::require_monotone(flow.system().law());
-  // Returns the speed that the slip at the start adds to the centre.
+  // Returns the speed that the slip of the start gives to the centre.
   const Shots shots(experiment, flow);
   const auto added = [&](const Motion& motion, double slip) { return slip - motion.final_motion().velocity.x(); };
   const auto too_far = [&](double slip) {

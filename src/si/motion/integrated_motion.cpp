@@ -1,10 +1,11 @@
-// Notation: V and omega are the velocities of the centre and of the ball, c = (Vx - R omega_y, Vy + R omega_x) that of
-// the contact point, (2.1). v = |c|, e = c/v, and alpha is the angle from e at the start to e. Friction is the force -f
-// N Phi e at the contact point, and the moment -f N eps Psi sign(omega_z) about the vertical:
+// Notation, with the equations of V. F. Zhuravlev, 1998 (Zh98): V and omega are the velocities of the centre and of the
+// ball. c = (Vx - R omega_y, Vy + R omega_x) is the velocity of the contact point (2.1). v = |c|, e = c/v, and alpha is
+// the angle from e at the start to e. Friction is the force -f N Phi e at the contact point, and the moment -f N eps
+// Psi sign(omega_z) about the vertical:
 //   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J_z omega_z' = M                  (2.5)
 // with R^2/J = (chi - 1)/m and J_z = m R^2/gamma. For a ball J = J_z = (2/5) m R^2; for a body that lies flat 1/J is 0.
-// Units of the integration: a speed scale for R omega, a time scale T for t, their product for the position, and for
-// the slip length the slip length without spin.
+// Units of the integration: R omega has a speed scale, t a time scale T, and the position their product. The slip
+// length is in units of the slip length without spin.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,18 +33,18 @@ using Eigen::Vector3d;
 
 // ln(v/scale), alpha, ln(R|omega_z|/scale), R omega_x/scale, R omega_y/scale, x, y, slip length, spin angle R/length
 using Values = std::array<double, 9>;
-// Fehlberg 7(8) is unsuitable: its error estimate compares the two ends of a step and vanishes for a quadrature, and
-// the position and the horizontal spin are quadratures.
+// Fehlberg 7(8) is unsuitable. Its error estimate compares the two ends of a step and vanishes for a quadrature; the
+// position and the horizontal spin are quadratures.
 using CashKarp = odeint::runge_kutta_cash_karp54<Values>;
 
 constexpr double tolerance = 1e-14;
 constexpr long step_limit = 1'000'000;
 
-/// The equations with the values of one experiment.
+/// The equations of motion, with the values of one experiment.
 struct Ballistics {
   const reduction::Law& law;
   double R;
-  // Values per unit of mass, because the mass cancels and may be unknown.
+  // These values are per unit of mass, because the mass cancels and may be unknown.
   double tilting;  ///< m R^2/J
   double J_z;
   double normal_friction;  ///< f N/m
@@ -54,7 +55,7 @@ struct Ballistics {
   double time_scale;
   double slip_scale;
 
-  /// Returns the acceleration of the contact point divided by the force, times the mass.
+  /// Returns the mass times the acceleration of the contact point, divided by the force.
   double mobility() const { return 1 + tilting; }
   double slip(const Values& x) const { return speed_scale * std::exp(x[0]); }
   double spin(const Values& x) const { return speed_scale * std::exp(x[2]) / R; }  // |omega_z|
@@ -65,7 +66,7 @@ struct Ballistics {
     return {speed_scale / R * x[3], speed_scale / R * x[4], turn * spin(x)};
   }
 
-  /// Returns the velocity of the centre, by (2.1).
+  /// Returns the velocity of the centre from the velocity of the contact point, by (2.1).
   Vector2d velocity(const Values& x) const {
     const Vector2d rolling = speed_scale * Vector2d(x[4], -x[3]);
     return slip(x) * direction(x) + rolling;
@@ -104,7 +105,7 @@ struct Ballistics {
   double spin_time_left(double omega) const { return omega * J_z / (normal_friction * eps * law.pivoting_moment()); }
 };
 
-/// The rest of a motion under one of the two frictions alone. The speed falls linearly in time.
+/// The end of a motion under force or moment alone. The speed falls linearly in time.
 class Tail {
  public:
   /// @param start  time of `from`, s
@@ -113,7 +114,7 @@ class Tail {
     const double pivoting = ball.spin_time_left(ball.spin(from));
     slides_ = sliding > pivoting;
     left_ = std::max(sliding, pivoting);
-    // ln of the other speed is linear in ln of the first.
+    // The logarithm of the other speed is a linear function of the logarithm of the first.
     if (slides_) {
       constexpr double fast = 0x1p100;
       const double moment = fast * ball.law(reduction::Slip{fast, 1}).moment;  // k Psi at infinity
@@ -130,7 +131,7 @@ class Tail {
   Values at_time(double t) const {
     const double share = t < stop() && left_ > 0 ? std::min((stop() - t) / left_, 1.0) : 0.0;
     const double passed = std::min(t, stop()) - start_;
-    const double mean = (1 + share) / 2 * passed;  // time in which the first speed would go the same way
+    const double mean = (1 + share) / 2 * passed;  // time for the same distance at the speed of the start
     const double v = slides_ ? ball_.slip(from_) : 0;
     const double omega = slides_ ? 0 : ball_.spin(from_);
     const double part = ball_.tilting / ball_.mobility();  // part of the lost slip that becomes rotation
@@ -159,7 +160,7 @@ class Tail {
   bool slides_;
 };
 
-/// Returns true if the rest is a Tail to better than rounding: one friction is negligible, or the time left is.
+/// Returns true if a Tail describes the rest up to rounding: one friction is negligible, or the time left is.
 bool in_tail(const Ballistics& ball, const Values& x, double t) {
   const double v = ball.slip(x);
   const double omega = ball.spin(x);
@@ -204,12 +205,13 @@ struct Integration {
   long steps = 0;
 };
 
-/// Integrates the equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law, with its
-/// position, in SI units. It is independent of the reduction and of the first integrals.
+/// Integrates in SI units the equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law,
+/// together with its position. The integration is independent of the reduction and of the first integrals.
 ///
-/// The variables are omega_x, omega_y and the position; ln v and the direction of v instead of the velocity of the
-/// contact point; and ln |omega_z|, as Zh98 before (2.6). Logarithms cannot step through the stop. Once one friction is
-/// negligible, the exact limit replaces further steps. Beyond the stop the ball rolls.
+/// The variables are omega_x, omega_y and the position. In place of the velocity of the contact point they are ln v and
+/// the direction of v, and in place of omega_z they are ln |omega_z|, like the variables of Zh98 before (2.6).
+/// Logarithms cannot step through the stop. Once one friction is negligible, the exact limit replaces the remaining
+/// steps. Beyond the stop the ball rolls.
 ///
 /// @param times  times, s, >= 0, in any order
 Integration integrate(const Experiment& experiment, const reduction::Law& law, const Eigen::ArrayXd& times) {
@@ -295,7 +297,7 @@ Integration integrate(const Experiment& experiment, const reduction::Law& law, c
   }
   const Tail tail(ball, x, t * T);
   for (; next != order.end(); ++next) {
-    // Rounding may put a time just before the last step's end.
+    // By rounding a requested time may lie just before the end of the last step.
     const double at = std::max(times[*next], t * T);
     motion.points.set(*next, point_of(ball, experiment.ball, tail.at_time(at), times[*next]));
   }

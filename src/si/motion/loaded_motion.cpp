@@ -10,8 +10,8 @@ namespace contensou::si {
 
 namespace {
 
-/// A motion under a changing load with a constant patch. Speeds are those under the nominal load at LoadHistory::clock;
-/// lengths and angles are their integrals over the real time, to 1e-10.
+/// A motion under a changing load with a constant patch. Speeds equal the speeds under the nominal load at
+/// LoadHistory::clock. Lengths and angles are integrals of these speeds over the real time, to 1e-10.
 class Loaded final : public Motion::Solution {
  public:
   Loaded(SolvedMotion nominal, const LoadHistory& history)
@@ -62,7 +62,7 @@ class Loaded final : public Motion::Solution {
     return integral_over_time([&](double t) { return value(nominal_at(t)); }, from, to, 1e-11);
   }
 
-  /// Returns the integrals from 0 to each edge.
+  /// Returns the integrals of a speed from 0 to each edge.
   std::vector<double> integrals(Value value) const {
     std::vector<double> sums{0};
     for (std::size_t i = 1; i < edges_.size(); ++i)
@@ -78,7 +78,7 @@ class Loaded final : public Motion::Solution {
   SolvedMotion motion_;
   LoadHistory load_;
   double end_ = 0;
-  std::vector<double> edges_;  ///< times from 0 to the end at which the load bends, s
+  std::vector<double> edges_;  ///< times from 0 to the end at which the load has a corner, s
   std::vector<double> slid_, turned_;
 };
 

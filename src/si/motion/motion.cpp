@@ -175,7 +175,7 @@ EnergyBalance Motion::energy_balance() const {
   const double chi = ball.body.inertia.chi, resisting = contact.rolling_friction * pressing(environment);
   const double rolling = resisting == 0 ? 0 : chi / (chi - 1) * ball.mass * resisting * solution_->rolled();
   const double gained = ball.mass * pull(environment).dot(last.position) + 0.0;
-  // Sliding has lost the rest of the energy.
+  // The remaining loss of energy is the loss by sliding.
   return {first, first + gained - pivoting - rolling - last.energy, pivoting, rolling, gained, last.energy};
 }
 

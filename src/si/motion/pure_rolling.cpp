@@ -93,7 +93,7 @@ PureRolling::Here PureRolling::after(double seconds) const {
     const bool on = seconds < whole;
     Here here{on ? Vector2d((first_.speed - first_.slowing * rolled) * along_) : Vector2d(0, 0), way * along_, way};
     if (on && first_.speed > 0) return here;
-    // From there the ball rests, or rolls down.
+    // After this stretch the ball rests, or rolls down.
     const Stretch back{0, std::min(resisting_ - pull_, 0.0)};
     const double since = first_.speed > 0 ? seconds - whole : seconds;
     here.velocity = -back.slowing * since * down_;

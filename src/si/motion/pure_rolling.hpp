@@ -23,15 +23,15 @@ class PureRolling {
   /// Returns the time until the ball rests for good, s; infinity if it never does.
   double rest_time() const;
 
-  /// Returns the time, s, until rolling needs too much friction, |share + a V/|V|| > most (R56), or infinity.
+  /// Returns the time, s, until rolling needs too much friction, |share + a V/|V|| > most (R56); infinity if never.
   /// @param most   largest friction, f N/m, m/s^2
-  /// @param share  part of the pull that friction bears, A/(chi - 1), m/s^2
+  /// @param share  part of the pull that friction balances, A/(chi - 1), m/s^2
   double slides_after(double most, double share) const;
 
  private:
-  /// A straight part of the path at a constant deceleration.
+  /// A straight part of the path with a constant deceleration.
   struct Stretch {
-    double speed, slowing;  ///< m/s, m/s^2
+    double speed, slowing;  ///< initial speed, m/s; deceleration, m/s^2
     double lasts() const;
     double way(double seconds) const { return (speed - slowing * seconds / 2) * seconds; }
   };
@@ -43,7 +43,7 @@ class PureRolling {
   double pull_, resisting_;
   bool straight_;
   Stretch first_;
-  double z_ = 0, scale_ = 0;  ///< z_0 and B of (R56)
+  double z_ = 0, scale_ = 0;  ///< constants z_0 and B of (R56)
 };
 
 }  // namespace contensou::si

@@ -1,6 +1,6 @@
-// Notation: c is the slip, W = R (omega_y, -omega_x) the rolling velocity, V = c + W that of the centre, w = eps
-// |omega_z|, k = |c|/w, e = c/|c|, a = u_r g, and d the pull of a slope. On a slope g means g cos(alpha). By friction,
-// rolling resistance and pull (reduction/README.md, (R53), (R54))
+// Notation: c is the slip, W = R (omega_y, -omega_x) the rolling velocity, V = c + W the velocity of the centre, w =
+// eps |omega_z|, k = |c|/w, e = c/|c|, a = u_r g, and d the pull of a slope. On a slope g stands for g cos(alpha).
+// Friction, rolling resistance and pull give (reduction/README.md, (R53), (R54))
 //   V' = -f g Phi e + d,   W' = (chi - 1) f g Phi e - chi a W/|W|,   c' = V' - W'
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ struct State {
 
   Vector2d velocity() const { return slip + rolling; }
 
-  /// Adds a displacement along a direction, with the path and the rolled length, in m.
+  /// Adds a displacement along a direction: to the position, the path and the rolled length, in m.
   void advance(double way, double rolled_way, const Vector2d& along) {
     position += way * along;
     path += way;
@@ -78,31 +78,31 @@ struct Given {
         down(pull(given.environment)),
         tau_per_second(1 / seconds(given, 1)) {}
 
-  /// Returns the Phi up to which resistance holds a ball that does not turn; infinity for a body that lies flat.
+  /// Returns the largest Phi at which resistance holds a ball that does not turn; infinity for a body that lies flat.
   double holding() const {
     return lies_flat ? std::numeric_limits<double>::infinity() : inertia.chi * drive / (inertia.chi - 1);
   }
 
-  /// Returns true if friction turns a ball that does not turn.
+  /// Returns true if friction is large enough to turn a ball that does not turn.
   bool turns(double slip, double spin) const {
     if (holding() == 0) return true;
     const double k_force = slip > 0 ? law({slip, patch * std::abs(spin)}).force : 0;
     return k_force > holding();
   }
 
-  /// Returns the rolling that follows once slip and spin have ended.
+  /// Returns the rolling after slip and spin have ended.
   PureRolling rolling_on(const State& from) const {
     const Vector2d rolls = (1 - 1 / inertia.chi) * down;
     return {from.rolling, rolls, lies_flat ? 0 : resisting};
   }
 
-  /// Returns the time, s, for which friction keeps this rolling from sliding.
+  /// Returns the time, s, during which friction is large enough for this rolling, so that the ball does not slide.
   double rolls_for(const PureRolling& rolling) const {
     return rolling.slides_after(sliding, down.norm() / inertia.chi);
   }
 
-  /// Returns the direction of a slip v that is slow compared with rolling. By c' = chi (N - f g e), N = d/chi + a
-  /// W/|W|, it is the direction n of N, with the delay v n'/(chi |N|).
+  /// Returns the direction of a slip v that is slow compared with rolling. Since c' = chi (N - f g e) with N = d/chi +
+  /// a W/|W|, it is the direction n of N with the delay v n'/(chi |N|).
   Vector2d following(double v, const Vector2d& rolling) const {
     const Vector2d heading = rolling.normalized(), needed = down / inertia.chi + resisting * heading;
     const Vector2d n = needed.normalized();
@@ -123,7 +123,7 @@ struct Given {
   double tau_per_second;
 };
 
-/// A motion given by its state at any time.
+/// A motion that is given by its state at any time.
 class Resisted : public Motion::Solution {
  public:
   Resisted(const Experiment& of, Given given) : Solution(of), body_(std::move(given)) {}
@@ -176,8 +176,8 @@ class Resisted : public Motion::Solution {
 /// Thrown for a drive of 1 or more, under which sliding does not end.
 struct DrivenOut {};
 
-/// The motion of a ball that slides in the direction of rolling, and straight down a slope. Its pieces are: the ball
-/// turns, resistance holds it, it slides no more.
+/// The motion of a ball that slides in the direction of rolling, and straight down a slope. It consists of pieces of
+/// three kinds: the ball turns, resistance holds the ball, the ball slides no more.
 class Straight final : public Resisted {
  public:
   Straight(const Experiment& of, Given given, const State& start, const Vector2d& along, SharedFlows& flows)
@@ -194,7 +194,7 @@ class Straight final : public Resisted {
       pieces_.push_back({t, here, {t * body_.tau_per_second, turning, driven, speeds, driven.orbit(speeds)}});
       const Piece& piece = pieces_.back();
       const double stop = t + seconds(experiment, piece.of.orbit.stop_time());
-      // After a ball has begun to turn, it does not stop turning (R55).
+      // After a ball has begun to turn, it does not stop turning before slip and spin end (R55).
       const bool goes_on = turning && pieces_.size() > 1;
       const std::optional<double> changes = goes_on   ? std::nullopt
                                             : turning ? ceases_to_turn(piece, stop)
@@ -275,7 +275,7 @@ class Straight final : public Resisted {
     });
   }
 
-  /// Returns the time, s, at which friction is just as large as resistance can hold.
+  /// Returns the time, s, at which friction equals the largest friction that resistance can hold.
   std::optional<double> passes_holding(const Piece& piece) const {
     const double force = body_.holding();
     if (!(force > 0 && force < 1) || piece.of.orbit.on_axis()) return std::nullopt;
@@ -293,7 +293,7 @@ class Straight final : public Resisted {
   std::optional<double> ceases_to_turn(const Piece& piece, double stop) const {
     if (body_.resisting == 0) return std::nullopt;
     const auto turning = [&](double t) { return state(t).rolling.dot(along_); };
-    // Within each of these intervals the turning only grows or only falls.
+    // In each of these intervals the rate of turning only grows or only falls.
     constexpr double first = 1e-9;
     double from = piece.start.rolling.norm() > 0 ? piece.t : piece.t + first * (stop - piece.t);
     for (const double to : {passes_holding(piece).value_or(from), stop}) {
@@ -303,7 +303,7 @@ class Straight final : public Resisted {
     return std::nullopt;
   }
 
-  /// Returns the time, s, at which friction begins to turn a ball that resistance held.
+  /// Returns the time, s, at which friction begins to turn a ball that resistance has held.
   std::optional<double> begins_to_turn(const Piece& piece) const {
     const auto t = passes_holding(piece);
     return t && piece.of.orbit.start_log_ratio() < piece.of.orbit.chart().log_terminal_ratio() ? t : std::nullopt;
@@ -321,7 +321,7 @@ class Straight final : public Resisted {
   std::optional<double> creep_ratio_;
 };
 
-/// c, W, w, position, slip length, turned, path, rolled. Speeds are divided by that at the start, lengths likewise.
+/// c, W, w, position, slip length, turned, path, rolled. Speeds and lengths are divided by scales of the start.
 using Progress = std::array<double, 11>;
 
 /// The motion of any ball, integrated in steps.
@@ -349,7 +349,7 @@ class Integrated final : public Resisted {
     double t;
     Progress x;
     bool held = false, rolls = false;
-    bool follows = false;  ///< the slip is (v, 0), in the direction Given::following
+    bool follows = false;  ///< true: the slip is (v, 0) in the direction Given::following
   };
 
   Vector2d slip_of(const Progress& x, const Step& step) const {
@@ -362,7 +362,7 @@ class Integrated final : public Resisted {
     const Vector2d slip = slip_of(x, step), rolling(x[2], x[3]);
     const double v = slip.norm(), rim = std::max(x[4], 0.0), turning = rolling.norm();
     const auto [phi, psi] = v > 0 || rim > 0 ? body_.law({v, rim}) : reduction::Resistance{1, 0};
-    // Friction keeps the direction of a slip that begins at 0. By rounding v may be negative.
+    // Friction keeps the direction of a slip that begins at 0. Rounding may make v negative.
     const Vector2d e = step.follows ? body_.following(v, rolling) : v > 0 ? Vector2d(slip / v) : Vector2d(0, 0);
     const Vector2d heading = turning > 0 ? Vector2d(rolling / turning) : e;
     const double chi = body_.inertia.chi;
@@ -395,7 +395,7 @@ class Integrated final : public Resisted {
     knots_.push_back(step.t);
   }
 
-  /// Returns the time, s, after which v + w would be 0 at its present rate; infinity if it grows.
+  /// Returns the time, s, after which v + w would be 0 at its present rate of change; infinity if v + w grows.
   double time_to_stop(const Step& step) const {
     Progress rate;
     equations(step.x, rate, step);
@@ -406,8 +406,8 @@ class Integrated final : public Resisted {
     return falls > 0 && v + rim > 0 ? (v + rim) / falls : std::numeric_limits<double>::infinity();
   }
 
-  /// Returns the state a short time later, during which friction is constant. If resistance holds the ball from then
-  /// on, the last rolling becomes slip.
+  /// Returns the state a short time later; during this time friction is constant. If resistance holds the ball
+  /// afterwards, the last rolling velocity becomes slip.
   Step passed(Step now, double seconds, bool held) const {
     Progress& x = now.x;
     x = progress_of(state_of(now));
@@ -421,7 +421,7 @@ class Integrated final : public Resisted {
     return now;
   }
 
-  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant, (R56) with friction as A.
+  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R56) with friction as A.
   double time_to_hold(Step step) const {
     const Vector2d rolling(step.x[2], step.x[3]);
     if (rolling.norm() == 0) return 0;
@@ -447,11 +447,11 @@ class Integrated final : public Resisted {
   }
 
   void run(const State& start) {
-    // A held ball creeps so slowly that the last digits of its slip determine the time of rest.
+    // A held ball creeps so slowly that its time of rest depends on the last digits of its slip.
     constexpr double tolerance = 1e-13, slip_tolerance = 1e-15;
-    constexpr double nothing = 1e-9;  // part of the speeds at the start
-    constexpr double soon = 1e-6;     // part of the time in which friction ends them
-    constexpr double slow = 3e-4;     // part of the rolling speed
+    constexpr double nothing = 1e-9;  // share of the speeds at the start
+    constexpr double soon = 1e-6;     // share of the time in which friction ends the speeds
+    constexpr double slow = 3e-4;     // share of the rolling speed
     constexpr long step_limit = 2'000'000;
     Step now{0, progress_of(start)};
     Progress& x = now.x;
@@ -465,7 +465,7 @@ class Integrated final : public Resisted {
         x = progress_of(state_of(now));
         now.follows = false;
       }
-      // The torque of friction turns a ball that does not turn, or resistance holds it.
+      // If a ball does not turn, the torque of friction begins to turn it, or resistance holds it.
       const bool moved = body_.turns(v, x[4] / body_.patch);
       if (now.held && moved) now.held = false;
       if (!now.held && !moved && turning <= nothing * size) {
@@ -487,7 +487,7 @@ class Integrated final : public Resisted {
           rest_ = stop_ + rolling.rest_time();
           break;
         }
-        // Then the ball slides, at first so slowly that the equation of the slip is stiff.
+        // Then the ball slides. At first it slides so slowly that the equation of the slip is stiff.
         if (rolls > 0 || !now.follows)
           now = {.t = now.t + rolls, .x = progress_of(rolled_on(here, rolls, rolling)), .follows = true};
       }
@@ -502,7 +502,7 @@ class Integrated final : public Resisted {
           throw std::runtime_error("Motion: the step size fell to nothing: the friction law is not a number");
       }
       step = std::max(trial, now.t - before.t);
-      // A step ends where friction begins to turn the ball.
+      // A step ends at the time at which friction begins to turn the ball.
       constexpr double short_enough = 1e-7;
       const bool turns_now = now.held && body_.turns(std::hypot(x[0], x[1]), x[4] / body_.patch);
       if (turns_now && now.t - before.t > short_enough * size / body_.sliding) {
@@ -539,7 +539,7 @@ SolvedMotion resisted_motion(const Experiment& experiment, const Law& law, Share
     try {
       return std::make_shared<Straight>(experiment, given, start, along, flows);
     } catch (const DrivenOut&) {
-      // The motion speeds up for a while, so it has no pieces.
+      // The motion becomes faster for a while, so it has no pieces.
     }
   }
   return std::make_shared<Integrated>(experiment, given, start);

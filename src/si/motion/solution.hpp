@@ -11,7 +11,7 @@
 namespace contensou::si {
 
 /// A solution of the equations of motion, for times >= 0 and speeds >= 0. The default functions apply to a body on a
-/// level plane that rolls on for ever, and use its states alone.
+/// level plane that rolls on for ever; they use only its states.
 class Motion::Solution {
  public:
   explicit Solution(const Experiment& of) : experiment(of) {}
@@ -30,7 +30,7 @@ class Motion::Solution {
   virtual double path_length(double t) const;
   virtual std::optional<Event> rest() const { return std::nullopt; }
   virtual Velocities final_motion() const { return si::final_motion(experiment); }
-  virtual double rolled() const { return 0; }  ///< integral of R |omega| about horizontal axes under resistance, m
+  virtual double rolled() const { return 0; }  ///< integral of R |omega| about horizontal axes, m; only with resistance
   virtual bool is_reduced() const { return false; }
   virtual std::vector<ReducedPiece> pieces() const { return {}; }
   virtual std::optional<double> creep_ratio() const { return std::nullopt; }
@@ -41,10 +41,10 @@ class Motion::Solution {
 
 using SolvedMotion = std::shared_ptr<const Motion::Solution>;
 
-/// The flows that motions of one ball share. The first motion that needs a flow makes it. Threads may share them.
+/// The flows that the motions of one ball share, also between threads. The first motion that needs a flow makes it.
 class SharedFlows {
  public:
-  /// The systems of a ball: without a drive; with a drive, while it turns or while resistance holds it.
+  /// The systems of a ball: without a drive; with a drive while the ball turns; with a drive while resistance holds it.
   enum class Of { undriven, turning, held };
 
   explicit SharedFlows(std::optional<reduction::Flow> undriven = {}) : known_{std::move(undriven)} {}
@@ -59,7 +59,7 @@ class SharedFlows {
 /// Returns the integral of a function of time over [from, to]; 0 for an empty interval.
 double integral_over_time(const std::function<double(double t)>& value, double from, double to, double tolerance);
 
-/// Return the motion on a level plane without rolling friction (undriven), or any other (resisted).
+/// Return the motion on a level plane without rolling friction (undriven), or any other motion (resisted).
 SolvedMotion undriven_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows);
 SolvedMotion undriven_motion_in_steps(const Experiment& experiment, const reduction::Law& law);
 SolvedMotion resisted_motion(const Experiment& experiment, const reduction::Law& law, SharedFlows& flows,

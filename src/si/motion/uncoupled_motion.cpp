@@ -12,8 +12,9 @@ namespace {
 using Eigen::Vector2d;
 
 /// The motion of the uncoupled model. When a ball with rolling friction rolls, it rolls without slip along a straight
-/// line, slows down at a = u_r g and rests. If the friction f g is less than a, it cannot roll: it slows down at f g,
-/// its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin is not affected.
+/// line, slows down at a = u_r g and comes to rest. If the friction f g is less than a, the ball cannot roll: its
+/// centre slows down at f g, its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin
+/// is not affected.
 class Uncoupled final : public Motion::Solution {
  public:
   Uncoupled(const Experiment& of, const reduction::Law& law, double rolling_below) : Solution(of) {
@@ -48,7 +49,7 @@ class Uncoupled final : public Motion::Solution {
   double slip_time(double speed) const override {
     if (on_slope_) return on_slope_->slip_time(speed);
     if (!rolls_) return free_slip_time(speed);
-    // The slip grows until the ball turns no more. Then it is the speed of the ball.
+    // The slip grows until the ball no longer turns. Then the slip is the speed of the ball.
     const double most = speed_ * (1 - slowing_ / turning_);
     return most > speed ? rest_time() - speed / slowing_ : rolls_->t;
   }
@@ -97,7 +98,7 @@ class Uncoupled final : public Motion::Solution {
   double way() const { return speed_ * speed_ / (2 * slowing_); }
   Vector2d direction() const { return speed_ > 0 ? Vector2d(rolls_->velocity / speed_) : Vector2d(0, 0); }
 
-  /// Returns the state with rolling friction, from the state without.
+  /// Returns the state with rolling friction, computed from the state without it.
   MotionPoint slowed(MotionPoint point) const {
     const double whole = speed_ / slowing_, braked = std::min(point.t - rolls_->t, whole);
     const double speed = braked < whole ? speed_ - slowing_ * braked : 0;
@@ -114,7 +115,7 @@ class Uncoupled final : public Motion::Solution {
 
   double slip_end_, spin_end_;        ///< times without resistance, s
   SolvedMotion on_slope_;             ///< motion of the ball without spin
-  std::optional<MotionPoint> rolls_;  ///< state from which rolling friction acts
+  std::optional<MotionPoint> rolls_;  ///< state at which rolling friction begins to act
   double speed_ = 0;                  ///< speed in that state
   double slowing_ = 0, turning_ = 0;  ///< decelerations of the centre and of R omega, m/s^2
 };

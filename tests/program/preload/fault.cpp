@@ -1,11 +1,11 @@
-// Preloaded into the program, it lets one of the program's calls to the system go wrong. In the environment:
+// A library that is preloaded into the program. It makes one of its system calls fail. Variables of the environment:
 //   CONTENSOU_FAULT        "CALL KIND VALUE", calls counted from 1; KIND is
 //                            e  the call fails, VALUE is its errno
 //                            s  a write writes half of what it should
 //                            b  the signal VALUE comes before the call; a: after it
 //                            x  the call throws what no code of ours throws; VALUE is unused
 //                            t  the signals VALUE and SIGINT come before the call, both at once; u: after it
-//   CONTENSOU_FAULT_COUNT  a file that gets the number of calls when the program ends by itself
+//   CONTENSOU_FAULT_COUNT  a file that receives the number of calls when the program ends normally
 #include <atomic>
 #include <cerrno>
 #include <csignal>

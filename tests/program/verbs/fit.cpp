@@ -1,4 +1,4 @@
-// Estimates from films whose making takes more than a line of awk; all others are in transcripts/fit.txt.
+// Estimates from films that need more than a line of awk. All other films are in transcripts/fit.txt.
 #include <cmath>
 #include <random>
 #include <string>
@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A film of the pool ball, with errors: columns t, slip and spin, after a `roll` of the program.
+/// Returns a film of the pool ball with errors: columns t, slip and spin, computed by `roll`.
 std::string film(double slip_sd, double spin_sd, double rate, const std::string& options) {
   std::string instants;
   for (int i = 0; i <= 60; ++i) instants += fmt::format("{}{}", i == 0 ? "" : ",", i / rate);
@@ -28,7 +28,7 @@ std::string film(double slip_sd, double spin_sd, double rate, const std::string&
   return text;
 }
 
-/// The JSON of a fit to that text.
+/// Returns the JSON of a fit to a text.
 nlohmann::json fit_of(const std::string& text, const std::string& options) {
   const Run run = run_program("fit - --ball pool --format json " + options, text);
   INFO(run.err);

@@ -64,7 +64,7 @@ TEST_CASE("the state by the time left", "[cli]") {
   const auto rows = rows_of(run_program("orbit --mu 0.3 --u0 1 --v0 1 --time-left 1e-30,0,2").out);
   REQUIRE(rows.size() == 4);
   CHECK(rows[0].back() == "tau_left");
-  // Near the stop u = (5 mu/16) tau_left, to the last digits.
+  // Near the stop u = (5 mu/16) tau_left, accurate to the last digits.
   CHECK(std::stod(rows[1][1]) == Approx(5 * 0.3 / 16 * 1e-30).epsilon(1e-14));
   CHECK(rows[2][1] == "0");
   CHECK(rows[3].back() == "2");
@@ -126,7 +126,7 @@ TEST_CASE("orbit --reduction: canonical coordinates, and the first integral that
     const double one = integral_of(law + " --u0 -0.5 --v0 2"), three = integral_of(law + " --u0 -1.5 --v0 6");
     CHECK(three - one == Approx(std::log(3)).epsilon(1e-13));
   }
-  // p goes on where v underflows.
+  // p = ln v keeps its digits after v has underflowed.
   const auto small = json_of("orbit --reduction --mu 0.01 --u0 1 --v0 1 --time-left 80 --format json");
   CHECK(small.at("v")[0] == 0);
   CHECK(small.at("p")[0].get<double>() < -800);
@@ -197,7 +197,7 @@ TEST_CASE("instants by the regularised time", "[cli]") {
     for (std::size_t column : {0, 1, 2, 3, 4})
       CHECK(std::stod(row[column]) == Approx(std::stod(wanted[column])).epsilon(1e-9));
   }
-  // Starts of a ball in seconds, on an axis, at rest, and from a file.
+  // Starts of a ball: in seconds, on an axis, at rest, and from a file.
   const auto pool = rows_of(run_program("orbit --ball pool --beta 0,0.1").out);
   CHECK((pool[0].back() == "t" && pool[1].back() == "0" && std::stod(pool[2].back()) > 0));
   const auto axis = rows_of(run_program("orbit --mu 0.3 --law pade --u0 0 --v0 1 --beta 1").out);

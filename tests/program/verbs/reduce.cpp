@@ -80,7 +80,7 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
     CHECK(strip["p"].size() <= 101);
     for (std::size_t i = 0; i < strip["p"].size(); ++i) {
       const double u = strip["u"][i], v = strip["v"][i], left = strip["tau_left"][i];
-      if (strip["p"][i] < -700) {  // v has few digits left, or none
+      if (strip["p"][i] < -700) {  // v has few correct digits, or none
         CHECK(v <= 1e-300);
         continue;
       }
@@ -104,14 +104,14 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
   }
   const Json weighted = json_of_system("u' = v; v' = -sign(u) - 0.5*sign(v)", {"--u0", "0.5", "--v0", "1"});
   for (const Json& piece : weighted["strip"]) CHECK(piece["q"].size() == piece["tau_left"].size());
-  for (const Json& copy : weighted["copies"]) {  // u has twice the weight of v, and as much as t^2
+  for (const Json& copy : weighted["copies"]) {  // u has twice the weight of v, and the weight of t^2
     const double factor = copy["factor"];
     CHECK(copy["u0"].get<double>() == Approx(0.5 * factor).epsilon(1e-13));
     CHECK(copy["v0"].get<double>() == Approx(std::sqrt(factor)).epsilon(1e-13));
     CHECK(copy["tau_stop"].get<double>() ==
           Approx(std::sqrt(factor) * weighted["tau_stop"].get<double>()).epsilon(1e-12));
   }
-  // Long before the start speeds exceed every double.
+  // Long before the start, speeds overflow.
   const Json far =
       json_of("reduce --mu 1 --law phi=k/hypot(1,k);psi=1/(1+2*k) --body disc --u0 1 --v0 3 --format json");
   CHECK(far["strip"][0]["u"].size() == far["strip"][0]["tau_left"].size());
@@ -123,7 +123,7 @@ TEST_CASE("reduce --system: known answers", "[cli]") {
   const Json friction = json_of_system("u' = -u/hypot(u,v); v' = -v/hypot(u,v)", {"--u0", "3", "--v0", "-4"});
   CHECK(friction["kind"] == "stable star");
   CHECK(friction["tau_stop"].get<double>() == Approx(5).epsilon(1e-13));
-  // on v = 0 nothing but the slope's balance: k -> the ray; from (0, v) it takes v/(1 + a)
+  // On v = 0 only the balance of the slope is left: k tends to the ray. From (0, v) the stop takes v/(1 + a).
   const std::string slope = "u' = -u/hypot(u,v); v' = -v/hypot(u,v) - a";
   const Json down = json_of_system(slope, {"--param", "a=0.25", "--u0", "0", "--v0", "1"});
   CHECK(down["tau_stop"].get<double>() == Approx(1 / 1.25).epsilon(1e-13));
@@ -210,7 +210,7 @@ TEST_CASE("reduce --system is right about multiple rays and poles, or says that 
   };
   for (const auto& [system, start, kind, end, tau_stop] : cases) {
     CAPTURE(system, start);
-    Json json = json_of_system(system, start);  // what is missing becomes null
+    Json json = json_of_system(system, start);  // missing members become null
     CHECK(json["kind"] == kind);
     CHECK(json["end"] == end);
     if (tau_stop.is_number()) {
@@ -261,7 +261,7 @@ TEST_CASE("reduce solves systems without a scaling by an inverse integrating fac
     CHECK(reduced["by_steps"]["difference"] < 1e-10);
     CHECK(reduce(system, {"--u0", "1.3", "--v0", "0.7"}).status == 0);
   }
-  // From rest at 1 the pendulum's period is 4 K(sin 1/2).
+  // A pendulum at rest at the angle 1 has the period 4 K(sin 1/2).
   const Json pendulum = json_of_system("x'' = -sin(x)", {"--u0", "1", "--v0", "0"});
   CHECK(pendulum["period"].get<double>() == Approx(6.6999756643704523).epsilon(1e-12));
   CHECK(pendulum["end"] == "periodic");
@@ -291,7 +291,7 @@ TEST_CASE("reduce solves quotients with their denominator cleared", "[cli]") {
   const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7"};
   const Json plain = json_of_system("y' = x/y + 1/(x*y)", start);
   CHECK_FALSE(plain["tried"].back().contains("cleared"));
-  // V D is a polynomial, V is not.
+  // The product V D is a polynomial, but V is not.
   const Json reduced = json_of_system("y' = (y^2-3*x^2*y+x)/(x^3-2*x*y)", start);
   CHECK(reduced["form"] == "constant");
   CHECK(reduced["tried"].back()["cleared"] == true);
@@ -314,7 +314,7 @@ TEST_CASE("reduce recognises V and H", "[cli]") {
     CHECK(reduced["factor"] == factor);
     CHECK(reduced.value("integral", "") == integral);
   }
-  // Coefficients that are not rational.
+  // Coefficients that are not rational give no formula.
   CHECK(json_of_system("u' = u*(1-v)+sqrt(2)*u^2; v' = v*(u-1)", start)["factor"] != "");
   CHECK(json_of_system("y' = x - y**2", start)["factor"] == "quadratic in v, 1 at the start");
 }
@@ -324,7 +324,7 @@ TEST_CASE("reduce looks for V in a basis of one's own", "[cli]") {
   CHECK(reduced["form"] == "basis");
   CHECK(reduced["factor"] == "1");
   CHECK(reduced["tried"].size() == 1);
-  // Kamke 1.114 is of no form that is tried.
+  // Kamke's equation 1.114 has none of the forms that are tried.
   const std::string equation = "y' = sqrt(x^2+y^2) + a*y/x";
   const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7", "--param", "a=1"};
   CHECK(json_of_system(equation, start)["form"].is_null());
@@ -353,7 +353,7 @@ TEST_CASE("reduce --system shows equilibria and reversors, solved or not", "[cli
   const Json van_der_pol = json_of_system("u' = v; v' = (1-u^2)*v-u");
   CHECK(van_der_pol["equilibria"][0]["kind"] == "unstable focus");
   CHECK(van_der_pol["reversors"].empty());
-  // No reversor, yet V = u v is not 0 at the center.
+  // There is no reversor, but V = u v is not 0 at the center.
   const Json rabbits = json_of_system("u' = u*(1-v); v' = v*(2*u-1)", {"--u0", "1", "--v0", "1.1"});
   CHECK(rabbits["reversors"].empty());
   CHECK(rabbits["equilibria"][1]["kind"] == "center");

@@ -18,10 +18,10 @@ using nlohmann::json;
 
 TEST_CASE("a ball that is pressed on the plane", "[invariant]") {
   const auto stop = [](const std::string& options) { return json_of("stop --format json --ball steel " + options); };
-  // Its weight as a load is nothing new.
+  // A load that equals the weight changes nothing.
   CHECK(stop("--load 0.320677455").at("t_stop").get<double>() ==
         Approx(stop("").at("t_stop").get<double>()).epsilon(1e-14));  // 0.0327 kg * 9.80665 m/s^2
-  // 100 N on 33 g: friction f N in place of f m g, and Hertz's patch of that load, eps^3 ~ N.
+  // A load of 100 N on 33 g: the friction is f N in place of f m g, and Hertz's patch is that of this load, eps^3 ~ N.
   const json pressed = stop("--load 100N --spin 0");
   CHECK(pressed.at("t_stop").get<double>() == Approx(2 * 0.5 * 0.0327 / (7 * 0.12 * 100)).epsilon(1e-12));
   const double share = 100 / 0.320677455;
@@ -99,13 +99,13 @@ TEST_CASE("overrides act as if the run file had said so", "[cli]") {
   // The patch of the pool ball follows from its spin deceleration: eps ~ R^2/(f g).
   CHECK(json_of("stop --ball pool --radius 0.05715 --format json").at("mu").get<double>() ==
         Approx(2 * json_of("stop --ball pool --format json").at("mu").get<double>()).epsilon(1e-14));
-  // That of the steel ball from Hertz's formula: eps ~ m^(1/3).
+  // The patch of the steel ball follows from Hertz's formula: eps ~ m^(1/3).
   CHECK(json_of("stop --ball steel --mass 0.2616 --format json").at("mu").get<double>() ==
         Approx(2 * json_of("stop --ball steel --format json").at("mu").get<double>()).epsilon(1e-14));
   CHECK(json_of("stop --ball steel --patch-radius 1e-3 --format json").at("mu").get<double>() == 0.1);
   const json slow = json_of("stop --ball steel --slip 0 --spin-deceleration 4 --spin 2 --format json");
   CHECK(slow.at("t_stop").get<double>() == Approx(0.5).epsilon(1e-14));
-  // A deceleration that was measured is the ball's, whatever the law.
+  // A measured deceleration belongs to the ball and is the same under every law.
   for (const std::string law : {"exact", "pade", "uniform", "punch", "ring", "pressure:3"}) {
     for (const std::string verb : {"stop", "roll --samples 2"}) {
       const json pure = json_of(verb + " --ball pool --slip 0 --format json --law " + law);
@@ -144,7 +144,7 @@ TEST_CASE("what interpolation of a pressure table may cost stands beside its sto
   CHECK(said < 5 * missed);
   CHECK_THAT(run_program(start + scratch.file("hertz.csv")).out,
              Contains("with 21 rows") && Contains("what interpolation between all 41 may cost"));
-  // Rows of steps are needed, and named laws have none.
+  // The field needs a table of pressures, which named laws do not have.
   CHECK_FALSE(json_of(start + "annulus:0.5 --format json").contains("coarser_table"));
   CHECK_FALSE(json_of(start + "exact --format json").contains("coarser_table"));
   CHECK_THAT(run_program("help laws").out, Contains("linear in rho^2 between two rows"));
@@ -155,12 +155,12 @@ TEST_CASE("T_stop is a number wherever it fits", "[cli]") {
   CHECK(fast.at("T_stop").get<double>() == Approx(fast.at("tau_stop").get<double>() / 4.71238898038469).epsilon(1e-15));
 }
 
-// r/r_high - 1 = 8.5e-14 counts as 0, which costs a fraction of that: the accuracy was stated as 2.4e-15.
+// A difference r/r_high - 1 = 8.5e-14 counts as 0, which costs a fraction of it. The stated accuracy was 2.4e-15.
 TEST_CASE("the accuracy next to a border counts what was taken for the border", "[cli]") {
   const json stop = json_of(
       "stop --mu 1 --law elliptic:0.05 --body 3.5,1400.0000000001196 --u0 1.5283057164038434 --v0 0.1665941353948894 "
       "--format json");
-  // By mpmath, from the elementary integrals of this law.
+  // The reference is computed by mpmath from the elementary integrals of this law.
   const double error = std::abs(stop.at("tau_stop").get<double>() / 0.24677254949119878413 - 1);
   CHECK(error > 1e-14);
   CHECK(error < stop.at("accuracy").get<double>());

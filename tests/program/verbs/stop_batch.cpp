@@ -75,7 +75,7 @@ TEST_CASE("quoted fields pass through", "[cli]") {
   CHECK(run.out == "note,mu,u0,v0,tau_stop\n\"a,\"\"b\"\"\nc\",1,0,0,0\n\"#d\",1,0,0,0\n\"plain\",1,0,0,0\n");
 }
 
-// What a record is, whatever ends its lines and wherever a block is cut: csv.cpp.
+// csv.cpp tests records for all line ends and all ends of blocks.
 TEST_CASE("line ends of Windows and of old, comments, blank lines and a byte order mark", "[cli]") {
   const Run run = run_program("stop --law pade --batch -",
                               "\xEF\xBB\xBF# made by hand\r\nmu,u0,v0\r\n\r\n1,0,0\r\n# more\r\n0.5,0,0");
@@ -95,7 +95,7 @@ TEST_CASE("a tau_stop that overflows is inf, and said to be", "[limit]") {
 TEST_CASE("a filter: rows leave while the input pauses, and up to the first bad one", "[cli]") {
   const TemporaryDirectory scratch;
   for (const char* threads : {"1", "2", "7"}) {
-    // Each row is sent when the row before has been answered. A program that waits for more never gets it.
+    // The script sends each row after the answer to the previous row. A program that waits for more rows would hang.
     const std::string script = fmt::format(
         "set -e; cd '{}'; rm -f in out; mkfifo in out\n"
         "'{}' stop --law pade --batch - --threads {} <in >out 2>err & exec 3>in 4<out\n"
@@ -106,7 +106,7 @@ TEST_CASE("a filter: rows leave while the input pauses, and up to the first bad 
         scratch.path().string(), CONTENSOU_PROGRAM, threads);
     write_file(scratch.file("script"), script);
     INFO("threads " << threads);
-    // Only a program that waits takes so long.
+    // Only a program that hangs takes so long.
     REQUIRE(std::system(("timeout 600 sh '" + scratch.file("script") + "'").c_str()) == 0);
     CHECK(read_file(scratch.file("answer")) == "mu,u0,v0,tau_stop 1,0,0,0 1,0,0,0 2\n");
     CHECK(read_file(scratch.file("err")) == "<stdin>:13: v0: 'x' is not a number; write it like 0.1, -5 or 1e-3\n");
@@ -135,7 +135,7 @@ TEST_CASE("a table of another kind is named, with a way out", "[cli]") {
       check_rejected(verb, verb.starts_with("stop") ? words : "", input);
     }
   }
-  // Excel's file of semicolons, converted as the message says.
+  // A file with semicolons, as Excel writes it, is converted as the message recommends.
   const TemporaryDirectory scratch;
   write_file(scratch.file("excel.csv"), "\xEF\xBB\xBFmu;u0;v0\r\n0,5;0;0\r\n");
   const std::string converted = "sed 's/,/./g; s/;/,/g' " + scratch.file("excel.csv") + " | '" + CONTENSOU_PROGRAM +
@@ -171,7 +171,7 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
     std::string input;
     std::string place;
     std::string word;
-    std::string out = {};  ///< the rows before the bad one
+    std::string out = {};  ///< rows of the output before the bad row
   };
   const std::string one_row =
       "mu,u0,v0,tau_stop\n0.1,1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) + "\n";
@@ -235,7 +235,7 @@ TEST_CASE("a batch excludes what makes no sense with it", "[cli]") {
 
 namespace {
 
-/// A table of random starts; every mu of them stands in many rows.
+/// A table of random starts. Each mu occurs in many rows.
 struct RandomTable {
   explicit RandomTable(int rows) {
     std::mt19937_64 random(20);
@@ -264,7 +264,7 @@ TEST_CASE("a long batch has the stop times of single calls, and one set of bits 
   std::size_t misplaced = 0, different = 0;
   for (std::size_t i = 0; i < table.mu.size(); ++i) {
     const double tau = Flow({PadeLaw{}, table.mu[i]}).stop_time(table.starts[i]).tau;
-    const bool single = i < 1000;  // from there on by a table for every mu
+    const bool single = i < 1000;  // later rows are computed by the solution for every mu
     misplaced += rows[i + 1][1] != fmt::format("row {}", i);
     if (single ? rows[i + 1].back() != shortest(tau) : !(std::abs(std::stod(rows[i + 1].back()) / tau - 1) < 2e-15)) {
       ++different;
@@ -280,7 +280,7 @@ TEST_CASE("a long batch has the stop times of single calls, and one set of bits 
         run_program("stop --law exact --batch - --threads 1", few).out);
 }
 
-// From the 1000th line on by what serves every mu; before, by a curve for each.
+// Rows before the 1000th use one curve for each mu. Later rows use the solution for every mu.
 TEST_CASE("rows that each have a mu of their own are those of its flow", "[route]") {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit;
@@ -322,7 +322,7 @@ TEST_CASE("a record without an end is refused before it fills the memory", "[lim
   CHECK_THAT(open.out, StartsWith("mu,u0,v0,tau_stop\n0.1,1,1,"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves more address space than the limit
+#if !defined(__SANITIZE_ADDRESS__)  // AddressSanitizer reserves more address space than the limit
 TEST_CASE("a batch of any length takes constant memory", "[limit]") {
   const TemporaryDirectory scratch;
   const std::string row = "0.1,1,1," + std::string(1000, 'x');
@@ -348,7 +348,7 @@ TEST_CASE("--threads is a whole number, and for many starts", "[cli]") {
 TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
   const TemporaryDirectory scratch;
   write_file(scratch.file("table.csv"), "mu,u0,v0\n1,0,0\n");
-  // Also into the file that it reads.
+  // The output may replace the input file.
   CHECK(run_program("stop --batch " + scratch.file("table.csv") + " -o " + scratch.file("table.csv")).status == 0);
   CHECK(read_file(scratch.file("table.csv")) == "mu,u0,v0,tau_stop\n1,0,0,0\n");
   CHECK(run_program("stop --law pade --batch - -o " + scratch.file("table.csv"), "mu,u0,v0\n1,0,0\n7,0,0\n").status ==

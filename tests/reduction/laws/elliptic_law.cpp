@@ -1,4 +1,4 @@
-// The law whose motions are elementary, against README (R35).
+// The law whose motions are elementary functions, compared with README (R35).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ namespace {
 
 using Real = long double;
 
-/// (R35) in units of w0, in z = -ln y: C and what is left of the root without it, panel by panel.
+/// Returns (R35) in units of w0, integrated over z = -ln y panel by panel, where y is the fraction of w that is left.
 Real time_left(Real k0, Real r, Real c) {
   const Real ratio = r * c * c;
   const Real exponent = (1 - ratio) / ratio;
@@ -49,7 +49,7 @@ TEST_CASE("an ellipse's motions are powers, wherever k goes", "[laws]") {
         CAPTURE(c, r, k0);
         const double wanted = static_cast<double>(1.5L * std::numbers::pi_v<Real> * time_left(k0, system.r(), c));
         CHECK(flow.stop_time({1, k0}).tau == Approx(wanted).epsilon(1e-15).margin(0));
-        // v ~ w^(1/(r c^2)) half-way.
+        // Halfway, v ~ w^(1/(r c^2)).
         const auto half = flow.orbit({1, k0}).at_time(flow.stop_time({1, k0}).tau / 2);
         const double power = 1 / (system.r() * c * c);
         CHECK(half.ln_v == Approx(std::log(k0) + power * std::log(half.u)).margin(1e-11 * (1 + power)));
@@ -62,7 +62,7 @@ TEST_CASE("an annulus is a disc less a disc", "[laws]") {
   for (double k : {0.01, 0.5, 2.0, 100.0}) {
     CAPTURE(k);
     const auto [force, moment] = (*find_law("annulus:0.65"))({k, 1});
-    // Two discs: the outer one less the inner one, whose load is eta^2 and whose k is k/eta.
+    // An annulus is the outer disc minus the inner disc, whose load is eta^2 and whose k is k/eta.
     const double eta = 0.65;
     const auto outer = PressureLaw::uniform()({k, 1}), inner = PressureLaw::uniform()({k / eta, 1});
     const double load = 1 - eta * eta;

@@ -25,7 +25,7 @@ struct Named : RootLaw {
   static constexpr std::string_view name = "mine";
 };
 
-/// A law from two functions of k, to make bad ones.
+/// Makes a law from two functions of k, for laws that break a requirement.
 template <class Force, class Moment>
 auto from_ratio(Force force, Moment moment) {
   return [=](Slip slip) {
@@ -63,7 +63,7 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   CHECK(exact.force_deficit({1, 1e-9}) == HertzLaw{}.force_deficit({1, 1e-9}));
   CHECK(Law(PadeLaw{}).name() == "pade");
   CHECK(Law(Named{}).name() == "mine");
-  // It is known by its type alone.
+  // A law is identified by its type alone.
   CHECK(Law(PadeLaw{}).as<PadeLaw>());
   CHECK_FALSE(Law(PadeLaw{}).as<HertzLaw>());
   CHECK_FALSE(Law(Impostor{}).as<PadeLaw>());
@@ -99,20 +99,20 @@ TEST_CASE("a law that was copied or moved from is still a law", "[friction_law]"
 
 TEST_CASE("a law whose limits are not those of friction is rejected", "[friction_law][domain]") {
   CHECK_NOTHROW(Law(from_ratio(root_force, root_moment)));
-  // Coulomb: as large for the slowest sliding as for any.
+  // Coulomb's friction is as large for the slowest sliding as for any other.
   CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0 ? 1.0 : 0.0; }, root_moment)),
                     Contains("user's law") && Contains("2^-60"));
-  // A root and a square: Phi'(0) infinite, or 0.
+  // Phi is a root or a square near 0: Phi'(0) is infinite, or 0.
   CHECK_THROWS_AS(Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : std::sqrt(k / (1 + k)); }, root_moment)),
                   std::domain_error);
   CHECK_THROWS_AS(Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k * k / (1 + k * k); }, root_moment)),
                   std::domain_error);
   CHECK_THROWS_AS(Law(from_ratio([](double k) { return -root_force(k); }, root_moment)), std::domain_error);
-  // Pure sliding must be resisted by 1.
+  // The force of pure sliding must be 1.
   CHECK_THROWS_WITH(Law(from_ratio([](double k) { return 0.9 * root_force(k); }, root_moment)), Contains("0.9"));
   CHECK_THROWS_AS(Law(from_ratio([](double k) { return k == infinity ? NAN : root_force(k); }, root_moment)),
                   std::domain_error);
-  // Pure pivoting must be resisted at all.
+  // The moment of pure pivoting must be positive.
   for (double moment : {0.0, -1.0, infinity, static_cast<double>(NAN)}) {
     CAPTURE(moment);
     CHECK_THROWS_WITH(Law(from_ratio(root_force, [=](double k) { return k == 0 ? moment : root_moment(k); })),
@@ -122,7 +122,7 @@ TEST_CASE("a law whose limits are not those of friction is rejected", "[friction
 
 TEST_CASE("a law that depends on more than the ratio of the speeds is rejected, with what was measured",
           "[friction_law][domain]") {
-  // As engines soften friction, at a speed of their own; and friction that falls with speed.
+  // Friction that is softened below a speed, as in engines, and friction that falls with speed.
   const auto softened = [](Slip slip) {
     const double size = std::hypot(slip.sliding, slip.pivoting, 1e-3);
     return Resistance{slip.sliding / std::hypot(slip.sliding, slip.pivoting), 0.6 * slip.pivoting / size};
@@ -134,7 +134,7 @@ TEST_CASE("a law that depends on more than the ratio of the speeds is rejected, 
     return Resistance{slip.pivoting == 0 ? 1 : faster * slip.sliding / size, 0.6 * slip.pivoting / size};
   };
   CHECK_THROWS_WITH(Law(falling), Contains("ratio of the two speeds alone"));
-  // What a quadrature of one's own leaves is no such dependence.
+  // The error of a user's quadrature does not count as a dependence on the speeds.
   CHECK_NOTHROW(Law([](Slip slip) {
     const auto [force, moment] = RootLaw{}(slip);
     return Resistance{slip.pivoting == 0 ? force : force * (1 + 1e-8 * std::sin(1e3 * slip.sliding)), moment};
@@ -146,13 +146,13 @@ TEST_CASE("a law that does not resist, or comes to its limits too slowly, is rej
                     Contains("positive and finite") && Contains("Psi = 0"));
   CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0.2 && k < 2 ? -1.0 : root_force(k); }, root_moment)),
                     Contains("positive and finite") && Contains("Phi = -1"));
-  // m would grow like 1/sqrt(k).
+  // Under this law m would grow like 1/sqrt(k).
   CHECK_THROWS_WITH(Law(from_ratio(root_force, [](double k) { return 1 / (1 + std::sqrt(k) + k); })),
                     Contains("Psi(0) in proportion to k"));
   CHECK_THROWS_WITH(
       Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k / (1 + std::sqrt(k) + k); }, root_moment)),
       Contains("Phi must come to 1"));
-  // From above: 1 + 2/k comes to 1, 1 + 1/k^0.75 too slowly.
+  // From above: 1 + 2/k tends to 1 fast enough, 1 + 1/k^0.75 too slowly.
   CHECK_NOTHROW(
       Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k * (k + 3) / (k * k + k + 1); }, root_moment)));
   CHECK_THROWS_WITH(

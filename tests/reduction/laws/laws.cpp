@@ -1,4 +1,4 @@
-// What every law is asked in the same words, and the names by which laws are found.
+// Tests that every law must pass, and the names by which laws are found.
 #include "contensou/reduction/laws.hpp"
 
 #include <algorithm>
@@ -29,12 +29,12 @@ namespace {
 struct Asked {
   std::string type;
   Law law;
-  std::string table, column;  ///< of tests/reference; none for a table of pressures
+  std::string table, column;  ///< in tests/reference; empty for a table of pressures
   long double steepest = 1;   ///< the largest logarithmic slope of Phi and Psi
-  double curvature = 0;       ///< 1 - Psi/Psi(0) over k^2 for k << 1
+  double curvature = 0;       ///< value of (1 - Psi/Psi(0))/k^2 for k << 1
 };
 
-/// A dip in the middle, a shoulder, and an edge under load.
+/// A pressure with a dip in the middle, a shoulder, and a loaded edge.
 TabulatedPressureLaw uneven() {
   Eigen::ArrayXd rho(6), pressure(6);
   rho << 0, 0.2, 0.35, 0.6, 0.8, 1;
@@ -70,7 +70,7 @@ std::vector<double> ratios_of_slip() {
   return ratios;
 }
 
-/// Psi' + k Phi' relative to Psi', by central differences: 0 for a law with a dissipation potential.
+/// Returns (Psi' + k Phi')/Psi' by central differences; 0 for a law with a dissipation potential.
 double potential_defect(const Law& law, double k) {
   const double h = 1e-5;
   const auto ahead = law({k * (1 + h), 1}), behind = law({k * (1 - h), 1});
@@ -78,7 +78,7 @@ double potential_defect(const Law& law, double k) {
   return std::abs((moment_change + k * (ahead.force - behind.force)) / moment_change);
 }
 
-/// The largest relative differences of Phi and of Psi from those of the exact law.
+/// Returns the largest relative differences of Phi and Psi from the exact law.
 Resistance farthest_from_exact(const Law& law) {
   Resistance worst{0, 0};
   for (double k = 1e-3; k < 1e3; k *= 1.001) {
@@ -104,7 +104,7 @@ TEST_CASE("every law keeps 4 eps for every k", "[laws][table]") {
       const long double force = row.result("phi_" + column), moment = row.result("psi_" + column);
       given.add(force, law({k, 1}).force, row.where());
       given.add(moment, law({k, 1}).moment, row.where());
-      // Where long double leaves it its digits.
+      // Compare only if the difference in long double keeps its digits.
       if (const long double wanted = 1 - moment / pure_pivoting; wanted > 1e-3L) {
         deficit.add(wanted, law.moment_deficit({k, 1}), row.where());
       }
@@ -177,7 +177,7 @@ TEST_CASE("no law has a step where its form changes", "[laws][limit]") {
   for (const Asked& asked : all_laws()) {
     WorstCase step(asked.law.name() + " one ulp across a switch");
     for (double square : {0.0625, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5625, 2.0}) {
-      // The ring has infinite slopes at k = 1: a step of one ulp changes it by 36 of them.
+      // The ring has infinite slopes at k = 1: a change of k by one ulp changes it by 36 ulp.
       if (asked.column == "ring" && square == 1) continue;
       const double k = std::sqrt(square), below = std::nextafter(k, 0), above = std::nextafter(k, 2 * k);
       for (double neighbour : {below, above, std::nextafter(below, 0), std::nextafter(above, 2 * k)}) {
@@ -191,8 +191,8 @@ TEST_CASE("no law has a step where its form changes", "[laws][limit]") {
   }
 }
 
-// Rounding may flatten but not turn them. Coulomb friction: the curve (Phi, Psi) is convex; Pade lies on the other
-// side.
+// Rounding may make the functions flat but not reverse them. Under Coulomb friction the curve (Phi, Psi) is convex. The
+// Pade law lies on the other side of the chord.
 TEST_CASE("forces rise, moments fall, and Phi + Psi/Psi(0) is on its side of 1", "[laws][invariant]") {
   for (const Asked& asked : all_laws()) {
     Resistance before = asked.law({0, 1});
@@ -209,7 +209,7 @@ TEST_CASE("forces rise, moments fall, and Phi + Psi/Psi(0) is on its side of 1",
   }
 }
 
-// Phi = R' and Psi = R - k R' for the dissipation R(v, w), by difference quotients of the fourth order away from k = 1.
+// Phi = R' and Psi = R - k R' for the dissipation R(v, w), by difference quotients of order 4 away from k = 1.
 TEST_CASE("every law but Pade's is the gradient of its dissipation", "[laws][invariant]") {
   const auto slope = [](auto function) {
     constexpr double h = 1e-3;

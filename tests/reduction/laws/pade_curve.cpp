@@ -20,7 +20,7 @@ constexpr double starts[] = {1e-6, 1e-2, 0.3, 1.0, 4.0, 50.0, 1e4, 1e6};
 
 double r_of_ball(double mu) { return 5 * mu * mu / 7; }
 
-/// The printed orbit of the ball and the integral that is left of the time, all in the paper's letters.
+/// The orbit of the ball as printed and the remaining integral for the time, in the letters of the paper.
 struct PrintedBall {
   double mu;
   double A = 8 * (14 - 5 * mu * mu);
@@ -28,7 +28,7 @@ struct PrintedBall {
   double a = 5 * mu * mu / (14 - 5 * mu * mu);
   double b = 21 * mu * mu / ((14 - 5 * mu * mu) * (7 - mu * mu));
 
-  /// u/u0 on the orbit through k0.
+  /// Returns u/u0 on the orbit through k0.
   double u(double k, double k0) const { return std::pow(k / k0, a) * std::pow((A + B * k0) / (A + B * k), b); }
 };
 

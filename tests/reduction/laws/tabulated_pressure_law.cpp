@@ -21,8 +21,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Phi, Psi and 1 - Psi/Psi(0) of a table of pressures in long double: elliptic integrals by the arithmetic-geometric
-/// mean, between two rows integrated by tanh-sinh on either side of k.
+/// Computes Phi, Psi and 1 - Psi/Psi(0) of a table of pressures in long double. Elliptic integrals are computed by the
+/// arithmetic-geometric mean; the integral between two rows by tanh-sinh, split at k.
 class RingsOfTable {
  public:
   RingsOfTable(std::vector<double> rho, std::vector<double> pressure)
@@ -106,7 +106,7 @@ TabulatedPressureLaw table_of(const std::vector<double>& rho, const std::vector<
           Eigen::Map<const Eigen::ArrayXd>(pressure.data(), std::ssize(pressure))};
 }
 
-/// Phi, Psi and 1 - Psi/Psi(0) of a table against rings in long double, also beside every row.
+/// Compares Phi, Psi and 1 - Psi/Psi(0) of a table with rings in long double, also next to every row.
 struct Comparison {
   WorstCase force{"Phi"}, moment{"Psi"}, deficit{"1 - Psi/Psi(0)"};
 
@@ -149,7 +149,7 @@ TEST_CASE("a steep flank loses no digit, however steep", "[tabulated_pressure_la
   }
   comparison.add({0, 1e-3, 1.001e-3, 0.999, 1}, {1e4, 1e4, 1, 1, 0}, "a spike in the centre");
   comparison.add({0, 1e-3, 1.001e-3, 0.9, 0.9001, 0.9002, 1}, {1e6, 1e6, 0, 0, 4e-3, 0, 0}, "a spike and a thin ring");
-  // Rows far from k count in groups.
+  // Rows far from k are grouped.
   std::vector<double> rho, pressure;
   for (int i = 0; i <= 300; ++i) {
     rho.push_back(i / 300.0);

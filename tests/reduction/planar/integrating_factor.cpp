@@ -27,7 +27,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// A number with its derivatives by u and v: what a formula needs for an exact Jacobian.
+/// A number with its derivatives by u and v, for the exact Jacobian of a formula.
 struct Dual {
   double value, by_u = 0, by_v = 0;
   Dual(double number) : value(number) {}  // NOLINT(google-explicit-constructor): formulas have constants
@@ -175,13 +175,13 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
       CAPTURE(time, wanted, got);
       states.add(0, (got - wanted).norm(), wanted.norm(), example.text);
       if (time > 0.02) continue;
-      // H, in lengths across the orbit, beside H of a point there.
+      // The change of H between two points, converted to a length across the orbit.
       const Vector2d f = smooth(example.field).value(got);
       levels.add(0, plane.first_integral(got) * plane.factor(got) / f.norm(), got.norm(), example.text);
       const Vector2d beside = got + 1e-3 * Vector2d(-f[1], f[0]) / f.norm();
       CHECK(std::abs(plane.first_integral(beside) * plane.factor(got) / f.norm() - 1e-3) < 1e-5);
     }
-    // An orbit from a later point is the rest of this one; V is then fitted in other boxes.
+    // The orbit from a later point is the rest of this orbit. V is then fitted in other boxes.
     const Vector2d later = plane.part_of_orbit(orbit.at(0.7)).at(0.8);
     states.add(0, (later - orbit.at(1.5)).norm(), later.norm(), example.text + ", in two parts");
   }
@@ -207,7 +207,7 @@ TEST_CASE("Periods are those of closed forms and of a quadrature in 30 digits", 
   for (const double amplitude : {0.1, 1.0, 2.0, 3.0}) {
     add(pendulum, {amplitude, 0}, 4 * boost::math::ellint_1(std::sin(amplitude / 2)), "pendulum");
   }
-  // u'^2 = (a^2 - u^2)(u^2 - b^2)/2, b^2 = 2 - a^2; for b^2 < 0 the orbit goes about both wells.
+  // The energy gives u'^2 = (a^2 - u^2)(u^2 - b^2)/2, b^2 = 2 - a^2. For b^2 < 0 the orbit surrounds both wells.
   for (const double a : {1.2, 1.4, 1.7}) {
     const double square = 2 - a * a;
     const double wanted = square > 0 ? 2 * std::sqrt(2) / a * boost::math::ellint_1(std::sqrt(1 - square / (a * a)))
@@ -221,7 +221,7 @@ TEST_CASE("Periods are those of closed forms and of a quadrature in 30 digits", 
         return std::array{v, -u * u * u};
       },
       {1, 0}, std::pow(std::tgamma(0.25), 2) / std::sqrt(pi), "quartic oscillator");
-  // Gauss-Legendre quadrature of dt = du/(u (1 - v)) on the level of H, 60 digits.
+  // References: Gauss-Legendre quadrature of dt = du/(u (1 - v)) on the level of H, with 60 digits.
   add(lotka, {1.3, 0.7}, 6.38233109541062525232917793724, "Lotka-Volterra");
   add(hopf, {1, 0}, 2 * pi, "Hopf's cycle, on which V = 0");
   INFO(periods.sentence());
@@ -259,7 +259,7 @@ TEST_CASE("No V is found for systems that have none", "[factor]") {
   none([](Dual u, Dual v) { return std::array{v, -sin(u) - v / 5}; }, {1.3, 0.7});
   none([](Dual u, Dual v) { return std::array{u * u * v - u + v / 10, 0.5 - u * u * v - v / 10}; }, {1.3, 0.7});
   none(brusselator, {1.3, 0.7});
-  // In a small box every V is near to a polynomial.
+  // In a small box every V is close to a polynomial.
   none(brusselator, {0.01, 0.02});
   none(brusselator, {0, 1});
   none([](Dual u, Dual v) { return std::array{v, u - u * u * u - v / 5}; }, {100, 3});
@@ -290,13 +290,13 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
     const double a = std::exp(-t) / 2, b = a * a / 8 - (1 + 1. / 32) * std::exp(-10 * t);
     CHECK((to_node.at(t) - Vector2d(1 + a, 2 + b)).norm() < 1e-13);
   }
-  // The stable line of a saddle: the axis, and a parabola.
+  // The stable line of a saddle: the axis, or a parabola.
   CHECK(ends(lotka, {0, 0.7}, PlanarEnd::equilibrium, infinity).at(10) ==
         Vector2d(0, orbit(lotka, {0, 0.7}).at(10)[1]));
   const Formulas saddle = [](Dual u, Dual v) { return std::array{-u, u * u + 2 * v}; };
   const Vector2d near_saddle = ends(saddle, {1, -0.25}, PlanarEnd::equilibrium, infinity).at(10);
   CHECK((near_saddle - Vector2d(std::exp(-10), -std::exp(-20) / 4)).norm() < 1e-11 * near_saddle.norm());
-  // A line of equilibria, a closed orbit.
+  // Cases: a line of equilibria; a closed orbit.
   ends(
       [](Dual u, Dual v) {
         return std::array{-2 * u * v, 2 * u * v - v};
@@ -304,7 +304,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
       {1.3, 0.7}, PlanarEnd::equilibrium, infinity);
   const PlanarOrbit to_cycle = ends(hopf, {0.1, 0}, PlanarEnd::cycle, infinity);
   CHECK((to_cycle.at(100) - Vector2d(std::cos(100), std::sin(100))).norm() < 1e-10);
-  // Infinity in finite time and for ever; a pole, and the border of a root.
+  // Cases: infinity in finite time and never; a pole; the border of a root.
   ends(
       [](Dual, Dual v) {
         return std::array{Dual(1), 1 + v * v};
@@ -318,13 +318,13 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
         return std::array{-sqrt(u), sqrt(u) - sqrt(v)};
       },
       {1.3, 0.7}, PlanarEnd::border, 2 * std::sqrt(1.3));
-  // A pole that all orbits meet in, smooth as they are.
+  // A pole in which all orbits meet, although each orbit is smooth there.
   ends(
       [](Dual u, Dual v) {
         return std::array{Dual(1), sin(2 * u) - v * sin(u) / cos(u)};
       },
       {1.3, 0.7}, PlanarEnd::border, pi / 2 - 1.3);
-  // Not decided: the separatrix of the double well, that rounding is beside.
+  // The end is not decided on the separatrix of the double well, because rounding moves points off it.
   const auto open = [&](const Formulas& field, const Vector2d& start, const std::string& reason) {
     const PlanarOrbit there = orbit(field, start);
     CHECK(there.end() == PlanarEnd::undecided);
@@ -335,7 +335,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
   open(well, {std::sqrt(2), 0}, "saddle");
   const PlanarOrbit resting = orbit(lotka, {1.3, 0.7});
   CHECK_THROWS_WITH(resting.at(-1), Contains("times >= 0"));
-  // From an equilibrium, beside which V is found.
+  // From an equilibrium, V is found in a box beside it.
   CHECK(reduced(lotka, {1, 1}).form() == "polynomial");
   CHECK(orbit(lotka, {1, 1}).at(5) == Vector2d(1, 1));
   CHECK(orbit(lotka, {1, 1}).end() == PlanarEnd::equilibrium);
@@ -349,7 +349,7 @@ TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README
     const FactorReduction reduction(field, start);
     REQUIRE(reduction.form() == "affine");
     const PlanarReduction plane(field.value, *find_symmetries(field.value, start).scaling, start);
-    // A = 1: x = sqrt(2) exp(p) n, T = n ^ g.
+    // For A = 1, x = sqrt(2) exp(p) n and T = n ^ g.
     constexpr double by_differences = 1e-7;
     double ratio = 0;
 
@@ -363,7 +363,7 @@ TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README
     for (const PlanarRay& ray : plane.rays()) {
       CHECK(std::abs(reduction.reduction().factor(plane.point(ray.q, 0))) < by_differences * std::abs(ratio));
     }
-    // The same motion by the flow.
+    // Compare with the same motion by the flow.
     const Orbit flow = Flow(system).orbit({start[0], start[1]});
     const OrbitPoint wanted = flow.at_time(0.4 * flow.stop_time());
     const Vector2d got = reduction.reduction().orbit(start).at(0.4 * flow.stop_time());

@@ -1,5 +1,6 @@
-// Random fields r' = r^d R(angle), angle' = r^(d-1) T(angle) with known zeros and poles of R and T, seen through a
-// random linear map, against steps by Odeint in (ln r, angle) and against the ends that the orders of R and T say.
+// Random fields r' = r^d R(angle), angle' = r^(d-1) T(angle) with known zeros and poles of R and T, transformed by a
+// random linear map. They are compared with steps by Odeint in (ln r, angle), and with the ends that follow from the
+// orders of R and T.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +30,7 @@ struct Line {
   double angle;
   int angular, radial;
 
-  /// The sine of the angle from it: exact on axes and diagonals.
+  /// Returns the sine of the angle from the line. It is exact on axes and diagonals.
   double sine(const Vector2d& n) const {
     const double eighths = angle / (pi / 4);
     if (eighths == 0) return n[1];
@@ -69,7 +70,7 @@ struct RandomField {
 
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// The end, by the orders alone, of orbits that come to a line with R of this sign.
+/// Returns the end, by the orders alone, of orbits that come to a line, if R has the given sign.
 PlanarEnd expected_end(const Line& line, double sign) {
   const int a = line.angular, b = line.radial, gamma = b - a + 1;
   if (gamma > 0 && !(a > 0 && b == 0)) return a > 0 && b > 0 ? PlanarEnd::rest : PlanarEnd::border;
@@ -78,7 +79,7 @@ PlanarEnd expected_end(const Line& line, double sign) {
 
 using Polar = std::array<double, 2>;  ///< ln r and the angle
 
-/// The state after a time, by steps.
+/// Returns the state after a time, by steps.
 Polar stepped(const RandomField& field, Polar state, double time) {
   namespace odeint = boost::numeric::odeint;
   const auto rates = [&](const Polar& x, Polar& slope, double) {
@@ -119,7 +120,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
     const Vector2d start = field.map * (r * Vector2d(std::cos(angle), std::sin(angle)));
     const double turning = field.turning(direction(angle));
     CAPTURE(i, field.text(), angle, r, start);
-    // The line that the orbit comes to.
+    // Find the line to which the orbit tends.
     double nearest = 10;
     Line end{};
     for (const Line& line : field.lines) {
@@ -131,7 +132,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
     }
     if (nearest < 1e-3 || nearest > pi - 1e-3) continue;
     const double sign = field.growth(direction(angle + (turning > 0 ? 1 : -1) * nearest * (1 - 1e-6)));
-    // A zero of T at a pole of R is lost in the rounding of R, unless it lies on an axis.
+    // A zero of T at a pole of R off the axes is lost in the rounding of R.
     const bool is_ordinary =
         std::ranges::none_of(field.lines, [](const Line& line) { return line.angular > 0 && line.radial < 0; });
     ordinary += is_ordinary;
@@ -167,7 +168,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
       const double error = (got - wanted).norm() / wanted.norm();
       ++compared;
       accurate += error < 1e-10;
-      // Rays that lie on no axis are known to 1e-12 where they are multiple; some ends are ill-conditioned beside them.
+      // Multiple rays off the axes are accurate to 1e-12. Some ends are ill-conditioned next to them.
       CHECK(error < 1e-3);
     }
   }

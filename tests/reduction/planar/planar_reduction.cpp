@@ -114,7 +114,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       CHECK(got.to_centre == wanted.to_centre);
       CHECK(std::isnan(wanted.k));
       CHECK(std::atan(mu * got.k) == Approx(std::abs(std::asin(std::sin(got.q)))).margin(1e-14));
-      // sigma depends on the size of the section.
+      // sigma depends on the scale of the closed curve p = 0.
       radial.add(wanted.radial * around.norm(), got.radial, what);
       if (std::isfinite(wanted.angular)) {
         angular.add(wanted.angular * around.norm(), got.angular, what);
@@ -132,7 +132,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       REQUIRE(same != by_values.sectors().end());
       const PlanarSector& wanted = *same;
       CHECK(std::pair(got.from_ray, got.to_ray) == std::pair(wanted.from_ray, wanted.to_ray));
-      // Two orbits of each sector: the difference of both first integrals is the same.
+      // For two orbits of each sector the difference of both first integrals is the same.
       const double one = uniform(0.05, 0.95), other = uniform(0.05, 0.95);
       double differences[2]{};
       for (int n : {0, 1}) {
@@ -165,7 +165,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
   }
   CHECK(with_rays > 20);
   CHECK_WITHIN_EPS(radial, 100);
-  CHECK_WITHIN_EPS(angular, 1e7);  // beside the kink of a law
+  CHECK_WITHIN_EPS(angular, 1e7);  // less accurate next to the kink of a law
   CHECK_WITHIN_EPS(times, 200);
   CHECK_WITHIN_EPS(points, 4500);
   CHECK_WITHIN_EPS(integrals, 500);
@@ -189,7 +189,7 @@ TEST_CASE("where a ray of (2.6) merges with an axis, its order is that of the so
 }
 
 TEST_CASE("a focus whose centre is not smooth: its spiral and its stop are exact", "[planar][exact]") {
-  // r' = -1, angle' = b/r: angle = -b ln(1 - t/r0), a turn shrinks by exp(-2 pi/b)
+  // r' = -1, angle' = b/r: angle = -b ln(1 - t/r0), and r shrinks by exp(-2 pi/b) in a turn
   for (double b : {1.0, -0.3, 20.0}) {
     const PlanarReduction plane =
         reduced([b](const Vector2d& x) -> Vector2d { return Vector2d(-x[0] - b * x[1], b * x[0] - x[1]) / x.norm(); });
@@ -237,9 +237,9 @@ TEST_CASE("linear fields: kind, rays and motion against the exponential of the m
     for (const Vector2d& start : {Vector2d(0.7, 0.2), Vector2d(-0.1, 1.5), Vector2d(-1, -1e-3)}) {
       const PlanarOrbit orbit = plane.orbit(start);
       CHECK(orbit.end() == end);
-      CHECK(orbit.end_time() == infinity);  // no linear motion comes to its end
+      CHECK(orbit.end_time() == infinity);  // a linear motion never reaches its end
       for (double t : {0.0, 0.5, 3.0, 12.0}) {
-        // exp(t m) by squaring of its series
+        // exp(t m) by the series for a small part of t, squared repeatedly
         Matrix2d exact = Matrix2d::Identity(), term = exact;
         for (int i = 1; i < 20; ++i) exact += term = (term * m * (t / 256 / i)).eval();
         for (int i = 0; i < 8; ++i) exact = (exact * exact).eval();
@@ -265,7 +265,7 @@ TEST_CASE("the rays of a node are its eigenvectors, and R and dT/dq its eigenval
 }
 
 TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors", "[planar][exact]") {
-  // z' = z^2, z = u + i v: z = z0/(1 - z0 t); circles through the origin, of degree 2. Escape on v = 0, u > 0 alone.
+  // z' = z^2, z = u + i v: z = z0/(1 - z0 t). Orbits are circles through the origin; only v = 0, u > 0 escapes.
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); });
   CHECK(plane.kind() == "mixed");
@@ -286,7 +286,7 @@ TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors"
 }
 
 TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][exact]") {
-  // z' = z^2/|z|^2: the same circles, another clock: |z| = d sin(angle), dt = d d(angle), so d (pi - angle) is left
+  // z' = z^2/|z|^2 has the same circles with another time: |z| = d sin(angle), dt = d d(angle); d (pi - angle) is left.
   const PlanarReduction plane = reduced([](const Vector2d& x) -> Vector2d {
     return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]) / x.squaredNorm();
   });
@@ -300,7 +300,7 @@ TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][
 }
 
 TEST_CASE("weights that differ", "[planar][exact]") {
-  // u' = -1, v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. Each stops in its own time.
+  // u' = -1, v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. u and v become 0 at different times.
   const PlanarReduction plane = reduced([](const Vector2d& x) {
     return Vector2d(-std::copysign(1, x[0]), -3 * std::copysign(std::sqrt(std::abs(x[1])), x[1]));
   });
@@ -309,7 +309,7 @@ TEST_CASE("weights that differ", "[planar][exact]") {
   CHECK(plane.scaling()->matrix(1, 1) == Approx(2 * plane.scaling()->time).epsilon(1e-13));
   const PlanarCanonical here = plane.canonical({0.3, 0.7});
   CHECK((plane.point(here.q, here.p) - Vector2d(0.3, 0.7)).norm() < 1e-14);
-  // a smooth one: u' = v, v' = -u^3 - v |v|: weights 1, 2, of time -1
+  // a smooth field: u' = v, v' = -u^3 - v |v| has the weights 1, 2 and the weight -1 of time
   const PlanarReduction oscillator = reduced([](const Vector2d& x) { return Vector2d(x[1], -x[0] * x[0] * x[0]); });
   CHECK(oscillator.kind() == "center");
   // energy v^2/2 + u^4/4; period of amplitude a: (4/a) K(1/sqrt 2), K = 1.8540746773013719
@@ -328,13 +328,13 @@ TEST_CASE("about another centre", "[planar][exact]") {
       reduced([&](const Vector2d& x) -> Vector2d { return -(x - centre) / std::sqrt((x - centre).norm()); }, {1, 2});
   CHECK((plane.centre() - centre).norm() < 1e-12);
   CHECK(plane.kind() == "stable star");
-  // r' = -sqrt r: 2 sqrt r is left
+  // r' = -sqrt r: the time left is 2 sqrt r
   CHECK(plane.end_time({6, 3}) == Approx(2 * std::sqrt(5)).epsilon(1e-12));
   CHECK(plane.end_time(plane.centre()) == 0);
 }
 
 TEST_CASE("a constant force beside friction: creeping rays, and a start that never stops", "[planar][exact]") {
-  // A drive of 0.2 and of 1.5 of the friction along u = 0, where friction is 1: k tends to a ray, or v grows for ever.
+  // A drive of 0.2 or 1.5 of the friction along u = 0, which is 1: k tends to a ray, or v grows for ever.
   const double rate = ReducedSystem(PadeLaw{}, 0.5).scaled_time_rate();
   const auto driven = [&](double drive) {
     return reduced([=, friction = planar_field({PadeLaw{}, 0.5})](const Vector2d& x) -> Vector2d {
@@ -361,7 +361,7 @@ TEST_CASE("a first integral is one number along an orbit, and moves with the sca
 }
 
 TEST_CASE("a field with values in a part of the plane", "[planar][domain]") {
-  // u' = -1 where v > u: orbits leave it through v = u, or stop at the border of nothing
+  // u' = -1 for v > u: orbits leave this region through v = u, or end at the border of the values
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return x[1] > 0 ? Vector2d(1, -1) : Vector2d(not_a_number, 0); });
   CHECK(plane.kind() == "bordered");
@@ -405,8 +405,8 @@ TEST_CASE("a relay about another point stops when the one about the origin does"
   const PlanarReduction here = reduced(relay(0), {0.5, 2}), there = reduced(relay(1), {1.5, 2});
   CHECK(there.kind() == "stable focus");
   CHECK(there.end_time({1.5, 2}) == Approx(here.end_time({0.5, 2})).epsilon(1e-12));
-  // By hand: with u = 0 next at v = -w, v^2 (1 + ...) falls by the same factor in each half turn.
-  const double a = 0.7, b = 1.3;  // |v'| on the way out and in
+  // By hand: let an orbit meet u = 0 at v, then at -w. In each half turn v^2 (1 + ...) falls by the same factor.
+  const double a = 0.7, b = 1.3;  // |v'| on the way out and on the way back
   const double out = 2 / b, top = 0.5 + 2 * out - b * out * out / 2, in = std::sqrt(2 * top / a), w = a * in;
   const double ratio = std::sqrt(a / b), half_turn = w / b + w * ratio / a;
   CHECK(there.end_time({1.5, 2}) == Approx(out + in + half_turn / (1 - ratio)).epsilon(1e-12));
@@ -432,10 +432,10 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
       CHECK(plane.end_time({1, 0.2}) > 0.5);
     }
   }
-  // SciPy's DOP853 in ln r and the angle, to 1e-11
+  // reference by SciPy's DOP853 in ln r and the angle, to 1e-11
   CHECK(reduced(node(1, 0.004)).end_time({1, 0.2}) == Approx(0.7710816980055679).epsilon(1e-8));
   CHECK(reduced(node(1, 0.03)).end_time({1, 0.2}) == Approx(0.7712289685393047).epsilon(1e-8));
-  // T touches 0 where no formula makes it exact: one double ray, as far as its values tell.
+  // T touches 0 at a direction where it is not exactly 0. Up to its rounding there is one double ray.
   const PlanarReduction touching = reduced(node(0.96, 0));
   CHECK(touching.kind() == "stable node");
   REQUIRE(touching.rays().size() == 2);
@@ -462,7 +462,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
   }
   for (const auto& [m, eigenvalue, kind, end] : cases) {
     CAPTURE(m);
-    // The scaling of a linear field, whatever others it has.
+    // The solution uses the given scaling of a linear field, even if the field has others.
     const PlanarReduction plane(linear(m), {0, Matrix2d::Identity(), Vector2d::Zero(), true}, {1, 0.5}, 1e-15);
     CHECK(plane.kind() == kind);
     CHECK(plane.rays().size() == 2);
@@ -473,7 +473,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
       for (double t : {0.0, 0.4, 2.0, 20.0, 100.0}) {
         const Vector2d exact = std::exp(eigenvalue * t) * (start + t * (m * start - eigenvalue * start));
         CAPTURE(start, t);
-        // p ~ 1/z ~ t next to a double ray, whose angle is known to 1e-12.
+        // Next to a double ray p ~ 1/z ~ t. The angle of the ray is accurate to 1e-12.
         CHECK((orbit.at(t) - exact).norm() < 1e-12 * (1 + t * t) * exact.norm());
       }
     }
@@ -520,13 +520,13 @@ TEST_CASE("poles are borders", "[planar][exact]") {
   }
   CHECK(linear_equation.end({-1, 0.5}) == PlanarEnd::centre);
   CHECK(linear_equation.end_time({-1, 0.5}) == Approx(1).epsilon(1e-12));
-  // u' = 1, v' = -u/v: a circle, as far as v = 0
+  // u' = 1, v' = -u/v: a circle, which ends at v = 0
   const PlanarReduction circle = reduced([](const Vector2d& x) { return Vector2d(1, -x[0] / x[1]); }, {0.6, 0.8});
   CHECK(circle.end({0.6, 0.8}) == PlanarEnd::border);
   CHECK(circle.end_time({0.6, 0.8}) == infinity);
   CHECK((circle.orbit({0.6, 0.8}).at(0.3) - Vector2d(0.9, std::sqrt(0.19))).norm() < 1e-12);
   CHECK_THROWS_WITH(circle.orbit({0.6, 0.8}).at(0.5), Contains("border"));
-  // u' = 1, v' = v/u + u on a ray of it: v = u^2
+  // u' = 1, v' = v/u + u on one of its rays: v = u^2
   const PlanarReduction on_ray = reduced([](const Vector2d& x) { return Vector2d(1, x[1] / x[0] + x[0]); }, {1, 1});
   CHECK((on_ray.orbit({1, 1}).at(2) - Vector2d(3, 9)).norm() < 1e-11);
 }
@@ -558,7 +558,7 @@ TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
       CHECK((passed.orbit({-3, v}).at(t) - Vector2d(t - 3, height)).norm() < 1e-12);
     }
   }
-  // A circle at two speeds, 3 and 1: the period is pi/3 + pi.
+  // A circle with the speeds 3 and 1 on its two halves has the period pi/3 + pi.
   const PlanarReduction circle = reduced(
       [=](const Vector2d& x) -> Vector2d { return (2 + sign(x[0] - 2 * x[1])) * Vector2d(x[1], -x[0]); }, {1, 0.3});
   CHECK(circle.end({1, 0.3}) == PlanarEnd::periodic);
@@ -568,7 +568,7 @@ TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
 }
 
 TEST_CASE("a ray that orbits join, and may leave, is not decided", "[planar][domain]") {
-  // u' = -u, v' = sqrt|u v|: v = 0 is reached from below; there it may stay, or go on
+  // u' = -u, v' = sqrt|u v|: v = 0 is reached from below. The motion may stay there or continue.
   const PlanarReduction branching =
       reduced([](const Vector2d& x) { return Vector2d(-x[0], std::sqrt(std::abs(x[0] * x[1]))); }, {1, -0.1});
   CHECK(branching.kind().empty());
@@ -613,7 +613,7 @@ TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exa
   const PlanarReduction resting = reduced([](const Vector2d& x) { return Vector2d(0, -x[1] / x.norm()); });
   CHECK(resting.kind() == "degenerate");
   CHECK(resting.end({2, 1}) == PlanarEnd::rest);
-  // The same, turned: the ray is no axis.
+  // The same field, rotated, so that the ray is not an axis.
   const Vector2d n(std::cos(0.3), std::sin(0.3));
   const PlanarReduction turned =
       reduced([&](const Vector2d& x) -> Vector2d { return (-x.dot(n) / x.norm()) * n; }, {2, 1});
@@ -635,7 +635,7 @@ TEST_CASE("far from 1, too", "[planar][domain]") {
 TEST_CASE("the period of a centre is that of closed forms", "[planar]") {
   CHECK(reduced(linear((Matrix2d() << 0, 1, -4, 0).finished())).orbit({1, 0.3}).period().value() ==
         Approx(pi).epsilon(1e-13));
-  // u'' = -u^3 from rest at a: 4 K(1/2)/a, K for the parameter 1/2.
+  // u'' = -u^3 from rest at a has the period 4 K(1/2)/a, where 1/2 is the parameter of K.
   const PlanarReduction quartic = reduced([](const Vector2d& x) { return Vector2d(x[1], -std::pow(x[0], 3)); });
   constexpr double k_half = 1.8540746773013719184338503471953;
   for (double a : {0.1, 1.0, 7.0}) {

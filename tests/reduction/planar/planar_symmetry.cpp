@@ -24,7 +24,7 @@ const Vector2d around{1, 1};
 
 PlanarSymmetries symmetries(const PlanarField& field) { return find_symmetries(field, around); }
 
-/// One generator, which is this one.
+/// Checks that there is exactly one generator, the given one.
 void check_one(const PlanarSymmetries& found, double time, const Matrix2d& matrix,
                const Vector2d& shift = Vector2d::Zero()) {
   CAPTURE(found.singular_values, found.level, found.gap, found.residual);
@@ -95,7 +95,7 @@ TEST_CASE("linear fields have several, and a plain scaling among them", "[planar
     REQUIRE(found.scaling);
     CHECK(found.scaling->matrix == Matrix2d::Identity());
     CHECK(found.scaling->time == Approx(0).margin(1e-13));
-    // the other one commutes with m, and is no multiple of 1
+    // the second generator commutes with m and is no multiple of 1
     const Matrix2d& other = found.generators[1].matrix;
     CHECK((other * m - m * other).norm() < 1e-11);
     CHECK((other - other.trace() / 2 * Matrix2d::Identity()).norm() > 0.1);
@@ -173,7 +173,7 @@ TEST_CASE("fields without values", "[planar][domain]") {
   CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(0, 0); }), Contains("the field is 0"));
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(0, 0)), std::domain_error);
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(1, infinity)), std::domain_error);
-  // A half of the plane is enough, by either way of having no value.
+  // Half of the plane is enough, for both ways in which a field can have no value.
   check_one(symmetries([&](const Vector2d& x) -> Vector2d {
               if (x[1] < 0) throw std::domain_error("v < 0");
               return friction(x) * (x[0] < 0 ? not_a_number : 1);
@@ -183,14 +183,14 @@ TEST_CASE("fields without values", "[planar][domain]") {
 
 TEST_CASE("a generator that does not hold across a kink says so", "[planar][symmetry]") {
   const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
-  // Uniform acceleration in each quadrant: there, and not beyond, a shift of u is a symmetry.
+  // Uniform acceleration in each quadrant: a shift of u is a symmetry within a quadrant, but not across its border.
   const PlanarSymmetries relay =
       symmetries([=](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.5 * sign(x[1])); });
   REQUIRE(relay.generators.size() == 2);
   CHECK(relay.generators[0].everywhere);
   CHECK(relay.generators[1].shift == Vector2d(1, 0));
   CHECK_FALSE(relay.generators[1].everywhere);
-  // A kink off the axes, which derivatives do not cross either.
+  // A kink off the axes. Differences do not cross it either.
   const PlanarSymmetries slanted = symmetries([=](const Vector2d& x) {
     const double side = sign(x[0] - 2 * x[1]);
     return Vector2d(2 + side, 1 - 0.5 * side);
@@ -198,7 +198,7 @@ TEST_CASE("a generator that does not hold across a kink says so", "[planar][symm
   REQUIRE(slanted.scaling);
   CHECK(slanted.generators.front().everywhere);
   CHECK(std::ranges::any_of(slanted.generators, [](const Generator& x) { return !x.everywhere; }));
-  // Of smooth fields all hold: shifts, a rotation with growth, another centre, weights, and with noise.
+  // Every symmetry of a smooth field holds everywhere: shifts, a spiral, another centre, weights; also with noise.
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, 1e-9);
   const PlanarField fields[] = {
@@ -249,7 +249,7 @@ TEST_CASE("of several scalings within sectors the one that leaves the jumps wher
     CHECK((x.centre() - centre).norm() < 1e-12);
     CHECK((x.matrix - 2 * x.time * diagonal(1, 0.5)).norm() < 1e-12);
   }
-  // Uniform on both sides of a line: any point of it will do.
+  // A field that is uniform on both sides of a line: every point of the line may be the centre.
   const PlanarSymmetries slanted = symmetries([=](const Vector2d& x) {
     const double side = sign(x[0] - 2 * x[1] + 0.4);
     return Vector2d(2 + side, 1 - 0.5 * side);

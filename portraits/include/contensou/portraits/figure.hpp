@@ -9,7 +9,7 @@
 
 namespace contensou::portraits {
 
-/// A point in the units of a panel's axes.
+/// A point; its coordinates have the units of a panel's axes.
 struct Point {
   double x;
   double y;
@@ -27,10 +27,10 @@ struct Stroke {
   Colour colour;
   double width = 1;
   bool dashed = false;
-  bool dotted = false;  ///< dots; together with dashed, dashes and dots in turn
+  bool dotted = false;  ///< true: dots; with dashed also true, dashes and dots alternate
 };
 
-/// Polylines of one look, with one entry in the legend.
+/// Polylines with the same look and one entry in the legend.
 struct Lines {
   std::vector<Polyline> lines;
   Stroke stroke;
@@ -43,14 +43,14 @@ struct Arrow {
   Point direction;
 };
 
-/// Arrow heads of one look and one size on paper.
+/// Arrow heads with the same look and the same size on paper.
 struct Arrows {
   std::vector<Arrow> arrows;
   Colour colour;
   double size = 1;
 };
 
-/// Marks at points, with one entry in the legend. Circles and squares are open and filled with the figure's ground.
+/// Marks at points, with one entry in the legend. Circles and squares are outlines filled with the background colour.
 struct Marks {
   std::vector<Point> points;
   Colour colour;
@@ -65,7 +65,7 @@ struct Region {
   Colour colour;
 };
 
-/// A text at a point of a panel, on the figure's ground, so that it is legible over lines.
+/// A text at a point of a panel. The background colour behind it keeps it legible over lines.
 struct Label {
   Point at;
   Text text;
@@ -73,7 +73,7 @@ struct Label {
   enum class Align { left, centre, right } align = Align::centre;
 };
 
-/// An interval with its name. Without ticks, the layout chooses some.
+/// An interval with its name. If `ticks` is empty, the layout chooses ticks.
 struct Axis {
   /// A mark on the axis and its text.
   struct Tick {
@@ -87,16 +87,16 @@ struct Axis {
   std::vector<Tick> ticks;
 };
 
-/// A field of numbers as colours over a whole panel, whose axes may be logarithmic.
+/// A table of numbers as colours over a whole panel. The axes may be logarithmic.
 struct ColourMap {
-  std::vector<double> values;  ///< rows from the bottom up, each from left to right
+  std::vector<double> values;  ///< numbers in rows from the bottom up; each row from left to right
   std::size_t columns = 1;
-  Axis scale{};                 ///< scale of the numbers, shown beside the panel
+  Axis scale{};                 ///< scale that maps numbers to colours, shown beside the panel
   std::vector<Colour> palette;  ///< two or more, from low to high
 };
 
-/// A system of axes. It draws colours, regions, lines, arrows, marks and labels, in this order. Only labels may leave
-/// the axes.
+/// A system of axes. It draws colours, regions, lines, arrows, marks and labels, in this order. Only labels may extend
+/// beyond the axes.
 struct Panel {
   Text title;
   Axis x;
@@ -106,7 +106,7 @@ struct Panel {
   std::vector<Marks> marks;
   std::vector<Label> labels;
   std::optional<ColourMap> colours{};
-  bool bare = false;  ///< no axes and no border: a drawing of objects, to the scale of its lines
+  bool bare = false;  ///< true: no axes and no border, for a drawing of objects to scale
   std::vector<Region> regions = {};
   bool to_scale = false;  ///< a unit of x is as long as a unit of y
 };
@@ -115,7 +115,7 @@ struct Panel {
 struct ColourBar {
   Text name;
   std::vector<Colour> colours;    ///< colours from the bottom up, in steps of equal height
-  std::vector<Axis::Tick> ticks;  ///< ticks; `at` is a fraction of the height
+  std::vector<Axis::Tick> ticks;  ///< marks; `at` is a fraction of the height
 };
 
 /// The size of a figure on paper.
@@ -138,14 +138,14 @@ struct Figure {
   Text subtitle;
   PaperSize size = {};
   double dpi = 300;       ///< resolution of a PNG
-  std::string font = {};  ///< font name; empty: a sans-serif font. TeX uses its own font
+  std::string font = {};  ///< font name; empty: a sans-serif font. TeX ignores it
   int max_columns = 4;    ///< largest number of panels side by side
   std::vector<Panel> panels;
   std::optional<ColourBar> colour_bar = {};
   Theme theme = {};
 };
 
-/// The size that a caller wants; the program chooses a side that is empty.
+/// The size that a caller wants. The program chooses each side that is empty.
 struct AskedSize {
   std::optional<double> width_mm = {}, height_mm = {};
 };

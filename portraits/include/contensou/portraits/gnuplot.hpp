@@ -10,8 +10,8 @@
 
 namespace contensou::portraits {
 
-/// File formats of a figure. gp is a gnuplot script with its data, tex is LaTeX (pgfplots.hpp). gnuplot draws the
-/// others; gif is a moving picture.
+/// File formats of a figure. gp is a gnuplot script with its data, tex is LaTeX (pgfplots.hpp), gif is a moving
+/// picture. gnuplot draws svg, pdf, png, eps and gif.
 enum class PictureFormat { svg, pdf, png, eps, gp, tex, gif };
 
 /// Returns the file endings of all formats except gif, without a dot.
@@ -33,16 +33,16 @@ std::string gnuplot_script(const Figure& figure);
 /// Returns the figure as the bytes of a file in a format other than gif. The same figure gives the same bytes.
 ///
 /// gp and tex need no gnuplot. For other formats gnuplot is found on PATH and runs once, without ~/.gnuplot, for at
-/// most 300 s, and ends with this program. Its input and output stay in memory. If it draws the figure and also writes
-/// to its standard error, that text goes to std::cerr.
+/// most 300 s. gnuplot ends if this program ends. Its input and output stay in memory. If it draws the figure and also
+/// writes a text to its standard error, this text goes to std::cerr.
 ///
-/// @return  a whole file with the beginning and end of its format; an SVG contains all plots of the figure
+/// @return  a complete file of the format; an SVG contains all plots of the figure
 /// @throws GnuplotError       if gnuplot is not found, fails, takes longer, or draws no whole file
 /// @throws std::domain_error  as lay_out, and for tex as pgfplots
 std::string render(const Figure& figure, PictureFormat format);
 
-/// Returns the font that gnuplot uses in PDF, EPS, PNG and GIF for a font that is not installed, according to
-/// fontconfig's fc-match. An SVG only names its font; the viewer finds it.
+/// Returns the font with which gnuplot replaces a font that is not installed, in PDF, EPS, PNG and GIF, according to
+/// fontconfig's fc-match. An SVG contains only the name of its font; the viewer looks for the font.
 /// @return  font name; empty if the font is installed, or fc-match gives no result
 std::string substitute_of(const std::string& font);
 

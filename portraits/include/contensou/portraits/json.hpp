@@ -11,8 +11,8 @@
 namespace contensou::portraits {
 
 /// Appends a JSON value in the format of this project. Numbers have the shortest digits that read back to the same
-/// double; infinities are the strings "inf" and "-inf"; bytes that are not UTF-8 become U+FFFD. nlohmann's own text
-/// sometimes has a digit too many, and null for an infinity.
+/// double. Infinities are the strings "inf" and "-inf". Bytes that are not UTF-8 become U+FFFD. nlohmann's own output
+/// differs: sometimes a digit too many, and null for an infinity.
 ///
 /// @tparam Json      nlohmann::ordered_json
 /// @param separator  text between the members of an object or the elements of an array
@@ -50,7 +50,7 @@ void append_json(std::string& text, const Json& value, std::string_view separato
   }
 }
 
-/// Returns members as comments above a CSV, a line "# name: value" for each.
+/// Returns members as comment lines "# name: value" for the top of a CSV file, one line for each member.
 template <class Json>
 std::string csv_remarks(const Json& members) {
   std::string text;
@@ -62,7 +62,7 @@ std::string csv_remarks(const Json& members) {
   return text;
 }
 
-/// Returns the text of a JSON document with a line for each member.
+/// Returns the text of a JSON document, one line for each member.
 template <class Json>
 std::string json_document(const Json& members) {
   std::string text;

@@ -7,10 +7,10 @@
 
 namespace contensou::portraits {
 
-/// Draws Fig. 2 of Zh98: friction force Phi and friction moment Psi against k from 0 to 4, with one line style per law.
+/// Draws friction force Phi and moment Psi against k from 0 to 4, a line style per law (V. F. Zhuravlev, 1998, Fig. 2).
 Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
-/// Draws the limit surfaces of laws, that is force against moment at which a patch slips, and the ellipse.
+/// Draws the limit surfaces of laws, that is, the curves of force and moment at which a patch slips, and the ellipse.
 Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
 }  // namespace contensou::portraits

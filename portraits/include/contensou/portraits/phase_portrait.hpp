@@ -15,7 +15,7 @@
 
 namespace contensou::portraits {
 
-/// A rectangle of the plane, by two corners.
+/// A rectangle of the plane, given by two corners.
 struct Window {
   Eigen::Vector2d low, high;
 
@@ -24,7 +24,7 @@ struct Window {
   }
   Eigen::Vector2d sides() const { return high - low; }
 
-  /// Return U and V of the smallest window |u| <= U, 0 <= v <= V of the half-plane that contains this one.
+  /// Return U and V of the smallest half-plane window |u| <= U, 0 <= v <= V that contains this window.
   double u() const { return std::max(std::abs(low[0]), std::abs(high[0])); }
   double v() const { return high[1]; }
 };
@@ -38,31 +38,32 @@ std::string_view name(View view);
 std::string_view axes(View view);
 std::optional<View> find_view(std::string_view name);
 
-/// Returns true if the view shows the window. Such views have isochrones and a field, and v may have a SpeedScale.
+/// Returns true if the view shows the window. Such views contain isochrones and a field, and v may have a SpeedScale.
 constexpr bool shows_window(View view) { return view == View::uv || view == View::patch || view == View::pair; }
 
-/// Returns true if points of the view are times of motions, not states. Such views have no colours of time.
+/// Returns true if the axes of the view are times of motions, not states. Such views do not colour orbits by time.
 constexpr bool shows_moments(View view) { return view == View::time || view == View::regularised; }
 
-/// Returns all views in the order of lists.
+/// Returns all views in the order in which lists show them.
 const std::vector<View>& views();
 
-/// An orbit, or its part in the window, as columns of equal length in the direction of the motion. An orbit of (2.6)
-/// ends at the stop: 0, 0, -infinity, ln k of the terminal ratio, 0.
+/// An orbit, or its part in the window, as columns of equal length in the direction of the motion. An orbit of the
+/// equations of motion (2.6) of reduction::ReducedSystem ends with the row of the stop: u = v = 0, ln_v = -infinity, ln
+/// k of the terminal ratio, tau_left = 0.
 struct PortraitOrbit {
   Eigen::ArrayXd u = {};
   Eigen::ArrayXd v = {};
-  Eigen::ArrayXd ln_v = {};      ///< only of (2.6)
-  Eigen::ArrayXd ln_k = {};      ///< only of (2.6)
-  Eigen::ArrayXd tau_left = {};  ///< time until the stop; of another system until the centre or infinity, or infinite
+  Eigen::ArrayXd ln_v = {};      ///< only for (2.6)
+  Eigen::ArrayXd ln_k = {};      ///< only for (2.6)
+  Eigen::ArrayXd tau_left = {};  ///< time until the stop; for another system, until the centre or infinity, or infinite
 
-  /// One state of the orbit or of a scaled copy.
+  /// One state of the orbit or of a scaled copy of the orbit.
   struct Instant {
     double u, v, ln_v, ln_k, tau_left;
   };
 
-  /// Returns a row, scaled; without columns of logarithms they are NaN.
-  /// @param factor  > 0; the scaled orbit of (2.6) is an orbit, by the scaling symmetry
+  /// Returns a row, scaled; the logarithms are NaN if their columns are empty.
+  /// @param factor  > 0; a scaled orbit of (2.6) is also an orbit, by the scaling symmetry
   Instant at(Eigen::Index row, double factor = 1) const;
   Eigen::Index rows() const { return u.size(); }
 };
@@ -74,22 +75,23 @@ struct Isochrone {
   Eigen::ArrayXd v;
 };
 
-/// The curves that the portraits of all systems have.
+/// The curves that are common to the portraits of all systems.
 struct Portrait {
-  Window window;                      ///< visible part of the plane
-  std::vector<PortraitOrbit> orbits;  ///< orbits of (2.6) run from the border of its half-plane's window to the origin
-  std::vector<Isochrone> isochrones;  ///< isochrones in the window
-  double isochrone_step;              ///< step of which the isochrones are all multiples; 0 if their times are others
-  std::vector<PortraitOrbit> highlight;  ///< orbit of one start, in its visible parts; of (2.6) one; empty if not asked
+  Window window;                         ///< visible part of the plane
+  std::vector<PortraitOrbit> orbits;     ///< for (2.6), from the border of the half-plane window to the origin
+  std::vector<Isochrone> isochrones;     ///< isochrones in the window
+  double isochrone_step;                 ///< all isochrones are multiples of this step; 0 if there is no such step
+  std::vector<PortraitOrbit> highlight;  ///< visible parts of one start's orbit, one for (2.6); empty: not requested
   std::vector<PortraitOrbit> through;    ///< orbits through the requested points, from the border
   std::vector<reduction::State> points;  ///< the requested points
 };
 
-/// The phase plane of one system (2.6) as data, without a drawing.
+/// The phase plane of one system (2.6) (reduction::ReducedSystem) as data, without a drawing.
 ///
 /// The phase plane shows every motion of a body that slides at the speed v and pivots at the speed u (reduction::Flow)
 /// as an orbit in the half-plane v >= 0. All orbits end at the origin, the stop. The data are the orbits, the
-/// isochrones (states with one stop time) and the singular points (reduction::PhasePlane). u, v and tau have one unit.
+/// isochrones (lines of states with one stop time) and the singular points (reduction::PhasePlane). u, v and tau have
+/// one unit.
 ///
 ///     const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
 ///     const PhasePortrait portrait = phase_portrait(flow, {});  // the default view and window
@@ -99,68 +101,70 @@ struct PhasePortrait : Portrait {
   reduction::PhasePlane plane;
   View view;
   SpeedScale scale;  ///< scale of v, in views that show the window
-  /// The portrait of another law in the same window, with isochrones of the same times; at most one.
+  /// The portrait of another law in the same window, with isochrones at the same times; at most one.
   std::vector<PhasePortrait> comparisons;
 
   const reduction::ReducedSystem& system() const { return flow.system(); }
 };
 
-/// The contents of a portrait. By default the window follows from mu, and the view is uv.
+/// The requested contents of a portrait. By default the window follows from mu, and the view is uv.
 struct PortraitRequest {
   std::optional<View> view = {};  ///< only for (2.6)
-  /// A rectangle. For (2.6) it has v >= 0, in views that show it. Its orbits are those of the smallest half-plane
-  /// window around it that enter it.
+  /// A rectangle of the plane. For (2.6) v >= 0, and the view must show the window. The orbits are those of the
+  /// smallest half-plane window that contains it, as far as they enter the rectangle.
   std::optional<Window> window = {};
-  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V; for another system |u| <= U and |v| <= V about its
-  /// centre.
+  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V; for another system |u| <= U and |v| <= V, relative to
+  /// its centre.
   std::optional<Eigen::Vector2d> sides = {};
-  std::optional<reduction::State> highlight = {};  ///< a start; a window that is not requested then contains it
-  std::vector<reduction::State> through = {};      ///< points in the window; for (2.6) with neither u nor v 0
+  std::optional<reduction::State> highlight = {};  ///< a start; the default window contains it
+  std::vector<reduction::State> through = {};      ///< points in the window; for (2.6) with u and v both not 0
   /// Number of orbits, >= 0; for (2.6) on each side of u = 0. By default orbits fill the window.
   std::optional<int> orbits = {};
-  /// Number of isochrones, >= 0, approximate because times are round; about 7 by default.
+  /// Number of isochrones, >= 0, about 7 by default. It is approximate, because their times are round numbers.
   std::optional<int> isochrones = {};
-  /// Times of isochrones, in time units, each > 0; they replace the number.
+  /// Times of isochrones, in time units, each > 0. They replace the number of isochrones.
   std::vector<double> isochrone_times = {};
   // Only for (2.6):
   std::optional<reduction::Law> comparison = {};
-  bool stepped = false;  ///< true: orbits come from steps of (2.7) in beta instead of the flow
-  /// True: the axis of v is always linear. By default it is a SpeedScale if a linear axis would show a comb of
-  /// verticals and orbits are not stepped. This is so if orbits enter the origin along v = 0 with v falling faster than
-  /// |u|^12; for the ball, mu < 0.48.
+  bool stepped = false;  ///< true: orbits by steps of the regularised equations (2.7); false: by the flow
+  /// True: the axis of v is always linear. By default it is a SpeedScale if orbits are not stepped and a linear axis
+  /// would show a comb of vertical lines. Such lines appear if orbits enter the origin along v = 0 and v falls faster
+  /// than |u|^12; for the ball, mu < 0.48.
   bool linear = false;
-  /// True: compute only what the view draws. Orbits and isochrones are left out unless it shows the window.
+  /// True: compute only the data that the view draws. Views without the window get no orbits and isochrones.
   bool drawn_only = false;
-  double time_unit = 1;  ///< tau of a time unit; isochrones are at its round multiples
+  double time_unit = 1;  ///< tau of a time unit; isochrones are at round multiples of it
 };
 
 /// Computes a portrait.
 ///
-/// Orbits start on the border at equal distances across the flow, with both signs of u. By the scaling symmetry all
-/// isochrones are copies of one, which is computed.
+/// Orbits start on the border at equal distances across the flow, for both signs of u. By the scaling symmetry all
+/// isochrones are scaled copies of one; only this one is computed.
 ///
 /// @throws std::domain_error  if the sides of the window are not within 1e-150 to 1e150, a point has u or v = 0 (no
 ///                            orbit) or lies outside the window, a number is negative, or no requested isochrone is
 ///                            visible
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
 
-/// Computes portraits for a comparison, with one window, one kind of v axis and isochrones of the same times. Without a
-/// window, the view patch has one rim speed instead of one window. If the stop times in the windows' corners differ
-/// much, times are from a series 1, 2, 5, 10: each plane has the requested number, by default 3, below its last time.
+/// Computes portraits for a comparison. They have one window, one kind of v axis and isochrones at the same times.
+/// Without a requested window, the view patch has equal rim speeds in place of equal windows. If the stop times in the
+/// corners of the windows differ much, the isochrones have the times of one series 1, 2, 5, 10. Each plane then
+/// contains the requested number below its last time, by default 3.
 ///
 /// @param flows  one or more
 /// @throws std::domain_error  as phase_portrait
 std::vector<PhasePortrait> phase_portraits(const std::vector<reduction::Flow>& flows, const PortraitRequest& request);
 
-/// Returns the orbit through a state with u > 0, from beyond the window to the stop. Logarithms describe the state,
+/// Returns the orbit through a state with u > 0, from beyond the window to the stop. The state is given by logarithms,
 /// because they do not underflow. It lies neither on an axis nor on an invariant ray.
 ///
 /// @param ln_k      ln of v/(mu u)
 /// @param ln_v      ln of v, in the unit of speed
-/// @param upstream  >= 0: at the beginning the larger of mu u and v is exp(upstream) times that of the state
+/// @param upstream  >= 0; at the beginning of the orbit the larger of mu u and v is exp(upstream) times that of the
+///                  state
 PortraitOrbit orbit_through(const reduction::Flow& flow, double ln_k, double ln_v, double upstream);
 
-/// The origin of a portrait beside its system, for files.
+/// The origin of a portrait, written into its files beside the system.
 struct PortraitSource {
   std::string version = {};    ///< version of the program; empty: not written
   std::string ball = {};       ///< name of the ball, if speeds are in m/s
@@ -169,16 +173,16 @@ struct PortraitSource {
 
 /// Returns one or more portraits as JSON. Numbers read back to the same doubles.
 ///
-/// Members: schema, law, mu, body {chi, gamma}, view, window [U, V] or [[U1, U2], [V1, V2]], version, ball,
-/// seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]; if requested also highlight (an
-/// orbit), through (orbits), against {law, orbits, isochrones}. Several portraits: schema and portraits, each as above
+/// seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]. On request also highlight (an
+/// orbit), through (orbits), against {law, orbits, isochrones}. Several portraits give the members schema and
+/// portraits; each portrait has the members above except schema.
 /// without schema.
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
-/// Returns one or more portraits as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. Several have
-/// mu,law at the left. kind is orbit, highlight, through or isochrone; another law has against_orbit or
-/// against_isochrone. tau and t (s) are the time left. Comment lines (#) above contain the members that precede the
-/// orbits in JSON.
+/// Returns one or more portraits as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. Several portraits
+/// have mu,law as first columns. kind is orbit, highlight, through or isochrone; for the compared law it is
+/// against_orbit or against_isochrone. tau and t (s) are the time left. Comment lines (#) above contain the members
+/// that precede the orbits in JSON.
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

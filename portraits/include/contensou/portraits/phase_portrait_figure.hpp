@@ -10,23 +10,23 @@
 
 namespace contensou::portraits {
 
-/// Texts and units of a drawing. The defaults are those of the paper's plane.
+/// Texts and units of a drawing. The defaults are those of the dimensionless system (2.6).
 struct PortraitCaption {
-  Text title = {};                  ///< if empty, the law and mu
-  Text subtitle = {};               ///< if empty, the quantities that the view shows
-  std::string speed_unit = {};      ///< unit of u and v, "m/s" for a ball; if empty, any common unit
+  Text title = {};                  ///< if empty, the title consists of the law and mu
+  Text subtitle = {};               ///< if empty, the subtitle names the quantities that the view shows
+  std::string speed_unit = {};      ///< unit of u and v, "m/s" for a ball; empty if any common unit may be used
   Text time_symbol = math("τ*");    ///< symbol in the labels of isochrones
   std::string time_unit_name = {};  ///< "s" for a ball
-  double time_unit = 1;             ///< time unit in tau
+  double time_unit = 1;             ///< number of tau in one time unit
   Text highlight = {};              ///< legend of the highlighted orbit
-  Text panel = {};                  ///< name of a panel among several, shown before the view's own title
+  Text panel = {};                  ///< name of this panel among several, before the view's own title
 };
 
 /// Options of a drawing.
 struct PortraitStyle {
-  enum class Arrows { time, one, none } arrows = Arrows::time;  ///< heads at equal times, one on each orbit, none
-  enum class Field { none, motion, regularised } field = Field::none;  ///< directions of nothing, of (2.6), of (2.7)
-  bool invariant = true;       ///< draw the axes and the ray, which are the nullclines
+  enum class Arrows { time, one, none } arrows = Arrows::time;  ///< heads: at equal times, one on each orbit, or none
+  enum class Field { none, motion, regularised } field = Field::none;  ///< needles: none, of (2.6) or of (2.7)
+  bool invariant = true;       ///< draw the axes and the invariant ray; they are the nullclines
   bool colour_by_time = true;  ///< colour orbits by the time left, unless two laws are compared
   bool asked = true;      ///< true: draw the highlighted orbit and the orbits through the requested points; false: the
                           ///< caller draws these orbits
@@ -35,17 +35,17 @@ struct PortraitStyle {
   AskedSize size = {};    ///< an empty side follows from the view
 };
 
-/// Returns the name of the law, and of the law compared with it, for a title.
+/// Returns the name of the law for a title, with the name of the compared law if there is one.
 std::string law_names(const PhasePortrait& portrait);
 
 /// The map of a panel from states to points of its axes, and back.
 struct PanelMap {
   using Instant = PortraitOrbit::Instant;
 
-  /// Returns the point of a state on an orbit. Its beginning `start` gives the side of u = 0 at rest.
+  /// Returns the point of a state on an orbit. At rest, the first state of the orbit determines the side of u = 0.
   std::function<Point(const Instant& at, const Instant& start)> place;
-  /// Returns the state at a point, without its time left; empty if there is none. The function is null if points are
-  /// times; in the view of time, x is the fraction of the stop time that has passed.
+  /// Returns the state at a point, without its time left; empty if there is none. The function is null if the axes are
+  /// times. In the view time, x is the fraction of the stop time that has passed.
   std::function<std::optional<Instant>(Point)> state = {};
 
   Polyline line(const PortraitOrbit& orbit) const;
@@ -54,8 +54,8 @@ struct PanelMap {
 /// Draws the portrait in its view. All numbers come from the portrait.
 Figure draw(const PhasePortrait& portrait, const PortraitCaption& caption = {}, PortraitStyle style = {});
 
-/// Draws portraits that are compared (phase_portraits), each in a panel with its name, with one scale of colours.
-/// @param captions  one for each portrait; title and subtitle are those of the first
+/// Draws portraits that are compared (phase_portraits), each in a panel with its name, with one colour scale.
+/// @param captions  one for each portrait; title and subtitle are taken from the first
 /// @throws std::domain_error  for more than 6 portraits, and in a view of several panels
 Figure draw_together(const std::vector<PhasePortrait>& portraits, std::vector<PortraitCaption> captions,
                      const PortraitStyle& style = {});

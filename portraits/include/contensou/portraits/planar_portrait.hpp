@@ -14,23 +14,24 @@
 
 namespace contensou::portraits {
 
-/// The plane of any planar system as data, without a drawing. An isochrone joins states with the same time to the
-/// centre of the scaling, or to infinity.
+/// The plane of any planar system as data, without a drawing. An isochrone is a line of states with the same time to
+/// the centre of the scaling, or to infinity.
 struct PlanarPortrait : Portrait {
   std::string name;  ///< name of the system
   reduction::PlanarReduction plane;
-  // Only without a scaling:
+  // Only for a system without a scaling:
   std::vector<reduction::Equilibrium> equilibria = {};  ///< equilibria in the window
   std::vector<PortraitOrbit> separatrices = {};         ///< separatrices of the saddles
   std::vector<PortraitOrbit> invariant = {};            ///< curves on which the inverse integrating factor V is 0
 };
 
-/// Computes the portrait. Each orbit goes through the middle of the widest gap that is left. The default window is a
-/// square about the centre, or about the origin, that contains the requested points; without points |u|, |v| <= 1.
+/// Computes the portrait. Each orbit goes through the middle of the widest gap between earlier orbits. The default
+/// window is a square about the centre, or about the origin, that contains the requested points. Without points it is
+/// |u|, |v| <= 1.
 ///
-/// A scaling makes every orbit, and every isochrone, the scaled curve of its sector. An inverse integrating factor
-/// alone gives every orbit by a quadrature, without isochrones. A plane without a reduction (reduction::by_steps) has
-/// orbits by steps in time.
+/// With a scaling, every orbit is a scaled copy of the curve of its sector, and isochrones are copies likewise. With an
+/// inverse integrating factor alone, orbits are computed by quadrature, and there are no isochrones. Without a
+/// reduction (reduction::by_steps), orbits are computed by steps in time.
 ///
 /// @param name  name of the system, for titles
 /// @throws std::domain_error  if the window is empty or not finite, if a point lies outside it or the field has no
@@ -41,12 +42,12 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// Returns the portrait as JSON.
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
-/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; if requested highlight and through (orbits). Without a scaling:
-/// centre null, form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}], separatrices (orbits)
-/// and invariant [{u, v}], the curves V = 0.
+/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; on request highlight and through (orbits). Without a scaling
+/// centre is null, and there are also form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}], separatrices
+/// (orbits) and invariant [{u, v}], the curves V = 0.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
-/// Returns equilibria as members of JSON, as to_json has them.
+/// Returns equilibria as the JSON member that to_json contains.
 /// @tparam Json  nlohmann::ordered_json
 template <class Json>
 Json equilibria_json(const std::vector<reduction::Equilibrium>& equilibria) {
@@ -65,7 +66,7 @@ Json equilibria_json(const std::vector<reduction::Equilibrium>& equilibria) {
 /// isochrone; tau is the time left.
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
-/// Draws the portrait. Both kinds of directions are those of the field.
+/// Draws the portrait. In PortraitStyle::Field, motion and regularised both mean the directions of the field.
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style = {});
 
 }  // namespace contensou::portraits

@@ -7,17 +7,17 @@
 
 namespace contensou::portraits {
 
-/// Draws, for a law and all r = gamma mu^2/chi, the limits of motions in three panels.
+/// Draws, for a law and all r = gamma mu^2/chi, the limits of k = v/(mu |u|) in three panels:
 ///
 ///   - the invariant rays: their k* against r;
-///   - D = Phi - r k Psi divided by Phi + r k Psi, with the direction in which k moves, for one r below r_low, one
-///     between r_low and r_high, and one above r_high;
-///   - m(k) of the stop time for the same r, between its bounds if the law states them.
+///   - D = Phi - r k Psi divided by Phi + r k Psi, with the direction of motion of k, for one r below r_low, one
+///     between r_low and r_high, and one above r_high (TerminalRatios::low and high);
+///   - the coefficient m(k) of the stop time for the same r, between its bounds if the law states them.
 ///
-/// A drive rho moves the rays to Phi = rho + r k Psi; the rays without it are drawn beside them. Then m grows as 1/k
-/// towards k = 0.
+/// A drive rho moves the rays to Phi = rho + r k Psi. The rays without the drive are drawn beside them. With a drive m
+/// grows as 1/k towards k = 0.
 ///
-/// @param r      r of a body, marked in the first panel and drawn in the others
+/// @param r      r of a body, marked in the first panel and drawn in the other panels
 /// @param drive  rho of ReducedSystem
 /// @throws std::domain_error  unless r is positive and finite; for a drive as ReducedSystem
 Figure rays_figure(const reduction::Law& law, std::optional<double> r = {}, const AskedSize& size = {},

@@ -12,8 +12,8 @@
 
 namespace contensou::portraits {
 
-/// An orbit in canonical coordinates as data: points (x, p) of a strip. The symmetry shifts p alone. So a copy of an
-/// orbit has the same points with another p.
+/// An orbit in canonical coordinates as data: points (x, p) of a strip, where the symmetry shifts p alone. So a scaled
+/// copy of an orbit has the same points with another p.
 struct ReducedOrbits {
   Point start;
   /// Orbit of the start, in the direction of the motion; a focus has a line for each turn.
@@ -23,15 +23,16 @@ struct ReducedOrbits {
   std::function<Point(Point)> in_plane = {};  ///< maps a point of the strip to (u, v)
 };
 
-/// Largest difference of p from the start's, above and below, to which orbits are followed.
+/// Orbits are followed to this distance of p from its value at the start, above and below.
 inline constexpr double orbits_beyond = 12;
 
-/// Values of p of the copies in pictures, relative to the start's: the copies are 1/8 to 8 times as large.
+/// Values of p of the copies in pictures, relative to p of the start. The copies are 1/8 to 8 times as large.
 inline constexpr std::array copy_shifts{-3 * std::numbers::ln2, -2 * std::numbers::ln2, -std::numbers::ln2,
                                         std::numbers::ln2,      2 * std::numbers::ln2,  3 * std::numbers::ln2};
 
-/// Returns orbits of a system solved by its scaling, with q and p of PlanarCanonical; q continues beyond pi. For (2.6)
-/// solved by its flow it returns the orbit of the start alone, with x = ln k and p = ln |v|.
+/// Returns orbits of a system solved by its scaling, with q and p of PlanarCanonical as x and p; q continues beyond pi.
+/// For the equations of motion (2.6) solved by their flow it returns the orbit of the start alone, with x = ln k and p
+/// = ln |v|.
 /// @throws std::domain_error  for a start on a ray or at the centre; for a field with borders, except (2.6)
 ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start);
 

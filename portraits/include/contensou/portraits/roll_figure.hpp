@@ -17,7 +17,7 @@ struct RollCurve {
   Eigen::ArrayXd slip;                     ///< speed of the contact point
   Eigen::ArrayXd rim;                      ///< R |omega_z|
   Eigen::ArrayXd speed;                    ///< speed of the centre
-  double rolls;                            ///< time from which the ball visibly rolls, or rests
+  double rolls;                            ///< time from which on the ball visibly rolls, or rests
   Eigen::Matrix3Xd angular_velocity = {};  ///< z up; needed for a film
 };
 
@@ -26,18 +26,19 @@ struct RollPicture {
   Text title;
   Text subtitle;
   RollCurve ball;
-  RollCurve textbook;  ///< motion from the same start under the uncoupled model: sliding and spinning independent
+  RollCurve textbook;  ///< motion from the same start under the uncoupled model: sliding and spinning are independent
   AskedSize size = {};
-  double slow = 0;          ///< factor by which a film is slower than the ball; 0: no film
+  double slow = 0;          ///< factor by which a film is slower than the real motion; 0: no film
   bool lies_flat = false;   ///< the body rests when its slip ends, because it does not roll
-  bool whole_path = false;  ///< draw up to the last row; false: up to a little after the ball rolls
+  bool whole_path = false;  ///< true: draw all rows; false: up to a little after the ball rolls
 };
 
-/// Draws the path until a little after the ball rolls, and the speeds against time up to the stop; the uncoupled model
-/// dashed.
+/// Draws the path until a little after the ball rolls, and the speeds against time up to the stop. Curves of the
+/// uncoupled model are dashed.
 ///
-/// The time axis is logarithmic if the spin outlives the slip by far. The path is to scale unless it is too flat; the
-/// figure then says how it is stretched or cut. A straight path is drawn against time. A ball in place has no path.
+/// The time axis is logarithmic if the spin lasts much longer than the slip. The path is to scale unless it is too
+/// flat; then the figure states how it is stretched or cut. A straight path is drawn against time. A ball that stays in
+/// place has no path.
 ///
 /// @throws std::domain_error  if a column has fewer than 2 rows or columns differ in length
 Figure roll_figure(const RollPicture& picture);
@@ -49,11 +50,11 @@ struct FilmPace {
 };
 /// Returns the pace of a film of a motion up to the time `end` in s, with 25 frames a second. The film runs in real
 /// time, or a round number of times slower or faster, so that it lasts 4 to 10 s.
-/// @param asked  number of frames, which replaces the pace
+/// @param asked  number of frames; it replaces this rule
 FilmPace film_pace(double end, std::optional<Eigen::Index> asked = {});
 
-/// Draws the frames of a film, one for each row of the columns: the path and the speeds so far, and both balls from
-/// above with marks that turn, with the words slide or roll.
+/// Draws the frames of a film, one for each row of the columns. A frame shows the path and the speeds so far, and both
+/// balls from above with marks that turn, with the words slide or roll.
 ///
 /// @throws std::domain_error  as roll_figure, and for columns without angular velocities
 std::vector<Figure> roll_film(const RollPicture& picture);

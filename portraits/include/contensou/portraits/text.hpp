@@ -7,11 +7,11 @@
 
 namespace contensou::portraits {
 
-/// Characters of one look, in UTF-8.
+/// Characters with the same look, in UTF-8.
 struct Run {
   std::string words;
   bool italic = false;
-  int level = 0;  ///< 1: a power, -1: an index, both smaller; 0: on the line
+  int level = 0;  ///< 1: a power; -1: an index; both are smaller; 0: on the line
 
   bool operator==(const Run&) const = default;
 };
@@ -30,7 +30,7 @@ class Text {
   Text(const char* words) : Text(std::string_view(words)) {}
   // NOLINTEND(google-explicit-constructor)
 
-  /// Returns the runs; neighbours differ in their look, and none is empty.
+  /// Returns the runs. Neighbouring runs differ in their look, and no run is empty.
   const std::vector<Run>& runs() const { return runs_; }
   bool empty() const { return runs_.empty(); }
   /// Returns the characters without their look.
@@ -46,24 +46,24 @@ class Text {
   std::vector<Run> runs_;
 };
 
-/// Returns a formula on one line that is not broken. Latin and Greek letters are italic, with the spaces of a product
-/// such as N f; other characters are upright.
+/// Returns a formula on one line that is never broken. Latin and Greek letters are italic, and the spaces of a product
+/// such as N f are kept. Other characters are upright.
 Text math(std::string_view formula);
 
 /// Returns the text as an index (sub) or as a power (sup).
 Text sub(const Text& text);
 Text sup(const Text& text);
 
-/// Returns words between which no line is broken: their spaces become no-break spaces (U+00A0), which look the same.
+/// Returns words between which no line is broken. Their spaces become no-break spaces (U+00A0), which look the same.
 std::string unbroken(std::string_view words);
 
 /// Returns the approximate width of a text, in sizes of letters.
 double text_width(const Text& text);
 
-/// Returns the words with a minus sign for each hyphen before a digit that is not within a word.
+/// Returns the words with a minus sign in place of each hyphen before a digit, except within words.
 std::string with_minus_signs(std::string_view words);
 
-/// Returns a foreign text, such as a name, cut after a number of characters, with an ellipsis.
+/// Returns a text of the user, such as a name, cut after a number of characters, with an ellipsis.
 std::string shortened(std::string_view words, std::size_t longest = 60);
 
 /// Returns the title of a picture of one body: its name, its mu and its law.

@@ -6,11 +6,11 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch by its definition, (1.1) and (1.2) of Zh98: an integral of the local slip over
-/// the disc. It is slow and shares no formula with any law, so tests compare the laws with it.
+/// Coulomb friction of a circular patch by its definition: an integral of the local slip over the disc, equations (1.1)
+/// and (1.2) of V. F. Zhuravlev, 1998 (Zh98). It is slow and shares no formula with any law, so tests compare the laws
+/// with it.
 ///
 /// The unit of length is the patch radius eps. Only the ratio of the pressure to the load matters.
-/// Unit of length: the radius eps of the patch. Pressures are relative; only their ratio to the load matters.
 /// Accuracy  1e-12 of the largest value (1 for Phi, Psi(0) for Psi), for pressures that are smooth inside the disc and
 ///           a power of 1 - rho^2, larger than -1, at its edge.
 class ContactPatch {
@@ -19,17 +19,17 @@ class ContactPatch {
   /// @throws std::domain_error  if the load, the integral of the pressure over the disc, is not positive and finite
   explicit ContactPatch(std::function<double(double)> pressure);
 
-  /// Returns force and moment by (1.1), in polar coordinates about the centre of the patch.
+  /// Returns force and moment by the double integral (1.1), in polar coordinates about the centre of the patch.
   /// @throws std::domain_error  for a slip that no law accepts (require_slip)
   Resistance over_disc(Slip slip) const;
 
-  /// Returns force and moment by (1.2), in polar coordinates (q, theta) about the centre of velocity, which lies at the
-  /// distance k. It includes the factor cos(theta), missing in print, and M = M^h - k F; theta goes from 0 to pi for k
-  /// <= 1.
+  /// Returns force and moment by (1.2), the integral over chords, in polar coordinates (q, theta) about the centre of
+  /// velocity, which lies at the distance k from the centre of the patch. The code corrects two errors of print: it
+  /// includes the factor cos(theta), and M = M^h - k F. For k <= 1, theta goes from 0 to pi.
   /// @param k  > 0, finite
   Resistance over_chords(double k) const;
 
-  /// Returns Q_n of (1.2) divided by the load: the integral of pressure q^n over the chord from q_- to q_+.
+  /// Returns the moment Q_n of (1.2) divided by the load: the integral of pressure q^n over the chord from q_- to q_+.
   /// @param n      exponent, >= 0
   /// @param theta  angle of the chord with the line through both centres; 0 if the chord misses the patch
   double chord_moment(int n, double theta, double k) const;

@@ -8,19 +8,19 @@
 
 namespace contensou::reduction {
 
-/// Friction whose force and moment lie on an ellipse, Phi^2 + (Psi/C)^2 = 1, with the velocity normal to it: the limit
-/// surface of pushing and grasping, and the elliptic friction cone of physics engines.
+/// Friction whose force Phi and moment Psi lie on an ellipse, Phi^2 + (Psi/C)^2 = 1, with the velocity normal to the
+/// ellipse. It is the limit surface of pushing and grasping, and the elliptic friction cone of physics engines.
 ///
 /// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe and M. R. Cutkosky, "Practical
 ///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557,
 ///           doi:10.1177/027836499601500603.
-///           Every orbit is a power, v ~ w^(1/(r C^2)), and the stop time one integral (README (R35)).
-/// Accuracy  2 eps for every k.
+/// Every orbit is a power, v ~ w^(1/(r C^2)) with r of ReducedSystem; the stop time is one integral (README (R35)).
+/// Accuracy  2 eps relative for every k.
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 class EllipticLaw {
  public:
   static constexpr SlidingBounds sliding_bounds{0, 1};
-  /// Psi(0) of Hertz's pressure, 3 pi/16.
+  /// The moment Psi(0) of pure pivoting under Hertz's pressure, 3 pi/16.
   static constexpr double hertz_moment = 3 * std::numbers::pi / 16;
   static constexpr double min_moment = 1e-3;
 
@@ -33,7 +33,7 @@ class EllipticLaw {
 
   double moment() const { return moment_; }
 
-  /// Returns no k, because both functions are smooth.
+  /// Returns an empty list: both functions are smooth.
   static std::vector<double> kinks() { return {}; }
 
   /// Returns force and moment. Throws as require_slip.

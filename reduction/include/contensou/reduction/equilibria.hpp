@@ -11,15 +11,15 @@
 
 namespace contensou::reduction {
 
-/// A linear map R of the plane that turns motions back: f(R x) = -R f(x).
+/// A linear map R of the plane that reverses motions in time: f(R x) = -R f(x).
 struct Reversor {
-  std::string_view name;  ///< the image of (u, v), such as "(u, -v)"
+  std::string_view name;  ///< the point to which R moves (u, v), such as "(u, -v)"
   Eigen::Matrix2d matrix;
 };
 
 /// Finds the reversors among (u, -v), (-u, v), (v, u), (-v, -u) and (-u, -v).
 ///
-/// The equation is compared, except for rounding, at points whose coordinates have the sizes of those of `around`.
+/// The equation is tested up to rounding, at points whose coordinates have the magnitudes of those of `around`.
 /// @param around  not 0
 std::vector<Reversor> find_reversors(const SmoothField& field, const Eigen::Vector2d& around);
 
@@ -28,21 +28,22 @@ struct Equilibrium {
   Eigen::Vector2d x;
   Eigen::Matrix2d slopes;  ///< Jacobian of the field
 
-  /// True if the eigenvalues are imaginary and x is a center: x lies on the axis of a reflection that is a reversor,
-  /// which closes motions that meet the axis twice, or V is not 0 there, so that they are levels of H.
+  /// True if the eigenvalues are imaginary and x is proved to be a center. There are two proofs. Either x lies on the
+  /// axis of a reflection that is a reversor, so that motions that meet the axis twice close. Or the inverse
+  /// integrating factor V is not 0 at x, so that motions are level lines of the first integral H.
   bool closes = false;
 
   /// Returns the eigenvalues of the Jacobian, the one with the smaller real or imaginary part first.
   std::pair<std::complex<double>, std::complex<double>> eigenvalues() const;
 
-  /// Returns the type by the linear part, one of planar_kinds: "saddle", "stable node", "unstable node", "stable
-  /// focus", "unstable focus", "center" (imaginary eigenvalues and `closes`), "center or focus" (imaginary
-  /// eigenvalues), or "degenerate" (an eigenvalue 0).
+  /// Returns the type by the linear part, one of planar_kinds. Real eigenvalues: "saddle", "stable node" or "unstable
+  /// node". Complex eigenvalues: "stable focus" or "unstable focus". Imaginary eigenvalues: "center" if `closes`, else
+  /// "center or focus". An eigenvalue 0: "degenerate".
   std::string_view kind() const;
 };
 
 /// Finds the isolated equilibria in a rectangle by Newton's method from a grid of 40 x 40 points.
-/// @return equilibria in the order of u, then v; those closer than 1e-6 of the rectangle count as one
+/// @return equilibria in the order of u, then v; two closer than 1e-6 of the rectangle's size count as one
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::Vector2d& low,
                                          const Eigen::Vector2d& high);
 
@@ -50,7 +51,7 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::
 /// start: the usual window of a picture.
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::Vector2d& start);
 
-/// Sets `closes` of the equilibria at which V of this system is not 0.
+/// Sets `closes` of the equilibria at which the factor V of this system (PlanarReduction::factor) is not 0.
 void prove_centers(std::vector<Equilibrium>& equilibria, const PlanarReduction& plane);
 
 }  // namespace contensou::reduction

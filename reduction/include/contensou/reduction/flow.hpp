@@ -16,7 +16,7 @@ class StopTimeTable;
 
 /// A stop time, its error and its cost.
 struct StopTime {
-  double tau;        ///< the paper's time tau; infinity if it exceeds the largest double
+  double tau;        ///< the time tau of ReducedSystem; infinity if it exceeds the largest double
   double accuracy;   ///< bound of the relative error of tau
   long evaluations;  ///< number of calls of the friction law; 0 for a closed form
   Bounds bounds;     ///< ReducedSystem::stop_time_bounds
@@ -25,7 +25,8 @@ struct StopTime {
 /// The motions of one body under one friction law, solved once for all initial states.
 ///
 /// A body slides at the speed v and pivots at the speed u = R omega_z on a circular contact patch of radius mu R. Dry
-/// friction, Phi and Psi of the Law, slows both until they vanish at one time, the stop time, Zh98 (2.6):
+/// friction slows both speeds. Phi and Psi are its force and moment (Law). Both speeds vanish at one time, the stop
+/// time. The equations of motion are (2.6) of V. F. Zhuravlev, 1998 (Zh98):
 ///   dv/dtau = -(2 chi/(3 pi)) Phi(k),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|)
 /// The time tau is (3 pi/2) f g t with the coefficient of friction f; chi and gamma are those of Inertia. The equations
 /// keep their form when u, v and tau are multiplied by one factor. So every motion is a scaled copy of one of a few
@@ -43,7 +44,7 @@ struct StopTime {
 ///
 /// Accuracy  StopTime::accuracy: 1e-15 in closed form for mu <= 1; by quadrature 3e-15 for a smooth law.
 /// Cost      0.2 ms for a law without closed form; the table of stop_times 10 ms, once.
-/// Source    V. F. Zhuravlev, Prikl. Mat. Mekh. 62 (1998), for the model; reduction/README.md for all formulas.
+/// Source    Zh98 (Prikl. Mat. Mekh. 62) for the model; reduction/README.md for all formulas.
 class Flow {
  public:
   /// Solves the system by the law's closed form if there is one, else by quadrature.
@@ -53,9 +54,9 @@ class Flow {
   /// Solves the system by quadrature even if the law has a closed form.
   static Flow by_quadrature(const ReducedSystem& system);
 
-  /// Takes the solution of the caller in place of a closed form. Its curves are not tested here: verify does that.
-  /// @throws std::domain_error  if the curves belong to another r than system.r(), do not cover every k, or tend to
-  ///                            another ratio than terminal() contains
+  /// Takes a solution of the caller in place of a closed form. Its curves are not tested here; verify() tests them.
+  /// @throws std::domain_error  if the curves are for another r than system.r(), do not cover every k, or tend to a
+  ///                            ratio that terminal() does not contain
   Flow(const ReducedSystem& system, SimilaritySolution solution);
 
   const ReducedSystem& system() const;
@@ -63,7 +64,7 @@ class Flow {
   /// Returns the invariant rays and the limits of k = v/(mu |u|) at the stop.
   const TerminalRatios& terminal() const;
 
-  /// Returns the curves of which every orbit off the invariant half-lines is a scaled copy.
+  /// Returns the curves. Every orbit is a scaled copy of one of them, except on half-lines of PhasePlane.
   const SimilaritySolution& solution() const;
 
   /// Returns true if solution() was found by quadrature.
@@ -73,22 +74,24 @@ class Flow {
   /// @throws std::domain_error  if start is not a state (finite, v >= 0)
   StopTime stop_time(State start) const;
 
-  /// Returns the stop time and its gradient, README (R10), (R57), (R58). No further start needs a new integration.
+  /// Returns the stop time and its gradient, README (R10), (R57), (R58). Only the first start needs an integration.
   /// @throws std::domain_error  if start is not a state, or is at rest, where there is no gradient
   ///
-  /// Accuracy  about 100 eps of tau for u by_u, v by_v, mu by_mu and the like. Beside a fast slide, k > 1000, the
+  /// Accuracy  about 100 eps of tau for the products u by_u, v by_v, mu by_mu and so on. In a fast slide, k > 1000, the
   ///           relative error of by_u is 1e-9 (exact and elliptic law: 1e-11), up to k = 1e19.
-  /// Cost      1 ms for the first start; then that of a stop time.
+  /// Cost      1 ms for the first start; the cost of a stop time for each further start.
   StopTimeGradient stop_time_gradient(State start) const;
 
   /// Returns the motion from this start.
   /// @throws std::domain_error  if start is not a state, or unless 1e-300 <= r <= 1e250
   Orbit orbit(State start) const;
 
-  /// Returns ln |u| - ln w(k), the first integral of (2.6) and (2.7).
+  /// Returns ln |u| - ln w(k), the first integral of the equations of motion. Here w(k) is the curve
+  /// SimilarityCurve::ln_w.
   ///
   /// It is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to it. Its
-  /// constant changes across an invariant ray. Pade: ln [ |u| k^(-a) (A + B k)^b ] up to a constant (README (R8)).
+  /// additive constant changes across an invariant ray. Pade law: ln [ |u| k^(-a) (A + B k)^b ] up to a constant
+  /// (README (R8)).
   ///
   /// @param ln_v  natural logarithm of v; v itself underflows near the stop
   /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; on an invariant ray (k within 4 eps)
@@ -96,18 +99,18 @@ class Flow {
   /// Accuracy  absolute, a few eps of |ln u| and of |ln w|.
   double log_first_integral(double u, double ln_v) const;
 
-  /// Number of starts from which on stop_times makes a table.
+  /// Smallest number of starts for which stop_times makes a table.
   static constexpr std::size_t many_starts = std::size_t{1} << 15;
 
   /// Computes the stop times of starts (u0[i], v0[i]).
-  ///
-  /// Fewer than many_starts are computed one by one. For more, stop_times makes a table of polynomials once and tests
-  /// each against the solution (README, Table). A start that stop_time rejects becomes NaN.
+  /// Starts fewer than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
+  /// once and tests each polynomial against the solution (reduction/numerics.md, Table). A rejected start becomes NaN.
   ///
   /// @param u0, v0   speeds of the starts, of any size; u0 of either sign, v0 >= 0
-  /// @param tau      stop times, one for each start; may be u0 or v0 itself, but must not overlap them otherwise
+  /// @param tau      stop times, one for each start; may be the array u0 or v0 itself, but must not overlap them
+  ///                 otherwise
   /// @param threads  number of threads, >= 1, including the calling one
-  /// @param whole    total number of starts, if these are a part of them
+  /// @param whole    total number of starts, if the arrays contain only a part of all starts
   /// @throws std::domain_error  if the three sizes differ, or threads is 0
   ///
   /// Accuracy  the table adds at most 4 eps to the error of stop_time.
@@ -116,7 +119,8 @@ class Flow {
   void stop_times(std::span<const double> u0, std::span<const double> v0, std::span<double> tau, unsigned threads = 1,
                   std::size_t whole = 0) const;
 
-  /// Returns the share of the polynomials that failed their test. Their starts are computed one by one, which is slow.
+  /// Returns the share of the table's polynomials that failed their test. Starts in their ranges are computed one by
+  /// one, which is slow.
   /// @param whole  total number of starts; for fewer than many_starts the result is 0
   double refused(std::size_t whole) const;
 

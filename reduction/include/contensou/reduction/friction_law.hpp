@@ -19,7 +19,7 @@ namespace contensou::reduction {
 /// force F = f N Phi(k) against the sliding and a moment M = f N eps Psi(k) against the pivoting, with k = v/w, the
 /// load N, the coefficient of friction f and the patch radius eps.
 ///
-/// The library requires of every law, and Law's constructor tests the first three at about 40 slips to 1e-6:
+/// The library requires five properties of every law. Law's constructor tests three at about 40 slips to 1e-6:
 ///   - degree 0: Phi and Psi depend on the ratio k = sliding/pivoting alone;
 ///   - Phi > 0 and Psi > 0 for k > 0, Psi(0) > 0;
 ///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0 and 1 - Psi/Psi(0) = O(k) at 0; k Psi has a limit and k (1 - Phi) is
@@ -30,31 +30,32 @@ namespace contensou::reduction {
 /// Optional members, used if they exist:
 ///   - `static constexpr std::string_view name`, or a member function `name()`, for messages and tables;
 ///   - `double moment_deficit(Slip) const`, 1 - Psi/Psi(0) without the subtraction (keeps digits for k << 1);
-///   - `double force_deficit(Slip) const`, 1 - Phi without the subtraction (keeps digits for k >> 1; a drive next to 1
-///     leaves no other part of friction);
+///   - `double force_deficit(Slip) const`, 1 - Phi without the subtraction (keeps digits for k >> 1; needed if a drive
+///     next to 1 nearly cancels the friction);
 ///   - `static constexpr SlidingBounds sliding_bounds`, the bounds of the stop time under this law;
 ///   - `kinks()`, every k at which Phi or Psi is not smooth; by default 1, at which the centre of velocity is on the
-///     rim. A missing kink costs accuracy of the steppers, but only time of the curves.
+///     rim. A missing kink makes the steppers less accurate and the curves slower.
 ///
-/// A law contains no solution of the motion: closed_solution finds closed forms by the type of the law.
+/// A law contains no solution of the motion. closed_solution chooses a closed form by the type of the law.
 template <class L>
 concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip slip) {
   { law(slip) } -> std::convertible_to<Resistance>;
 };
 
-/// Bounds of the coefficient m in tau* = P + m S (README (R6)) over all starts. tau* is the stop time; P and S are the
-/// stop times of pure pivoting and pure sliding.
+/// Bounds, over all starts, of the coefficient m in the stop time tau* = P + m S (reduction/README.md (R6)). P and S
+/// are the stop times of pure pivoting and pure sliding.
 struct SlidingBounds {
   double min;
   double max;
 };
 
-/// Any friction law as one value, the type that the library computes with. Copies are cheap: they share one function.
+/// Any friction law as one value: the library computes with this type. Copies are cheap: they share one function.
 ///
 ///     const Law exact = HertzLaw{};
 ///     exact({.sliding = 1, .pivoting = 2}).force;  // Phi at k = 1/2
 ///
-/// Accuracy  that of the law given; deficits that the law does not state are differences from 1.
+/// Accuracy  equal to the accuracy of the wrapped law; if the law has no deficit functions, deficits are differences
+///           from 1.
 class Law {
  public:
   /// Copies and tests a law.
@@ -90,7 +91,7 @@ class Law {
   Law& operator=(const Law&) = default;
   ~Law() = default;
 
-  /// Returns the dimensionless force Phi and moment Psi. Throws as the law given.
+  /// Returns the dimensionless force Phi and moment Psi. Throws as the wrapped law.
   Resistance operator()(Slip slip) const { return function_->resistance(slip); }
 
   /// Returns 1 - Psi/Psi(0).
@@ -104,7 +105,7 @@ class Law {
 
   const std::string& name() const { return function_->name; }
 
-  /// Returns the law given if its type is L itself, else null. A law derived from L is another law.
+  /// Returns the wrapped law if its type is L itself, else null. A law derived from L has another type.
   template <FrictionLaw L>
   const L* as() const {
     const auto* function = dynamic_cast<const FunctionOf<L>*>(function_.get());
@@ -124,7 +125,7 @@ class Law {
   const std::vector<double>& kinks() const { return function_->kinks; }
 
  private:
-  /// The law given, without its type, and the constants that are read from it once.
+  /// The wrapped law without its type, and the constants that are read from the law once.
   struct Function {
     virtual ~Function() = default;
     virtual Resistance resistance(Slip slip) const = 0;

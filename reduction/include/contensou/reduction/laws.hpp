@@ -8,13 +8,13 @@
 
 namespace contensou::reduction {
 
-/// Returns the two laws of Zh98: the exact one, (1.3) and (1.5), and its Pade form, (1.4) and (1.6).
+/// Returns the two laws of V. F. Zhuravlev, 1998 (Zh98): exact, (1.3) and (1.5), and Pade, (1.4) and (1.6).
 const std::vector<Law>& paper_laws();
 
-/// Returns the names of all named laws, those of the paper first.
+/// Returns the names of all named laws; the two laws of the paper come first.
 std::vector<std::string_view> names_of_laws();
 
-/// Returns all named laws, in the order of names_of_laws. It makes every one, and some need tables; find_law makes one.
+/// Returns all named laws, in the order of names_of_laws. Some laws need tables; find_law makes a single law.
 const std::vector<Law>& named_laws();
 
 /// Returns a description of the law with that name, in a few words; empty if there is none.

@@ -18,23 +18,25 @@ class Flow;
 /// The motion from one start to its stop, made by Flow::orbit.
 ///
 /// The motion is the similarity curve of the system, scaled to pass through the start. There are no time steps: a state
-/// at any time is one root of the formula for the time, README (R4), (R5). Slip length and angle follow (R13), (R38),
-/// (R50); the regularised time beta follows (R7). Pure sliding (u0 = 0), pure pivoting (v0 = 0), the invariant ray and
-/// rest are ordinary starts. Times and speeds have one unit, that of the start; lengths are speeds squared.
+/// at any time is one root of the formula for the time, README (R4), (R5). Slip length and angle follow from (R13),
+/// (R38), (R50); the regularised time beta (ReducedSystem::regularising_weight) follows from (R7). Pure sliding (u0 =
+/// 0), pure pivoting (v0 = 0), the invariant ray and rest are ordinary starts. Times and speeds have the unit of the
+/// start's speeds; lengths are speeds squared.
 ///
 /// Accuracy  u and ln v 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference); beta
-///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to stop_time() -
-///           tau, a difference that loses digits; at_time_left() does not.
+///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the
+/// difference
+///           stop_time() - tau, which loses digits; at_time_left() keeps them.
 class Orbit {
  public:
-  /// The speeds and the time that are left until the stop.
+  /// The speeds and the time left until the stop.
   struct Remaining {
     double u, v, ln_v;
     double tau_left;
   };
 
-  /// The speeds at one time, and the integrals of the speeds from the start to this time. Divided by
-  /// (3 pi/2) f g, tau is a time, slip_length a length and `turned` R times an angle.
+  /// The speeds at one time, and the integrals of the speeds from the start to this time. Divided by (3 pi/2) f g, tau
+  /// is a time, slip_length is a length, and `turned` is R times an angle.
   struct Instant {
     double u, v, ln_v;
     double slip_length;  ///< the integral of v dtau
@@ -47,7 +49,7 @@ class Orbit {
   /// Returns a bound of the relative error of stop_time().
   double accuracy() const;
 
-  /// Returns the number of calls of the law that the curve took.
+  /// Returns the number of calls of the law that the computation of the curve took.
   long evaluations() const;
 
   /// Returns the state at the time tau after the start; rest if tau is beyond the stop.
@@ -58,19 +60,20 @@ class Orbit {
   /// @throws std::domain_error  unless 0 <= time_left <= stop_time()
   OrbitPoint at_time_left(double time_left) const;
 
-  /// Returns the state at a coordinate xi of the curve; xi falls from start_coordinate() to -infinity.
-  /// @throws std::domain_error  on an axis, or if xi is above the start's
+  /// Returns the state at a coordinate xi of the curve (TerminalChart); xi falls from start_coordinate() to -infinity.
+  /// @throws std::domain_error  on an axis, or if xi is larger than start_coordinate()
   OrbitPoint at_coordinate(double xi) const;
 
-  /// Returns speeds and time left at a coordinate xi. Next to the stop this time keeps the digits that stop_time() -
-  /// tau loses. The cost is half of at_coordinate. Throws as at_coordinate.
+  /// Returns speeds and time left at a coordinate xi. Next to the stop this time keeps the digits that the difference
+  /// stop_time() - tau loses. The cost is half of at_coordinate. Throws as at_coordinate.
   Remaining remaining_at_coordinate(double xi) const;
 
   /// Returns the state at which ln k has the given value, k = v/(mu |u|).
-  /// @throws std::domain_error  on an axis, or if ln_k is not between the start's and the terminal ratio's
+  /// @throws std::domain_error  on an axis, or if ln_k is not between start_log_ratio() and ln k at the stop
   OrbitPoint at_log_ratio(double ln_k) const;
 
-  /// Returns speeds, slip length and angle at the time tau, by one root. It omits beta, which costs more than the rest.
+  /// Returns speeds, slip length and angle at the time tau, by one root. It omits beta, the most costly number of a
+  /// state.
   /// Beyond the stop the speeds are 0.
   /// @throws std::domain_error  as at_time
   Instant instant(double tau) const;
@@ -94,13 +97,13 @@ class Orbit {
   /// Accuracy  1e-10 of the integral of the absolute value.
   double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;
 
-  /// Returns true if the start lies on u = 0 or v = 0 and k stays constant. With a drive it changes on v = 0.
+  /// Returns true if the start lies on an axis, u = 0 or v = 0, and k stays constant. With a drive k changes on v = 0.
   bool on_axis() const { return u0_ == 0 || (v0_ == 0 && system_.drive() == 0); }
 
   /// Returns ln k at the start; +infinity for u0 = 0; for v0 = 0 -infinity, or with a drive least_log_ratio.
   double start_log_ratio() const { return ln_k0_; }
 
-  /// Returns the coordinate xi of the start; without meaning on an axis.
+  /// Returns the coordinate xi of the start; meaningless on an axis.
   double start_coordinate() const { return xi0_; }
 
   /// Returns the curve of which the motion is a scaled copy.
@@ -125,7 +128,7 @@ class Orbit {
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double fraction_left) const;
 
-  /// The speeds as fractions of those at the start, w = mu |u| and v, and the logarithms of these fractions.
+  /// The speeds w = mu |u| and v as fractions of the speeds at the start, and the logarithms of these fractions.
   struct Progress {
     double ln_w, ln_v;
     double w, v;
@@ -158,7 +161,7 @@ class Orbit {
   double tau_of(double scaled) const;
   double scaled_of(double tau) const;
 
-  /// A number that is computed at its first use. Threads that need it at the same time compute the same value.
+  /// A number that is computed at its first use. Threads that need it at once all compute the same value.
   struct OnDemand {
     OnDemand() = default;
     OnDemand(const OnDemand& other) : value(other.value.load()) {}
@@ -173,13 +176,13 @@ class Orbit {
   SimilaritySolution::Curve curve_;  ///< null on the axes
   double u0_, v0_;
   bool creeps_ = false;  ///< true: the start is so near v = 0 that the drive raises the sliding speed to v_ immediately
-  int exponent_;         ///< speeds are divided by 2^exponent_, so that their products neither overflow nor underflow
-  double w_, v_;         ///< mu |u0| and v0, scaled; if creeps_, v once creeping has begun
-  double pivoting_;      ///< P of README (R18), scaled
+  int exponent_;         ///< speeds are divided by 2^exponent_; then their products neither overflow nor underflow
+  double w_, v_;         ///< mu |u0| and v0, scaled; if creeps_, v_ is the speed at which creeping has begun
+  double pivoting_;      ///< P of README (R18), the stop time of pure pivoting, scaled
   double ln_k0_;
   double xi0_ = 0;
   mutable OnDemand ln_w0_;
-  double m0_;             ///< sliding coefficient m at the start
+  double m0_;             ///< sliding coefficient m of README (R18) at the start
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
 

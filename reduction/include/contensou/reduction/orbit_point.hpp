@@ -6,16 +6,17 @@ namespace contensou::reduction {
 
 /// The state of a motion at one time. At the stop u = v = 0, ln_v = -infinity, beta = infinity.
 struct OrbitPoint {
-  double tau;   ///< the paper's time tau since the start
+  double tau;   ///< the time tau of ReducedSystem since the start
   double u;     ///< pivoting speed; keeps the sign of u0
   double v;     ///< sliding speed; 0 if it underflows, unlike ln_v
   double ln_v;  ///< natural logarithm of v in the unit of the start
-  double k;     ///< v/(mu |u|); infinity for u = 0
-  /// Regularised time (2.8) since the start. Its error is relative to beta + 1/(16 mu |u0| + 15 pi v0).
+  double k;     ///< v/(mu |u|), the ratio of sliding to pivoting; infinity for u = 0
+  /// Time beta of the regularised equations (2.7) since the start. Its error is relative to beta + 1/(16 mu |u0| + 15
+  /// pi v0).
   double beta;
 };
 
-/// The states of a motion at several times: a column for each quantity, a row for each time.
+/// The states of a motion at several times: one column for each quantity, one row for each time.
 struct OrbitColumns {
   Eigen::ArrayXd tau, u, v, ln_v, k, beta;
 

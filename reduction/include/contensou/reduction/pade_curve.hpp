@@ -9,16 +9,16 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) for the orbit, (R9) for the time (Zh98 (2.6) carried to the end), (R27) to (R30), (R11) for
-///           the regularised time, (R14) for slip and angle.
+/// Source    README (R8) for the orbit, (R9) for the time (the end of the solution that V. F. Zhuravlev, 1998, began),
+///           (R27) to (R30) for the numerics, (R11) for the regularised time, (R14) for slip and angle.
 /// Accuracy  sliding_coefficient, slip_length_coefficient, angle_coefficient and beta_coefficient about 5 eps relative;
 ///           ln_w eps (|ln w| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
  public:
-  /// Largest r of the closed form: every ball with mu <= 1 has r <= 5/7.
+  /// Largest r = gamma mu^2/chi of the closed form: every ball with mu <= 1 has r <= 5/7.
   static constexpr double max_r = 0.72;
 
-  /// Number of terms of a series in powers of 1/2 or less.
+  /// Number of terms of a power series whose argument is 1/2 or less.
   static constexpr int terms = 56;
 
   /// @throws std::domain_error  unless 0 < r <= max_r
@@ -43,8 +43,8 @@ class PadeCurve final : public SimilarityCurve {
   double A_, B_, a_, e_;
   double log_ratio_;           ///< ln(B/A)
   double half_beta_;           ///< integral of (R11) from 1/2 to 1
-  double sliding_connection_;  ///< constant of (R30), for m
-  double angle_connection_;    ///< constant of (R30), for o
+  double sliding_connection_;  ///< constant of (R30) for the sliding coefficient m
+  double angle_connection_;    ///< constant of (R30) for the angle coefficient o
 
   /// Terms 2, 3, ... of the integral from x to 1/2 in (R11) are x^a far_beta_ - sum beta_terms_[n] x^n.
   std::array<double, terms> beta_terms_{};

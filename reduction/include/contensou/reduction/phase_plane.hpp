@@ -15,19 +15,20 @@ enum class InvariantDirection {
   sliding,   ///< the axis u = 0
 };
 
-/// The end of the half-line at which a singular point lies.
+/// The end of an invariant half-line, at which a singular point lies.
 enum class SingularPlace {
-  origin,    ///< u = v = 0: the origin has no linear part and is blown up to a line
+  origin,    ///< u = v = 0: the field has no linear part at the origin, so the blow-up replaces the origin by a line
   infinity,  ///< circle at infinity of the Poincare disc
 };
 
 std::string_view name(InvariantDirection direction);
 std::string_view name(SingularPlace place);
 
-/// A singular point of the regularised field (2.7) after desingularisation.
+/// A singular point of the regularised field (2.7) (ReducedSystem::regularised_field) after desingularisation.
 ///
-/// The angular coordinate is q = v/|u| for u > 0, and |u|/v at the axis u = 0. The radial coordinate is the speed |u|
-/// (at the axis u = 0 the speed v) at the origin, and the inverse of this speed at infinity. The field is divided by
+/// The angular coordinate is q = v/|u| for u > 0, and |u|/v at the axis u = 0. The radial coordinate at the origin is
+/// the speed |u| (at the axis u = 0 the speed v). At infinity it is the inverse of this speed. The field is divided by
+/// this speed at both ends. The half-plane u < 0 is the mirror image.
 /// this speed at both ends. The half-plane u < 0 is the mirror image.
 struct SingularPoint {
   InvariantDirection direction;
@@ -36,8 +37,8 @@ struct SingularPoint {
   double q;        ///< mu k
   double radial;   ///< eigenvalue along the half-line, dimensionless
   double angular;  ///< eigenvalue across the half-line; -infinity if the law has an infinite slope (the ring at k = 1)
-  /// One of planar_kinds: saddle, where the half-line is a separatrix; stable node; unstable node; or degenerate if the
-  /// angular eigenvalue is 0. Then two points merge: r = r_low, r_high, or Phi/(k Psi) touches r.
+  /// One of planar_kinds: saddle (the half-line is a separatrix), stable node, unstable node, or degenerate if the
+  /// angular eigenvalue is 0. At a degenerate point two points merge: r = r_low, r = r_high, or Phi/(k Psi) touches r.
   std::string_view kind;
 };
 
@@ -45,19 +46,20 @@ struct SingularPoint {
 struct EndTangent {
   InvariantDirection direction;
   double k;
-  /// Exponent: the angular coordinate tends to its limit (0, or q* on a ray) like this power of the speed. It is the
-  /// ratio of the angular to the radial eigenvalue, and 0 if degenerate (slower than any power).
+  /// Exponent of contact: the angular coordinate tends to its limit (0, or q* on a ray) like this power of the speed.
+  /// It is the angular eigenvalue divided by the radial one, and 0 if degenerate (slower than any power).
   double contact_order;
 };
 
-/// The singular points of the phase plane of (2.7), at which all orbits begin and end.
+/// The singular points of the regularised phase plane, at which all orbits begin and end.
 struct PhasePlane {
   TerminalRatios terminal;
-  double mu_low, mu_high;  ///< r_low and r_high as patch ratios mu of this body; with a drive mu_low has no meaning
-  /// The points by direction from v = 0 to u = 0, at each the one at the origin first. Every half-line is an orbit from
-  /// infinity to the origin and joins a saddle to a node. With a drive the axis v = 0 is missing: it is no orbit.
+  double mu_low, mu_high;  ///< mu at which r is TerminalRatios::low, high; with a drive mu_low has no meaning
+  /// The points by direction from v = 0 to u = 0; in each direction the point at the origin is first. Every half-line
+  /// is an orbit from infinity to the origin and joins a saddle to a node. With a drive the axis v = 0 is missing: it
+  /// is no orbit.
   std::vector<SingularPoint> points;
-  std::vector<EndTangent> tangents;  ///< tangents of the orbits that end at each of terminal.ends
+  std::vector<EndTangent> tangents;  ///< the tangent of the orbits that end at each of terminal.ends
 };
 
 /// Finds the singular points and the linear part of the field at each (README (R15) to (R17)).

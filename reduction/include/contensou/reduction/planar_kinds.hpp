@@ -6,12 +6,12 @@
 
 namespace contensou::reduction {
 
-/// Every kind of a centre or an equilibrium that a planar system may have.
+/// Every kind of a singular point or an equilibrium that a planar system may have.
 inline constexpr std::string_view planar_kinds[]{
     "stable node", "unstable node", "saddle",     "stable focus", "unstable focus", "center",   "center or focus",
     "stable star", "unstable star", "degenerate", "cusp",         "regular point",  "bordered", "mixed"};
 
-/// Returns one of planar_kinds; another name does not compile.
+/// Returns its argument, which must be one of planar_kinds; another name does not compile.
 consteval std::string_view planar_kind(std::string_view name) {
   const auto* const found = std::ranges::find(planar_kinds, name);
   if (found == std::end(planar_kinds)) throw std::logic_error("no kind of a planar system");

@@ -12,19 +12,18 @@
 
 namespace contensou::reduction {
 
-/// The right side f of x' = f(x) in the plane. At points without a value it throws or returns numbers that are not
-/// finite.
+/// The right side f of x' = f(x) in the plane. At a point without a value it throws or is not finite.
 using PlanarField = std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>;
 
-/// X = c t d/dt + (A x + b) . d/dx
+/// The generator X = c t d/dt + (A x + b) . d/dx of a one-parameter group that acts on time and plane.
 struct Generator {
   double time;             ///< c
   Eigen::Matrix2d matrix;  ///< A
   Eigen::Vector2d shift;   ///< b
 
-  /// True if X maps the field onto itself everywhere. Otherwise it does so within each sector between the lines at
-  /// which the field is not smooth, but not across them. Several such X may have a combination that holds everywhere;
-  /// `scaling` is one.
+  /// True if X maps the field onto itself everywhere. Otherwise X does so within each sector between the lines at which
+  /// the field is not smooth, but not across these lines. A combination of several such X may hold everywhere, and
+  /// `scaling` is such a combination.
   bool everywhere = true;
 
   /// Returns the smaller real part of the eigenvalues of A, the least rate at which points leave the centre.
@@ -34,7 +33,7 @@ struct Generator {
   Eigen::Vector2d centre() const;
 };
 
-/// The generators of this form that a field has. Every x' = f(x) also has d/dt.
+/// The generators of the form above that a field admits. Every x' = f(x) also admits d/dt.
 struct PlanarSymmetries {
   enum class Verdict {
     found,
@@ -44,26 +43,27 @@ struct PlanarSymmetries {
 
   Verdict verdict = Verdict::none;
 
-  /// A basis of the generators. The largest entry of each is 1. If there is a scaling, it comes first and is as
-  /// accurate as the field. The others are accurate to about `level`.
+  /// A basis of the generators. The largest entry of each is 1. A scaling comes first and is as accurate as the field.
+  /// The others are accurate to about `level`.
   std::vector<Generator> generators = {};
 
   /// Singular values of the determining equations (README (R41)), increasing, relative to the largest.
   std::array<double, 7> singular_values = {};
 
-  /// Singular values below this count as 0: eight times the errors of the derivatives.
+  /// Singular values below this level count as 0. It is eight times the errors of the derivatives.
   double level = 0;
 
-  /// Separation of the values that count as 0: the least of the others divided by the larger of level and the largest
-  /// of these.
+  /// Separation of the singular values that count as 0 from the others: the smallest of the others, divided by the
+  /// larger of `level` and the largest that counts as 0.
   double gap = 0;
 
-  /// A generator to reduce by. It holds everywhere, also across jumps of the field; all eigenvalues of A have positive
-  /// real parts, and A x + b vanishes at one point. It is the simplest one: first choice is the origin and A = 1, then
-  /// another point, then a diagonal A. Its largest entry is 1 or -1, the trace of A positive.
+  /// The generator for the reduction, if there is one. It holds everywhere, also across jumps of the field. All
+  /// eigenvalues of A have positive real parts, and A x + b vanishes at one point. The simplest one is taken: first
+  /// choice is the origin and A = 1, then another point, then a diagonal A. Its largest entry is 1 or -1, the trace of
+  /// A positive.
   std::optional<Generator> scaling = {};
 
-  /// Largest |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling, with x about the centre and s = ln 2.
+  /// Largest error |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling, x relative to the centre, s = ln 2.
   double residual = infinity;
 
   int points = 0;  ///< number of points at which the equations were sampled
@@ -71,16 +71,16 @@ struct PlanarSymmetries {
 
 /// Finds the generators by a singular value decomposition of the determining equations at up to 96 points.
 ///
-/// Derivatives are extrapolated differences (Ridders) with an estimate of their error. They never cross the axes u = 0
-/// and v = 0, where dry friction is not smooth. Points next to another kink are left out.
+/// Derivatives are extrapolated differences (Ridders) with an estimate of their error. Differences never cross the axes
+/// u = 0 and v = 0, at which dry friction is not smooth. Points next to another kink are left out.
 ///
-/// @param around  point whose |u| and |v| are the scale of the samples. These lie at 1/3 to 3 times its distance from
+/// @param around  point whose |u| and |v| set the scale. Sample points lie at 1/3 to 3 times its distance from
 ///                the origin, in evenly spaced directions, denser towards the axes
-/// @throws std::domain_error  if `around` is not finite or 0, if the field is 0, and if it has values at too few
-///                            points, with the message of its first exception
+/// @throws std::domain_error  if `around` is not finite or 0; if the field is 0; if the field has values at too few
+///                            points, with the message of the field's first exception
 PlanarSymmetries find_symmetries(const PlanarField& field, const Eigen::Vector2d& around);
 
-/// Returns the right side of (2.6), x = (u, v); v < 0 is the mirror image.
+/// Returns the right side of the equations of motion (2.6) as a field of x = (u, v); v < 0 is the mirror image.
 PlanarField planar_field(const ReducedSystem& system);
 
 }  // namespace contensou::reduction

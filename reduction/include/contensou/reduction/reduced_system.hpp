@@ -5,7 +5,7 @@
 
 namespace contensou::reduction {
 
-/// A point of the phase plane of (2.6): two speeds in one unit.
+/// A point of the phase plane (u, v): two speeds in one unit.
 struct State {
   double u;  ///< pivoting speed R omega_z, of either sign
   double v;  ///< sliding speed of the contact point, >= 0
@@ -23,13 +23,15 @@ struct Bounds {
   double upper;
 };
 
-/// The paper's two equations (2.6) for any friction law and any axisymmetric body:
+/// The two equations of motion (2.6) of V. F. Zhuravlev, 1998 (Zh98), for any friction law and any axisymmetric body:
 ///   dv/dtau = -(2 chi/(3 pi)) (Phi(k) - rho),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
 /// v is the sliding speed, u = R omega_z the pivoting speed, mu the patch radius divided by R. rho is a constant drive
-/// along the slip, 0 in the paper: rolling resistance of a ball that rolls the way it slides, or a slope straight down
-/// (README, "A constant drive"). With a drive v = 0 is no orbit: a body that spins there begins to creep.
+/// along the slip, 0 in the paper. It represents the rolling resistance of a ball that rolls the way it slides, or a
+/// slope straight down (reduction/README.md, "A constant drive"). With a drive v = 0 is no orbit: a body that spins
+/// there begins to creep.
 ///
-/// The time is the paper's tau = (3 pi/2) f g t, a speed. A system never changes and is cheap to copy.
+/// The time is the paper's tau = (3 pi/2) f g t, f the coefficient of friction; tau is a speed. A system never changes
+/// and is cheap to copy.
 class ReducedSystem {
  public:
   /// @param patch_ratio  mu = patch radius/R, > 0; more than 1 is allowed, because R need not be the width of the body
@@ -47,23 +49,24 @@ class ReducedSystem {
   Inertia inertia() const { return inertia_; }
   double drive() const { return drive_; }
 
-  /// Smallest drive. A smaller one changes no digit of a motion, and its ray leaves the range of doubles.
+  /// Smallest drive. A smaller drive changes no digit of a motion, and its ray leaves the range of doubles.
   static constexpr double least_drive = 1e-100;
 
-  /// Returns r = gamma mu^2/chi, which with rho determines the shape of a motion (README (R1)); a normal double.
+  /// Returns r = gamma mu^2/chi. r and rho determine the shape of a motion (README (R1)). r is a normal double.
   double r() const { return r_; }
 
   /// Returns ds/dtau of the scaled time s = chi f g t (README (R1)): dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.
   double scaled_time_rate() const { return scaled_time_rate_; }
 
-  /// Returns d(u, v)/dtau, the right side of (2.6).
-  /// @throws std::domain_error  at u = v = 0, where (2.6) has no value, and for v < 0
+  /// Returns d(u, v)/dtau, the right side of the equations of motion.
+  /// @throws std::domain_error  at u = v = 0, where the equations have no value, and for v < 0
   Rate field(State state) const;
 
-  /// Returns dtau/dbeta = (16 mu |u| + 15 pi v)(8 mu |u| + 3 pi v), the weight of (2.8) for every law.
+  /// Returns dtau/dbeta = (16 mu |u| + 15 pi v)(8 mu |u| + 3 pi v), the weight of the regularised time beta of (2.8),
+  /// for every law.
   double regularising_weight(State state) const;
 
-  /// Returns d(u, v)/dbeta, the field times the weight: (2.7) for the Pade law; 0 at u = v = 0.
+  /// Returns d(u, v)/dbeta, the field times the weight: the regularised equations (2.7) if the law is Pade; 0 at rest.
   /// @throws std::domain_error  for v < 0
   Rate regularised_field(State state) const;
 
@@ -91,11 +94,11 @@ class ReducedSystem {
   double scaled_time_rate_;
 };
 
-/// Returns the largest relative error of a stop time by rounding: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi; for r >
-/// 1e12, which no real body has, 2 eps ln(r/1e12) more.
+/// Returns the largest relative error of a stop time by rounding: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi. For r >
+/// 1e12, which no real body has, 2 eps ln(r/1e12) is added.
 ///
-/// Measured in closed form up to mu = 1e6 (tests/certify), by quadrature (tests/reference/rays.csv), and by the excess
-/// over proved bounds up to r = 1e24 (tests/reduction/differential.cpp).
+/// Measured in closed form up to mu = 1e6 (tests/certify), by quadrature (tests/reference/rays.csv), and up to r = 1e24
+/// by the distance outside proved bounds (tests/reduction/differential.cpp).
 double rounding_of_stop_time(double r);
 
 /// Returns true if u and v are finite and v >= 0.

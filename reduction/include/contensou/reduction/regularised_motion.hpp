@@ -5,12 +5,13 @@
 
 namespace contensou::reduction {
 
-/// Integrates the regularised system (2.7) with the time map (2.8) in beta, in the variables (ln u, ln v, tau), by the
-/// method of Dormand and Prince 5(4) with dense output. The weight of (2.8) is the same for every law.
+/// Integrates the regularised equations (2.7) with the time map (2.8) in beta, in the variables (ln u, ln v, tau), by
+/// the method of Dormand and Prince 5(4) with dense output. ReducedSystem::regularising_weight is the weight.
 ///
-/// In (u, v) the system is as stiff as (2.6); in logarithms it is not. Steps end at k = 1, where the exact law has only
-/// two derivatives. The stop lies at beta = infinity: below k = 1e-17, or when the rest is negligible, the exact limit
-/// replaces further steps. On an axis, and if pivoting takes less than 1e-18 of the time, it replaces all steps.
+/// In (u, v) the equations are as stiff as (2.6), the equations in time; in logarithms they are not. Steps end at k =
+/// 1, where the exact law has only two derivatives. The stop lies at beta = infinity. Below k = 1e-17, or when the time
+/// left is negligible, the exact limit replaces the remaining steps. The exact limit replaces all steps on an axis, and
+/// if pivoting takes less than 1e-18 of the time.
 ///
 /// @param times  times tau to report, >= 0, increasing; if empty, the result contains every step, the tail and the stop
 /// @throws std::domain_error  if start is not a state or times are negative or decrease

@@ -6,17 +6,18 @@ namespace contensou::reduction {
 
 /// Finds a function's root between two arguments, by TOMS 748 (G. Alefeld, F. Potra, Y. Shi,
 /// doi:10.1145/210089.210111).
-/// @param at_low, at_high  the function's values at low and high, of different signs except for rounding
+/// @param at_low, at_high  the function's values at low and high, of different signs up to rounding
 /// @return the root; for equal signs the argument with the value nearer to 0
 double root_between(const std::function<double(double)>& function, double low, double high, double at_low,
                     double at_high);
 
-/// Finds the root as above and computes both values first.
+/// Computes the values at both ends, then finds the root.
 inline double root_between(const std::function<double(double)>& function, double low, double high) {
   return root_between(function, low, high, function(low), function(high));
 }
 
-/// Finds the last point on the way from `from`, where a condition holds, to `to`, where it does not, by bisection.
+/// Finds, by bisection, the last point at which a condition holds on the way from `from`, where it holds, to `to`,
+/// where it does not.
 template <class Holds>
 double last_where(Holds holds, double from, double to, int halvings = 50) {
   for (int i = 0; i < halvings; ++i) {

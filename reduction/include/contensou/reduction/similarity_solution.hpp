@@ -11,8 +11,8 @@
 
 namespace contensou::reduction {
 
-/// All motions under a law and an r: one curve for each interval of k between two neighbours among 0, the invariant
-/// rays and infinity. It never changes and is cheap to copy. It is empty if there is no solution.
+/// All motions under a law and an r = gamma mu^2/chi: one curve for each interval of k between two neighbours among 0,
+/// the invariant rays and infinity. A solution never changes and is cheap to copy; it is empty if there is none.
 class SimilaritySolution {
  public:
   using Curve = std::shared_ptr<const SimilarityCurve>;
@@ -32,7 +32,7 @@ class SimilaritySolution {
 
   explicit operator bool() const { return !curves_.empty(); }
 
-  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray it is the curve of either side.
+  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray it is the curve of one of its sides.
   /// @throws std::domain_error  if no curve covers this k
   const Curve& through(double ln_k) const;
 
@@ -48,8 +48,8 @@ class SimilaritySolution {
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive = 0);
 
-/// Returns the solution in closed form, by the type of the law: PadeCurve (README (R8) to (R14)) for PadeLaw up to its
-/// max_r; else empty. No other code depends on the laws with a closed form.
+/// Returns the solution in closed form, by the type of the law: PadeCurve (README (R8) to (R14)) for PadeLaw if r <=
+/// PadeCurve::max_r; else empty. No other code depends on which laws have a closed form.
 SimilaritySolution closed_solution(const Law& law, double r, double drive = 0);
 
 }  // namespace contensou::reduction

@@ -14,7 +14,7 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<doub
 /// The motion of a circular contact patch over the plane: two speeds in one unit, both >= 0 and not both 0.
 ///
 /// Two speeds, unlike their ratio k = sliding/pivoting, need no infinity: pure sliding (pivoting = 0) and pure pivoting
-/// (sliding = 0) are ordinary values and no infinity is needed.
+/// (sliding = 0) are ordinary values.
 struct Slip {
   double sliding;   ///< speed v of the patch centre
   double pivoting;  ///< rim speed w = eps |omega_z| = mu |u| of the rotation about the normal
@@ -35,8 +35,8 @@ Slip slip_of_ratio(double k);
 /// Throws for a slip at which no friction law has a value.
 ///
 /// @param law  name of the law, with which the message begins
-/// @throws std::domain_error  if a speed is negative or not finite, or if both are 0: the law has no limit there
-///                            (Zh98, remark 3)
+/// @throws std::domain_error  if a speed is negative or not finite, or if both are 0: friction has no limit at rest
+///                            (V. F. Zhuravlev, 1998, remark 3)
 void require_slip(const char* law, Slip slip);
 
 }  // namespace contensou::reduction

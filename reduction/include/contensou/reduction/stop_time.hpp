@@ -11,8 +11,8 @@ namespace contensou::reduction {
 enum class Route {
   closed,       ///< closed form of the law (closed_solution)
   quadrature,   ///< integrals over k for the orbit and for the time (README (R2), (R3))
-  regularised,  ///< steps in beta through (2.7) and (2.8)
-  direct,       ///< steps in tau through (2.6)
+  regularised,  ///< steps in beta through the paper's regularised equations (2.7) and (2.8)
+  direct,       ///< steps in tau through the equations of motion (2.6)
 };
 
 std::string_view name(Route route);

@@ -2,10 +2,10 @@
 
 namespace contensou::reduction {
 
-/// A stop time of (2.6) and its partial derivatives by the start and by the numbers of the system.
+/// A stop time and its partial derivatives by the speeds at the start and by the numbers of ReducedSystem.
 ///
-/// The stop time is homogeneous: u by_u + v by_v = tau (Euler's identity). At u = 0 it is even in u, so by_u is 0;
-/// without a drive by_v is 0 at v = 0.
+/// The stop time is homogeneous: u by_u + v by_v = tau (Euler's identity). It is even in u, so by_u is 0 at u = 0.
+/// Without a drive by_v is 0 at v = 0.
 struct StopTimeGradient {
   double tau;
   double by_u, by_v;        ///< derivatives by the speeds at the start

@@ -11,8 +11,8 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch whose pressure is given as a table. The pressure is linear in rho^2 between two
-/// rows, and has a step at two rows with the same rho.
+/// Coulomb friction of a circular patch whose pressure is given as a table. Between two rows the pressure is linear in
+/// rho^2, rho = distance from the centre/eps. Two rows with the same rho are a step.
 ///
 /// Source    README (R32) to (R34): a sum over thin rings, weighted by the pressure.
 /// Accuracy  12 eps for every table, however steep, and every k for which Phi and Psi do not underflow. A table of n
@@ -25,15 +25,16 @@ class TabulatedPressureLaw {
   /// @param name      name for messages and tables
   /// @param rho       distance from the centre divided by eps: from 0 to 1, not decreasing; a step has two rows
   /// @param pressure  pressure at each rho, in any unit: finite, >= 0, not all 0
-  /// @throws std::domain_error   naming the row (from 1) that breaks these rules
+  /// @throws std::domain_error   if a row breaks these rules; the message contains its number, counted from 1
   /// @throws std::runtime_error  if the loaded part of the table is too small to act at any k of the library
   TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure);
 
   const std::string& name() const { return name_; }
   Eigen::Index rows() const;
 
-  /// Returns the law with every other row left out, except the first, the last and both rows of a step. If the rows
-  /// sample a smooth curve, the difference bounds the interpolation error. Empty if no row can be left out.
+  /// Returns the law without every other row of the table; the first, the last and both rows of a step are kept. If the
+  /// rows sample a smooth curve, the difference of the two laws bounds the interpolation error. Empty if no row can be
+  /// left out.
   std::optional<TabulatedPressureLaw> coarser() const;
 
   /// Returns the k = rho of the steps and of the sharpest bends of the pressure, increasing; at most 32.

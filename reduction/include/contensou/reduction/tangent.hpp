@@ -16,17 +16,18 @@ struct ByDifferences {
   kernel::Friction<double> operator()(const kernel::Slip<double>& at) const;
 };
 
-/// A law that returns its slopes. Those of contensou/wrench_kernel.h are in closed form, to 4 eps.
+/// A law that returns its slopes. The laws of contensou/wrench_kernel.h have slopes in closed form, to 4 eps.
 using SlopedLaw = std::variant<ByDifferences, kernel::Exact, kernel::Uniform, kernel::Elliptic, kernel::Pade>;
 
 /// Returns the law of the kernel, or ByDifferences for a law that is not in it.
 SlopedLaw with_slopes(const Law& law);
 
-/// Returns the friction of a law with its slopes, for implicit steps in time. For a law with a dissipation potential
-/// p force_slope = r moment_slope, README (R36). Calls allocate or throw only if the law does.
+/// Returns the friction of a law with its slopes, for implicit steps in time. A law with a dissipation potential
+/// satisfies p force_slope = r moment_slope, with the speeds p and r of kernel::Slip (README (R36)). Calls allocate or
+/// throw only if the law does.
 std::function<kernel::Friction<double>(Slip)> tangent_of(const Law& law);
 
-/// Returns a bound of the error of tangent_of's slopes: 0 for rounding alone, else the error of differences.
+/// Returns a bound of the error of tangent_of's slopes: 0 for slopes in closed form, else the error of the differences.
 double tangent_error(const Law& law);
 
 }  // namespace contensou::reduction

@@ -4,14 +4,14 @@
 
 namespace contensou::reduction {
 
-/// A coordinate xi of k = v/(mu |u|) on its way from one invariant ratio, k_far, to the next, the terminal ratio k*.
-/// Each of the two is 0, the k of an invariant ray, or infinity.
+/// A coordinate xi of k = v/(mu |u|) on its way from one invariant ratio, k_far, to the next, the terminal ratio k*,
+/// its limit at the stop. Each of the two is 0, the k of an invariant ray, or infinity.
 ///
 /// xi is the argument of every SimilarityCurve (README (R25)). It falls to -infinity at the stop and grows to infinity
 /// at k_far.
 ///   from above:  xi = ln[(k - k*)/(1 - k/k_far)]          (k* = 0, k_far = infinity: ln k)
 ///   from below:  xi = ln[(1/k - 1/k*)/(1 - k_far/k)]      (k* = infinity, k_far = 0: -ln k)
-/// Next to k* and k_far a double k has lost its distance to them; xi keeps it.
+/// Next to k* and k_far the double k has lost the digits of its distance to them; xi keeps them.
 class TerminalChart {
  public:
   enum class Side { above, below };
@@ -36,29 +36,28 @@ class TerminalChart {
   /// Returns ln k_far.
   double log_far_ratio() const { return sign_ * far_; }
 
-  /// Returns true if k lies between k* and k_far or is one of them.
+  /// Returns true if k lies between k* and k_far or equals one of them.
   bool reaches(double ln_k) const { return sign_ * ln_k >= end_ && sign_ * ln_k <= far_; }
 
-  /// Returns xi of a k between k* and k_far. At the ends, with y = ln k (from below -ln k), it is y(k*) +
-  /// min_coordinate and y(k_far) - min_coordinate.
+  /// Returns xi of a k between k* and k_far. Let y be ln k (from below -ln k). At k* the result is y(k*) +
+  /// min_coordinate, and at k_far it is y(k_far) - min_coordinate.
   double coordinate(double ln_k) const;
 
   /// Returns ln k.
   double log_ratio(double xi) const;
 
-  /// Returns d ln k/d xi: positive from above, negative from below, 0 at a k* or k_far that is neither 0 nor infinity.
+  /// Returns d ln k/d xi: positive from above, negative from below. At an end it is 0, unless the end is 0 or infinity.
   double log_ratio_rate(double xi) const;
 
-  /// Difference xi - ln k* (from below xi + ln k*) at which exp(xi) is negligible beside k* (1/k*).
+  /// Difference xi - ln k* (from below xi + ln k*) at which exp(xi) is negligible compared with k* (1/k*).
   static constexpr double min_coordinate = -745;
 
  private:
   TerminalChart(double sign, double end, double far);
 
   double sign_;  ///< sign of d ln k/d xi
-  double
-      end_;  ///< sign_ ln k*: both sides are one in y = sign_ ln k, exp(xi) = (exp(y) - exp(end_))/(1 - exp(y - far_))
-  double far_;  ///< sign_ ln k_far
+  double end_;   ///< sign_ ln k*; exp(xi) = (exp(y) - exp(end_))/(1 - exp(y - far_)) on both sides, y = sign_ ln k
+  double far_;   ///< sign_ ln k_far
 };
 
 }  // namespace contensou::reduction

@@ -16,11 +16,11 @@
 
 namespace contensou::fit {
 
-/// The numbers that a fit can find. The first ones, of the contact, are shared by all tracks; the others belong to the
-/// start of each track. `rolling`, the rolling speed along the slip, replaces vx and vy for a ball with rolling
-/// friction, which rolls in the direction in which it slides, or not at all.
+/// The numbers that a fit can find. The first three describe the contact and are shared by all tracks; the others
+/// belong to the start of each track. `rolling` is the rolling speed along the slip. It replaces vx and vy for a ball
+/// with rolling friction, which must roll in the direction in which it slides, or not at all.
 enum class Parameter { friction, patch_radius, rolling_friction, slip, spin, direction, vx, vy, x, y, angle, rolling };
-inline constexpr int contact_parameters = 2;  ///< the first two, which are searched by their logarithms
+inline constexpr int contact_parameters = 2;  ///< the first two; the search uses their logarithms
 inline constexpr int shared_parameters = 3;
 inline constexpr int start_parameters = 9;
 
@@ -32,8 +32,8 @@ struct ParameterKind {
 };
 const ParameterKind& kind_of(Parameter parameter);
 
-/// The numbers to find; the others have the ball's values. Numbers that only place a track on the plane (direction,
-/// velocity, position and angle at the start) are always free if the data contain them.
+/// The numbers that are to be found; all others have the ball's values. Numbers that only place a track on the plane
+/// (direction, velocity, position and angle at the start) are always free if the data contain them.
 struct Free {
   bool friction = true;
   bool patch_radius = true;
@@ -52,8 +52,8 @@ struct FitRequest {
   reduction::Law law;
   std::vector<Track> tracks;
   Free free = {};
-  bool robust = false;                     ///< true: Huber's loss, by which outliers count less
-  std::function<void()> each_search = {};  ///< called at each of the many minimisations
+  bool robust = false;                     ///< true: Huber's loss, under which outliers count less
+  std::function<void()> each_search = {};  ///< called at the beginning of each of the many minimisations
 };
 
 /// A range of a number.
@@ -73,8 +73,8 @@ struct Estimate {
 
   bool determined() const { return std::isfinite(standard_error); }
 
-  /// Returns true if one end of the interval is more than twice as far from the value as the other. One error is then
-  /// not enough.
+  /// Returns true if one end of the interval is more than twice as far from the value as the other. Then a single
+  /// standard error does not describe the interval.
   bool skewed() const {
     const double below = value - interval.low, above = interval.high - value;
     return std::max(below, above) > 2 * std::min(below, above);
@@ -112,22 +112,22 @@ struct Combination {
 /// Possible errors of an angle by whole turns.
 struct Turns {
   /// Spin, rad/s, at which a mark turns by half a turn between two pictures. Above it, turns are found by trial.
-  /// Infinite if the film shows no angle, or also the spin.
+  /// Infinite if the film shows no angle, or if it shows the spin.
   double half_turn_spin = INFINITY;
   std::vector<double> other_spins = {};  ///< spins at the start that fit the data equally well
 };
 
-/// Another motion that fits the data equally well, such as one of a puck with less spin and less friction.
+/// Another motion that fits the data equally well, such as that of a puck with less spin and less friction.
 struct OtherMotion {
   std::size_t track;            ///< the track whose start differs
   double friction, slip, spin;  ///< SI units; slip and spin are those at the start of the track
   double chi2_more;             ///< sum of squares of this motion minus that of the estimate
 };
 
-/// Rolling friction that was not free, but would fit the data far better, from one step of a fit without it.
+/// Rolling friction that is not free but would make the fit far better, estimated by one step from a fit without it.
 struct RollingFrictionSeen {
   double value, standard_error;
-  double friction;   ///< coefficient of sliding friction in that case
+  double friction;   ///< coefficient of sliding friction together with it
   double chi2_less;  ///< decrease of the sum of squares
 };
 
@@ -135,10 +135,10 @@ struct RollingFrictionSeen {
 struct Fit {
   std::string law;
   si::Experiment ball;  ///< ball with the fitted contact and the start of the first track
-  /// Friction, patch_radius, and rolling_friction if the ball has it or it was free; then for each track slip, spin and
-  /// the numbers that place it.
+  /// Friction, patch_radius, and rolling_friction if the ball has it or it is free. Then, for each track, slip, spin
+  /// and the numbers that place the track.
   std::vector<Estimate> estimates;
-  Eigen::MatrixXd correlation;  ///< correlations of the free numbers, in this order
+  Eigen::MatrixXd correlation;  ///< correlations of the free numbers, in the order of estimates
   std::vector<Noise> noise;
   Eigen::Index values = 0;  ///< number of measured values
   double chi2 = 0;
@@ -149,7 +149,7 @@ struct Fit {
   bool profiled = false;                 ///< true if the intervals are by profile likelihood
   std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< values of the fitted motion for each track and series
 
-  /// Reasons, in words, why the data do not show this motion; empty if they may.
+  /// Reasons, in words, why the model does not describe the data; empty if it may.
   std::vector<std::string> misfits = {};
   std::vector<Turns> turns = {};                ///< one for each track
   std::vector<OtherMotion> other_motions = {};  ///< minima other than the estimate; the intervals contain them
@@ -167,24 +167,24 @@ struct Fit {
 
 /// Finds the motion of the highest likelihood for independent normal errors, by weighted least squares.
 ///
-/// The data give a start for the search. Unknown standard deviations of a series are estimated from its residuals. The
-/// model is the closed orbit, to 1e-9 of its speeds. For a body that lies flat the velocity of the centre is the slip,
-/// so no other velocity is free. A ball with rolling friction, given or free, rolls in the direction in which it
-/// slides, or not at first.
+/// The starts of the search are guessed from the data. Unknown standard deviations of a series are estimated from its
+/// residuals. The model is the orbit, to 1e-9 of its speeds. The velocity of a body that lies flat is its slip, so no
+/// other velocity is free. A ball with rolling friction, given or free, must roll in the direction in which it slides,
+/// or not roll at first.
 ///
 /// @throws std::domain_error   on a slope; for rolling friction of a body that lies flat, or of a ball that first rolls
 ///                             in another direction than it slides; for a track that `require` rejects; if fewer than
-///                             10 values have no standard deviation; if no number is free; if a friction or patch
-///                             radius that is not free is outside the model: friction 1e-4 to 10, patch radius 8.3e-7 R
-///                             to R, for a ball one without an invariant ray
+///                             10 values have no standard deviation; if no number is free; if a fixed friction or patch
+///                             radius is outside the model: friction 1e-4 to 10, patch radius 8.3e-7 R to R, for a ball
+///                             one without an invariant ray
 /// @throws std::runtime_error  if the search does not converge
 Fit fit(const FitRequest& asked);
 
-/// Fits several laws; the best by Akaike's criterion comes first.
+/// Fits several laws. The result is sorted: the best law by Akaike's criterion comes first.
 std::vector<Fit> fit_laws(const FitRequest& request, const std::vector<reduction::Law>& laws);
 
-/// Returns the estimates, with their errors by the bound of Cramer and Rao, that a film of the ball's own motion would
-/// give. The tracks give times and standard deviations; their values are not used.
+/// Returns the estimates that a film of the ball's own motion would give, with their errors by the bound of Cramer and
+/// Rao. The tracks contain times and standard deviations; their values are not used.
 /// @throws std::domain_error  as fit, and for a series without standard deviations
 Fit plan(const FitRequest& asked);
 

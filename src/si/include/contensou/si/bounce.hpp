@@ -18,11 +18,11 @@ struct Impact {
 /// @param gravity  g, m/s^2
 double drop_speed(double height, double gravity);
 
-/// Returns the patch radius of an elastic ball in an impact as a mean over the normal impulse, in m.
+/// Returns the patch radius, in m, of an elastic ball in an impact: its mean over the normal impulse.
 ///
 /// The mean is B(1/2, 6/5)/2 = 0.89552 of the largest radius a, for which m v^2/2 = (8/15) E* a^5/R'^2 (H. Hertz, J.
-/// reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156). When w v of the normal speed v is left, the radius
-/// is (1 - w^2)^(1/5) a, and the impulse is m (1 - w) v.
+/// reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156). When the normal speed v has fallen to w v, the
+/// radius is (1 - w^2)^(1/5) a, and the impulse so far is m (1 - w) v.
 ///
 /// @param mass    m, kg
 /// @param speed   v, m/s, along the normal
@@ -33,20 +33,20 @@ double hertz_impact_patch_radius(double mass, double speed, double radius, const
 /// The motion of a ball that leaves the plane.
 struct Rebound {
   Velocities velocities;  ///< velocity of the centre along the plane; angular velocity, z up
-  double slip;            ///< slip that is left, m/s
-  double grip;  ///< part of the impulse after which the ball rolls; above 1 it leaves the plane before it rolls
+  double slip;            ///< slip that remains, m/s
+  double grip;            ///< share of the impulse after which the ball rolls; above 1 it leaves before it rolls
 };
 
-/// Returns the experiment in which (1 + e) v_n replaces the time: its time in s is the impulse divided by the mass in
-/// m/s. Its patch is constant: with Hertz's moduli hertz_impact_patch_radius, else the patch at rest.
+/// Returns the experiment in which (1 + e) v_n takes the place of the time. Its time in s is the impulse divided by the
+/// mass, in m/s. Its patch is constant: hertz_impact_patch_radius if Hertz's moduli are given, else the patch at rest.
 /// @throws std::domain_error  unless v_n > 0 and 0 <= e <= 1; as require_experiment and patch_radius_of
 Experiment pressed_in(const Impact& impact, const Experiment& experiment, const reduction::Law& law);
 
 /// Computes the rebound of a ball that hits the plane obliquely, sliding and spinning.
 ///
-/// The friction of a patch is proportional to the load. So slip and spin go through the states of a sliding ball
-/// (Motion::reduced), with the normal impulse instead of time, however the load varies. The bodies are rigid. The patch
-/// is constant, does not roll and does not yield sideways. Gravity is negligible during the impact.
+/// The friction of a patch is proportional to the load. So slip and spin pass through the states of a sliding ball
+/// (Motion::reduced), with the normal impulse in place of time, no matter how the load varies. The bodies are rigid.
+/// The patch is constant, does not roll and does not yield sideways. Gravity is negligible during the impact.
 ///
 /// @param experiment     its start is the motion at the first contact
 /// @param rolling_below  slip below which the ball rolls, m/s, >= 0; with 0 it rolls when its spin ends
@@ -54,9 +54,9 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
 Rebound bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                double rolling_below = rolling_slip);
 
-/// Computes the rebound under the uncoupled model (Motion::uncoupled). The slip falls by chi f (1 + e) v_n, or ends.
-/// The velocity of the centre falls by 1/chi of that: f (1 + e) v_n, or for a homogeneous ball 2/7 of the slip. The
-/// spin about the vertical falls independently.
+/// Computes the rebound under the uncoupled model (Motion::uncoupled). The slip falls by chi f (1 + e) v_n, but not
+/// below 0. The velocity of the centre falls by 1/chi of the lost slip: by f (1 + e) v_n, or, if the slip ends, by 2/7
+/// of the slip for a homogeneous ball. The spin about the vertical falls independently.
 Rebound uncoupled_bounce(const Experiment& experiment, const reduction::Law& law, const Impact& impact,
                          double rolling_below = rolling_slip);
 

@@ -14,10 +14,10 @@
 
 namespace contensou::si {
 
-/// The place at which a value of an experiment was given, for messages.
+/// The place at which a value of an experiment was given. Messages quote it.
 struct Source {
   std::string place;    ///< FILE:LINE:COLUMN; empty outside of files
-  std::string name;     ///< name of the value there, such as 'mass' in quotes, or --mass
+  std::string name;     ///< name of the value at this place, such as 'mass' in quotes, or --mass
   std::string section;  ///< section such as [ball]; empty if there are none
 
   /// Throws an error about this value.
@@ -31,14 +31,13 @@ struct RunFileError : std::domain_error {
   using std::domain_error::domain_error;
 };
 
-/// The values given for an experiment, in whole or in part, each with its place.
-///
-/// A built-in ball, a run file, options of the program, a Ball of Python and the fields of the page each make one.
-/// under() combines two, experiment_of() makes the experiment, and law_of() returns the name of its law.
+/// The values that are given for an experiment, all or some of them, each with its place.
+/// A built-in ball, a run file, options of the program, a Ball of Python and the fields of the page each make a
+/// Description. under() combines two, experiment_of() makes the experiment, and law_of() returns the name of its law.
 class Description {
  public:
   struct Values {
-    std::vector<double> numbers;  ///< one for each component of the quantity
+    std::vector<double> numbers;  ///< one number for each component of the quantity
     Source source;
   };
 
@@ -50,13 +49,13 @@ class Description {
       : places_(std::move(places)), in_file_(true) {}
 
   /// Sets a value, which replaces an earlier one.
-  /// @throws std::domain_error  or RunFileError, naming the quantity, if it cannot have these values
+  /// @throws std::domain_error  or RunFileError, with the name of the quantity, if it cannot have these values
   void set(const Quantity& quantity, std::vector<double> numbers, Source source);
   void set_name(std::string name) { name_ = std::move(name); }
   void set_body(const Body& body) { body_ = body; }
 
-  /// Sets the body of that name.
-  /// @throws std::domain_error  or RunFileError, listing the names, if there is no such body
+  /// Sets the body with that name.
+  /// @throws std::domain_error  or RunFileError, with a list of the names, if there is no such body
   void set_body(const std::string& name, const Source& source);
 
   /// Sets the law, by its name or by formulas.
@@ -67,7 +66,8 @@ class Description {
   void add_spread(const Component& of, double standard, const Source& source);
 
   /// Sets the correlation of the errors of two numbers.
-  /// @throws std::domain_error  or RunFileError, if one of them has no spread, if it is set twice, or outside [-1, 1]
+  /// @throws std::domain_error  or RunFileError, if one of the numbers has no spread, if the correlation is set twice,
+  ///                            or outside [-1, 1]
   void correlate(const Component& one, const Component& other, double correlation, const Source& source);
 
   /// Tests that a number with a spread is given.
@@ -85,17 +85,18 @@ class Description {
 
   /// Returns this description with the values of `above` in place of its own.
   ///
-  /// A value in `above` removes those that give the same in another way (alternatives): a patch radius removes moduli,
-  /// a load gravity, and slip with spin velocities. A velocity replaces its part of slip and spin; the other part
-  /// stays. A slip or a spin replaces velocities: the result is a slip along x and a spin, and the one not in `above`
-  /// is that of the velocities. A replaced number loses its standard deviation; correlations of the others stay.
+  /// A value in `above` removes the values that determine the same in another way (alternatives): a patch radius
+  /// removes moduli, a load removes gravity, and slip with spin removes velocities. A velocity replaces its part of
+  /// slip and spin; the other part stays. A slip or a spin replaces velocities. The result is a slip along x and a
+  /// spin; the one that `above` does not contain is computed from the velocities. A replaced number loses its standard
+  /// deviation; correlations of the others stay.
   Description under(const Description& above) const;
 
-  /// Tests for two ways to give one value, and for correlations that no numbers can have.
-  /// @throws std::domain_error  or RunFileError, naming the values and their places
+  /// Tests that no value is given in two ways, and that numbers with the given correlations exist.
+  /// @throws std::domain_error  or RunFileError, with the names of the values and their places
   void require_no_contradiction() const;
 
-  /// Returns the place of a value; if it is not given, home_of.
+  /// Returns the place of a value; if the value is not given, the result of home_of.
   Source source_of(const Quantity& quantity) const;
 
   /// Returns the place where a value would stand, in its section.
@@ -116,15 +117,15 @@ class Description {
   bool in_file_ = false;
 };
 
-/// Returns the values that an experiment was given by.
+/// Returns the values by which an experiment was given, as a description.
 Description describe(const Experiment& experiment);
 
-/// Makes the experiment that is described.
-/// @throws std::domain_error  or RunFileError, naming the value that is missing or the values that exclude each other,
-///                            and their places; as require_experiment
+/// Makes the experiment that a description contains.
+/// @throws std::domain_error  or RunFileError, with the names and places of the missing value or of the values that
+///                            exclude each other; as require_experiment
 Experiment experiment_of(const Description& described);
 
-/// Returns the name of the law that is described, or else that of the body's pressure, even if values are missing.
+/// Returns the name of the described law, or else of the law of the body's pressure, even if values are missing.
 std::string law_of(const Description& described);
 
 }  // namespace contensou::si

@@ -8,22 +8,22 @@
 
 namespace contensou::si {
 
-/// The values of an experiment that determine the numbers of an engine.
+/// The values of an experiment from which the numbers of a physics engine follow.
 struct EngineContact {
   double friction;         ///< f
   double patch_radius;     ///< a, m
   double pivoting_moment;  ///< Psi(0) of the law
   double radius;           ///< R, m
 
-  /// Returns f a Psi(0) in m: the moment of spinning without sliding, divided by the load.
+  /// Returns f a Psi(0) in m: the moment of spinning without sliding divided by the load.
   double moment_arm() const { return friction * patch_radius * pivoting_moment; }
 };
 
-/// Returns these values of an experiment.
+/// Returns these values for an experiment.
 /// @throws std::domain_error  as patch_radius_of
 EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
 
-/// A number of an engine in SI units: a factor, times f, a and Psi(0) if they are set, times a power of R.
+/// A number of an engine in SI units: a factor, times those of f, a and Psi(0) that are set, times a power of R.
 struct EngineNumber {
   double factor = 1;
   bool f = false, a = false, psi = false;
@@ -31,32 +31,32 @@ struct EngineNumber {
 
   double operator()(const EngineContact& contact) const;
 
-  /// Returns the formula for people, such as f a Psi(0)/R^2.
+  /// Returns the formula as people write it, such as f a Psi(0)/R^2.
   std::string formula() const;
 };
 
-/// A number to type into an engine.
+/// A number that a user types into an engine.
 struct EngineParameter {
-  std::string_view name;  ///< its name in the engine
+  std::string_view name;  ///< name of the number in the engine
   std::string_view unit;  ///< SI unit; empty for a pure number
   EngineNumber value;
 };
 
-/// A way to set up an engine, and the resulting limit of the contact.
+/// One way to set up an engine, and the limit of the contact that results.
 struct EngineSetting {
   std::string_view words;
   Cone cone;
   EngineNumber moment_arm;  ///< largest moment divided by the load, m; 0: no moment
-  /// Effective friction divided by the f that is meant, if the engine reduces the number typed in.
+  /// Effective friction divided by the intended f, for an engine that reduces the number typed in.
   double friction_share = 1;
 };
 
-/// The numbers to type into an engine for a kind of body, and their effect.
+/// The numbers that a user types into an engine for one kind of body, and their effect.
 struct EngineUse {
-  std::vector<EngineParameter> parameters;  ///< sliding first, the number that determines the moment last; may be empty
-  std::string_view limit;                   ///< limit of the moment M under the load N, in the engine's words
-  std::vector<std::string_view> needs;      ///< switches that must be on for the numbers to act
-  std::vector<EngineSetting> settings;      ///< nearest to the law first, then other common settings
+  std::vector<EngineParameter> parameters;  ///< numbers for sliding first; the number for the moment last; may be empty
+  std::string_view limit;                   ///< limit of the moment M under the load N, as the engine defines it
+  std::vector<std::string_view> needs;      ///< switches that must be on for the numbers to have an effect
+  std::vector<EngineSetting> settings;      ///< the setting nearest to the law first, then other common settings
 };
 
 /// A physics engine, with or without a moment about the normal of its contacts.
@@ -66,8 +66,8 @@ struct Engine {
   std::string_view repository;  ///< repository on github.com
   std::string_view version;     ///< version whose source was read
   EngineUse ball;
-  EngineUse face;                ///< use for a body that lies flat; no settings: it has none, or they were not read
-  std::string_view combination;  ///< combination of the numbers of two bodies
+  EngineUse face;                ///< use for a body that lies flat; without settings if there is none or none was read
+  std::string_view combination;  ///< rule by which the numbers of two bodies are combined
   std::vector<std::string_view> remarks;  ///< known problems
   std::vector<std::string_view> sources;  ///< FILE:LINES
 
@@ -84,10 +84,10 @@ struct EngineAlias {
 /// Returns the known engines.
 const std::vector<Engine>& engines();
 
-/// Returns programs that use one of the engines.
+/// Returns the known programs that use one of the engines.
 const std::vector<EngineAlias>& engine_aliases();
 
-/// Returns the engine of that name, or the one that a program of that name uses; null if there is none.
+/// Returns the engine with that name, or the engine that a program with that name uses; null if there is none.
 const Engine* find_engine(std::string_view name);
 
 }  // namespace contensou::si

@@ -11,19 +11,22 @@
 
 namespace contensou::si {
 
-/// The name of a number of an event, such as {"rolls_after", "t", "s"}. Without an event, as in "path", `of` is empty.
+/// The name of a number of an event, such as {"rolls_after", "t", "s"}. A number without an event, such as "path", has
+/// an empty `of`.
 struct EventNumber {
   std::string_view event, of, unit;
 };
 
-/// The numbers of the events of a ball's motion, as functions of the numbers that give the experiment.
+/// The numbers of the events of a ball's motion, as functions of the numbers by which the experiment is given.
 ///
-/// The events are the beginning of rolling (of rest for a body that lies flat), the end of the spin, and with rolling
-/// friction or on a slope rest. Each has time and place. The other numbers are slip length, turns, path and stop time.
+/// The events are: the ball begins to roll (a body that lies flat comes to rest), the spin ends, and, with rolling
+/// friction or on a slope, the ball comes to rest. Each event has a time and a place. The other numbers are slip
+/// length, turns, path and stop time.
 class EventNumbers {
  public:
-  /// @param rolling_below  as in Motion::rolls; the rolling friction is that of the experiment. Empty: the stop time is
-  ///                       the only number
+  /// @param rolling_below  as in Motion::rolls; if it is empty, the stop time is the only number. The rolling friction
+  ///                       is
+  ///                       that of the experiment
   /// @throws std::domain_error  as Motion::reduced and finite; for a ball at rest
   EventNumbers(const Experiment& experiment, const reduction::Law& law, std::optional<double> rolling_below);
 
@@ -31,7 +34,7 @@ class EventNumbers {
   const Eigen::VectorXd& values() const { return values_; }
   bool resisted() const;
 
-  /// Returns the components of the quantities that give the experiment.
+  /// Returns the components of the quantities by which the experiment is given.
   const std::vector<Component>& components() const { return components_; }
   double value(const Component& of) const;
 
@@ -41,13 +44,14 @@ class EventNumbers {
 
   /// Returns the numbers of another experiment of this kind.
   /// @param flow  flow of undriven_system(other, law)
-  /// @throws std::domain_error  as Motion::reduced and finite; if it rolls for ever and this one rests
+  /// @throws std::domain_error  as Motion::reduced and finite; if the other ball rolls for ever and this one comes to
+  ///                            rest
   Eigen::VectorXd of(const Experiment& other, const reduction::Flow& flow) const;
   Eigen::VectorXd of(const Experiment& other) const;
 
   /// Returns the derivatives of the numbers by one component, by fourth-order differences over a thousandth of its
-  /// value. Empty if they have a corner: at a spin of 0, at the limits of the component, and by a component that moves
-  /// the slip if the slip is within 1e-6 of the threshold of rolling.
+  /// value. The result is empty if the numbers have no derivative: at a spin of 0, at the limits of the component, and,
+  /// for a component that changes the slip, if the slip is within 1e-6 of the threshold of rolling.
   ///
   /// Accuracy  1e-8 for the derivatives by the start and by friction, compared with the algebra of (R61), and for the
   ///           time of rest of a motion that is integrated in steps.
@@ -64,11 +68,11 @@ class EventNumbers {
   Eigen::VectorXd values_;
 };
 
-/// The derivatives of all events by all components for which they exist.
+/// The derivatives of all events by all components. Components without a derivative are left out.
 struct EventGradient {
   std::vector<EventNumber> events;
   std::vector<Component> by;
-  Eigen::MatrixXd slopes;  ///< SI units; a row for each event, a column for each component
+  Eigen::MatrixXd slopes;  ///< in SI units; one row for each event, one column for each component
 };
 EventGradient event_gradient(const EventNumbers& numbers);
 

@@ -16,7 +16,7 @@
 
 namespace contensou::si {
 
-/// The mass of a ball whose mass is not given. Every energy computed from it is NaN. The motion needs no mass.
+/// The mass of a ball without a given mass. Every energy computed from it is NaN. The motion needs no mass.
 inline constexpr double unknown_mass = std::numeric_limits<double>::quiet_NaN();
 
 /// A ball, or a body that lies flat.
@@ -24,10 +24,10 @@ struct Ball {
   std::string name;
   double mass = unknown_mass;  ///< kg
   double radius;               ///< m
-  Body body = {};              ///< one of bodies(), with its own factor if given
+  Body body = {};              ///< one of bodies(), with its own inertia factor if one is given
 };
 
-/// Returns true if the mass is given, that is other than unknown_mass.
+/// Returns true if the mass is given, that is, is not unknown_mass.
 bool mass_is_known(const Ball& ball);
 
 /// Returns the mass of a ball in kg.
@@ -40,7 +40,7 @@ struct PatchRadius {
   double value;  ///< m
 };
 
-/// The rate at which a spin without sliding falls; it determines the patch (patch_radius_of_deceleration).
+/// The rate at which a spin without sliding falls. The patch follows from it (patch_radius_of_deceleration).
 struct SpinDeceleration {
   double value;  ///< rad/s^2
 };
@@ -48,19 +48,18 @@ struct SpinDeceleration {
 /// The patch is the whole face of a body that lies flat.
 struct WholeFace {};
 
-/// The source of the patch radius. The radius is computed anew from it when R, mass, friction or gravity change.
+/// The source of the patch radius. The radius is recomputed from the source if R, mass, friction or gravity change.
 using PatchSource = std::variant<PatchRadius, SpinDeceleration, HertzModuli, WholeFace>;
 
 /// The patch where ball and plane touch, and its friction.
 struct Contact {
   double friction;  ///< coefficient of dry friction
   PatchSource patch;
-  std::string law = {};         ///< name of the friction law, if it is not that of the body's pressure
+  std::string law = {};         ///< name of the friction law, if it is not the law of the body's pressure
   double rolling_friction = 0;  ///< coefficient u_r: a ball that rolls without slip slows down at u_r g; 0: it rolls on
 };
 
-/// A ball that slides along x and spins about the vertical, with no horizontal angular velocity.
-/// A start with a slip along x and a spin about the vertical, without horizontal angular velocity.
+/// A start of a ball that slides along x and spins about the vertical, without horizontal angular velocity.
 struct SlipAndSpin {
   double slip;  ///< sliding speed of the contact point, m/s
   double spin;  ///< spin about the vertical, rad/s, of either sign
@@ -72,19 +71,19 @@ struct Velocities {
   Eigen::Vector3d angular_velocity;  ///< rad/s, z up
 };
 
-/// The start of a motion, in the form in which it was given.
+/// The start of a motion, in either of the forms in which it can be given.
 using Start = std::variant<SlipAndSpin, Velocities>;
 
 /// The forces between ball and plane other than friction.
 struct Environment {
-  /// Load divided by mass, m/s^2, on which alone the motion on a level plane depends; N/mass for a ball pressed on it
-  /// by N newtons.
+  /// Load divided by mass, m/s^2. The motion on a level plane depends on this ratio only. It is N/mass for a ball that
+  /// is pressed on the plane by N newtons.
   double gravity = 9.80665;
   std::optional<double> load{};  ///< load in N, if given; gravity is then load/mass
   double slope = 0;              ///< angle of the plane in degrees, above -90 and below 90; it rises along x
 };
 
-/// Returns the load divided by the mass, m/s^2: gravity, on a slope times the cosine of its angle.
+/// Returns the load divided by the mass, m/s^2: gravity, multiplied on a slope by the cosine of the angle.
 double pressing(const Environment& environment);
 
 /// Returns the acceleration of gravity along the plane, m/s^2; (0, 0) on a level plane.
@@ -105,21 +104,21 @@ struct GivenQuantity {
   std::vector<double> values;
 };
 
-/// Returns the values that give an experiment, in the order of quantities(). It leaves defaults out, except gravity.
+/// Returns the values by which an experiment is given, in the order of quantities(). Only gravity may be a default.
 std::vector<GivenQuantity> given_by(Experiment experiment);
 
-/// Returns a patch's source in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or "its
-/// whole face".
+/// Returns the source of a patch in words: "given", "from its spin deceleration 10 rad/s^2", "by Hertz's formula" or
+/// "its whole face".
 std::string origin_of(const PatchSource& patch);
 
-/// Returns the name of the default law of an experiment: that of the contact, or of the body's pressure.
+/// Returns the name of the law of an experiment: the law of the contact if given, else the law of the body's pressure.
 std::string law_of(const Experiment& experiment);
 
-/// Returns the member of an experiment that stores a quantity; null if the quantity can be given in other ways.
+/// Returns the member of an experiment that stores a quantity; null for one of several ways to give a value.
 double* member_of(Experiment& experiment, const Quantity& quantity);
 
 /// Returns the radius of the contact patch in m, from its source.
-/// @param law  law under which a measured spin deceleration holds
+/// @param law  law under which the spin deceleration was measured
 /// @throws std::domain_error  unless the radius is in (0, R]
 double patch_radius_of(const Experiment& experiment, const reduction::Law& law);
 
@@ -129,14 +128,14 @@ Velocities velocities_of(const Start& start);
 /// Returns the experiment with a start that does not spin about the vertical.
 Experiment without_spin(Experiment experiment);
 
-/// Returns the velocity (m/s) at the start of the point of the ball that touches the plane, (vx - R omega_y, vy + R
-/// omega_x), Zh98 (2.1). It is 0 if the terms cancel to rounding.
+/// Returns the velocity (m/s), at the start, of the point of the ball that touches the plane: (vx - R omega_y, vy + R
+/// omega_x). It is 0 if the terms cancel up to rounding.
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
 
-/// Returns the size of this velocity in m/s.
+/// Returns the absolute value of this velocity in m/s.
 double slip_at_start(const Experiment& experiment);
 
-/// Returns omega_z in rad/s at the start.
+/// Returns the spin omega_z at the start in rad/s.
 double spin_at_start(const Experiment& experiment);
 
 /// Throws for values that no ball can have.
@@ -145,9 +144,9 @@ double spin_at_start(const Experiment& experiment);
 void require_experiment(const Experiment& experiment);
 
 /// Throws for a motion whose lengths, angles or energies may exceed the largest double.
-/// @param braked  time of the end of friction, s
+/// @param braked  time at which friction ends, s
 /// @param last    last requested time, s, if any
-/// @throws std::domain_error  with the largest allowed speed
+/// @throws std::domain_error  with the largest allowed speed in the message
 void require_finite_motion(const Experiment& experiment, double braked, double last = 0);
 
 }  // namespace contensou::si

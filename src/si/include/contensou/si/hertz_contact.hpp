@@ -7,12 +7,12 @@
 
 namespace contensou::si {
 
-/// Elastic constants of the two bodies in contact, the ball first, the plane second.
+/// Elastic constants of the two bodies in contact. In each array the ball is first, the plane second.
 struct HertzModuli {
   std::array<double, 2> youngs_modulus;  ///< Pa, > 0
   std::array<double, 2> poisson_ratio;   ///< -1 < nu <= 1/2
 
-  /// Radius R_c of the second body at the contact, m: infinite for a plane, negative for a dish, not 0.
+  /// Radius R_c of the second body at the contact, m: infinite for a plane, negative for a dish; never 0.
   double counter_radius = std::numeric_limits<double>::infinity();
 };
 
@@ -23,7 +23,7 @@ double effective_modulus(const HertzModuli& moduli);
 ///
 /// @param load    N, in newtons
 /// @param radius  R, m
-/// @throws std::domain_error  unless R' is positive; a dish no wider than the ball has no single patch
+/// @throws std::domain_error  unless R' is positive; in a dish no wider than the ball there is no single patch
 double hertz_patch_radius(double load, double radius, const HertzModuli& moduli);
 
 /// Returns the patch radius (m) of a ball whose spin about the vertical falls at a measured rate without sliding:
@@ -36,7 +36,7 @@ double hertz_patch_radius(double load, double radius, const HertzModuli& moduli)
 /// @param friction         f
 /// @param gravity          g, m/s^2
 /// @param pivoting_moment  Psi(0) of the law: 3 pi/16 for the exact and the Pade law, 2/3 for uniform pressure
-/// @param gamma            gamma of the body
+/// @param gamma            m R^2/J, the inertia number of the body
 double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
                                     double pivoting_moment, double gamma = reduction::homogeneous_ball.gamma);
 

@@ -6,25 +6,25 @@ namespace contensou::si {
 
 /// A load that changes in time: linear between given times, and constant after the last.
 ///
-/// Friction is proportional to the load. So the motion goes through the same states as under a constant load, at other
-/// times: its state at t is the state at clock(t) under nominal().
+/// Friction is proportional to the load. So the motion passes through the same states as under a constant load, but at
+/// other times: its state at t is the state at clock(t) under the load nominal().
 class LoadHistory {
  public:
   /// @param t     times, s, from 0 on, not decreasing; two equal times are a jump
   /// @param load  load at each time, N, >= 0
-  /// @throws std::domain_error  unless there are two or more, all finite, and one load is positive
+  /// @throws std::domain_error  unless there are two or more times, all numbers are finite, and one load is positive
   LoadHistory(std::vector<double> t, std::vector<double> load);
 
   /// Returns the first positive load, N.
   double nominal() const { return nominal_; }
 
-  /// Returns the time, s, under the nominal load after which the state is that at t under this load.
+  /// Returns the time, s, at which a motion under the nominal load has the state that this motion has at t.
   double clock(double t) const;
 
-  /// Returns the first t at which clock(t) has a value; infinity if there is none.
+  /// Returns the first t at which clock(t) has a given value; infinity if there is none.
   double time_of(double clock) const;
 
-  /// Returns the times at which the load bends.
+  /// Returns the times at which the load has a corner or a jump.
   const std::vector<double>& instants() const { return t_; }
   const std::vector<double>& loads() const { return load_; }
 

@@ -22,7 +22,7 @@ struct Event {
 /// The events of a motion.
 struct Events {
   Event rolls, spin_ends;     ///< Motion::rolls, Motion::spin_end
-  std::optional<Event> rest;  ///< Motion::rest; empty if the body does not rest
+  std::optional<Event> rest;  ///< Motion::rest; empty if the body does not come to rest
   double slip_length;         ///< m
   double turns;               ///< turns about the vertical
   double path;                ///< path of the centre, m, until the ball rolls or, lying flat, rests
@@ -31,84 +31,86 @@ struct Events {
 /// The kinetic energy of a motion and its losses, in J.
 struct EnergyBalance {
   double start;
-  double sliding, pivoting;  ///< losses to friction
-  double rolling;            ///< loss to rolling resistance
-  double gained;             ///< gain on a slope
+  double sliding, pivoting;  ///< energies lost to friction
+  double rolling;            ///< energy lost to rolling resistance
+  double gained;             ///< energy gained on a slope
   double kept;               ///< energy at Motion::last_time
 };
 
-/// A part of a motion that is an orbit of a reduced system.
+/// A part of a motion that is one orbit of a reduced system.
 struct ReducedPiece {
-  double tau;  ///< the paper's time at its beginning, m/s
+  double tau;  ///< the time tau (scaling.hpp) at its beginning, m/s
   bool turns;  ///< false: rolling resistance holds the body, which slides like a puck
   reduction::Flow flow;
   reduction::State start;
-  reduction::Orbit orbit;  ///< the orbit from there on; the piece may end earlier
+  reduction::Orbit orbit;  ///< orbit that starts at tau; the piece may end before the orbit does
 };
 
-/// Return the state of a motion of such pieces at the time tau after its start (at rest beyond the stop), and at a time
-/// before the stop. beta is continuous from piece to piece.
+/// Return the state of a motion that consists of pieces: at the time tau after its start (rest beyond the stop), or at
+/// a time before its stop. beta is continuous from piece to piece.
 /// @throws std::domain_error  as Orbit::at_time and at_time_left
 reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau);
 reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left);
 
-/// Returns the time at which the last of the pieces ends, in m/s.
+/// Returns the time tau at which the last piece ends, in m/s.
 inline double stop_time(const std::vector<ReducedPiece>& pieces) {
   return pieces.back().tau + pieces.back().orbit.stop_time();
 }
 
-/// Slip in m/s below which a ball that no longer turns about a horizontal axis rests. While the ball spins, the rest of
-/// its sliding lasts as long as the spin, and moves it by less than 0.1 mm.
+/// Slip in m/s below which a ball that no longer turns about a horizontal axis counts as resting. As long as the ball
+/// spins, it also slides; this sliding moves it by less than 0.1 mm.
 inline constexpr double resting_slip = 1e-4;
 
-/// The whole motion of a ball, or of a body that lies flat, from its start on, Zh98 (2.1) to (2.5).
+/// The whole motion of a ball, or of a body that lies flat, from its start on: equations (2.1) to (2.5) of V. F.
+/// Zhuravlev, 1998 (Zh98), with any friction law.
 ///
-/// Friction determines slip and spin; the rest follows from first integrals (motion_by_slip). Rolling resistance is a
-/// torque chi J u_r g/R, (7/5) u_r m g R for a homogeneous ball, against turning about a horizontal axis. Under it a
-/// ball that rolls without slip slows down at u_r g. It also acts while the ball slides, and it holds a ball that does
-/// not turn, up to this torque. On a slope of the angle alpha, g cos(alpha) presses and g sin(alpha) pulls. When slip
-/// and spin have ended, the ball rolls on or rests, in closed form (R56).
+/// Friction determines slip and spin. Everything else follows from first integrals (motion_by_slip). Rolling resistance
+/// is a torque chi J u_r g/R against turning about a horizontal axis; for a homogeneous ball (7/5) u_r m g R. Under it
+/// a ball that rolls without slip slows down at u_r g. The torque also acts while the ball slides, and up to its size
+/// it keeps a ball that does not turn from turning. On a slope of the angle alpha, g cos(alpha) presses and g
+/// sin(alpha) pulls. When slip and spin have ended, the ball rolls on or rests, in closed form (R56).
 ///
-/// A motion never changes. Copies and threads may share its solution.
+/// A motion never changes. Copies, also in several threads, share its solution.
 class Motion {
  public:
-  /// Computes the motion, without time steps if possible. Slip and spin are then one orbit of the reduced system.
+  /// Computes the motion, if possible without steps in time. Slip and spin are then one orbit of the reduced system.
   ///
-  /// Rolling friction or a slope makes them several orbits with a drive (reduction/README.md, (R53) to (R55)).
-  /// The body must then slide in the direction in which it rolls, and straight down a slope. Any other such motion is
-  /// integrated by the method of Cash and Karp 5(4).
+  /// With rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)).
+  /// This requires that the body slides in the direction in which it rolls, and straight down a slope. Any other such
+  /// motion is integrated by the method of Cash and Karp 5(4).
   ///
-  /// @param history  a changing load, whose nominal load is the experiment's; the patch does not change with it
-  /// @throws std::domain_error   as require_experiment and require_stop; if the load ends at 0 before the motion does;
+  /// @param history  a changing load, whose nominal load is that of the experiment; the patch stays constant
+  /// @throws std::domain_error   as require_experiment and require_stop; if the load becomes 0 before the motion ends;
   ///                             for a changing load with rolling friction or on a slope
   /// @throws std::runtime_error  if an integration does not reach the stop
   ///
-  /// Accuracy  1e-12 of the scales of the motion against in_steps, for mu from 1e-3 to 1; under a changing load 1e-10.
+  /// Accuracy  1e-12 of the scales of the motion, compared with in_steps, for mu from 1e-3 to 1; under a changing load
+  ///           1e-10.
   static Motion reduced(const Experiment& experiment, const reduction::Law& law,
                         const std::optional<LoadHistory>& history = {});
 
-  /// Computes the same motion from a solved system.
+  /// Computes the same motion from a system that is already solved.
   /// @param flow  flow of undriven_system(experiment, law)
   static Motion reduced(const Experiment& experiment, const reduction::Flow& flow,
                         const std::optional<LoadHistory>& history = {});
 
-  /// Computes the motion by integration in every case, as an independent method, by Cash and Karp 5(4). Without rolling
-  /// friction and slope it uses neither the reduction nor the first integrals, and integrates each state from the
-  /// start. Parameters and errors are those of reduced.
+  /// Computes the motion by integration in time in every case, by the method of Cash and Karp 5(4), as an independent
+  /// check. Without rolling friction and slope it uses neither the reduction nor the first integrals, and each state is
+  /// integrated from the start. Parameters and errors as for reduced.
   ///
   /// Accuracy  1e-12 of the scales of the motion for mu from 1e-3 to 1; with rolling friction or on a slope 1e-6.
   static Motion in_steps(const Experiment& experiment, const reduction::Law& law,
                          const std::optional<LoadHistory>& history = {});
 
-  /// Computes the motion of the uncoupled model: the slip falls at chi f g, and the spin at its rate without sliding.
-  /// Rolling friction begins when the ball rolls: it slows down at u_r g and rests. On a slope the ball moves as
-  /// without spin, and spins independently.
+  /// Computes the motion of the uncoupled model: the slip falls at chi f g, and the spin falls as without sliding. When
+  /// the ball rolls, it slows down at u_r g and comes to rest. On a slope the ball moves as a ball without spin, and
+  /// spins independently.
   /// @param law            law for Psi(0), the moment of pure pivoting
-  /// @param rolling_below  slip at which its rolling friction begins, m/s, >= 0
+  /// @param rolling_below  slip at which its rolling friction begins to act, m/s, >= 0
   static Motion uncoupled(const Experiment& experiment, const reduction::Law& law, double rolling_below = rolling_slip,
                           const std::optional<LoadHistory>& history = {});
 
-  /// Throws for a motion whose lengths, angles or energies may exceed the largest double; else returns this motion.
+  /// Returns this motion if its lengths, angles and energies are certain not to exceed the largest double.
   /// @throws std::domain_error   as require_finite_motion
   /// @throws std::runtime_error  if its stop time exceeds the largest double
   const Motion& finite() const;
@@ -129,25 +131,25 @@ class Motion {
   /// Returns the time until the spin ends, s; 0 without spin at the start.
   double spin_end() const;
 
-  /// Returns the time from which on the slip is at most a speed, s; 0 if the slip never exceeds it.
+  /// Returns the time after which the slip never exceeds a speed, s; 0 if it never does.
   /// @param speed  slip, m/s, >= 0
   /// @throws std::domain_error  if the speed is negative or not a number
   double slip_time(double speed) const;
 
-  /// Returns the time until the spin, of either sign, has fallen to a speed, s; 0 if the spin never exceeds it.
+  /// Returns the time at which the spin, of either sign, has fallen to a speed, s; 0 if it never exceeds it.
   /// @param speed  spin, rad/s, >= 0
   /// @throws std::domain_error  if the speed is negative or not a number
   double spin_time(double speed) const;
 
-  /// Returns the time until the ball rolls, s; for a body that lies flat until its centre rests.
+  /// Returns the time until the ball rolls, s; for a body that lies flat, until its centre comes to rest.
   /// @param rolling_below  slip below which a ball rolls, m/s, >= 0; not used for a body that lies flat
   double rolls(double rolling_below = rolling_slip) const;
 
-  /// Returns when and where the centre comes to rest, with rolling friction or on a slope. Empty if it rolls on for
-  /// ever, and for a body that lies flat on a level plane.
+  /// Returns the time and place at which the centre comes to rest, with rolling friction or on a slope. Empty if the
+  /// body rolls on for ever, and for a body that lies flat on a level plane.
   std::optional<Event> rest() const;
 
-  /// Returns the time until nothing moves, s; if it rolls on for ever, until slip and spin end.
+  /// Returns the time until nothing moves, s; if the body rolls on for ever, the time until slip and spin end.
   double last_time() const;
 
   Event event(double t) const { return {t, at(t).position}; }
@@ -156,7 +158,7 @@ class Motion {
   /// @param rolling_below  as in rolls
   Events events(double rolling_below = rolling_slip) const;
 
-  /// Returns the length that the contact point slides on the body until the stop, m: the integral of slip over time.
+  /// Returns the length that the contact point slides until the stop, m: the integral of slip over time.
   double slip_length() const;
 
   /// Return the angle about the vertical until the stop, in rad and in turns, with the sign of the spin.
@@ -168,17 +170,17 @@ class Motion {
 
   EnergyBalance energy_balance() const;
 
-  /// Returns the motion when slip and spin have ended.
+  /// Returns the velocities after slip and spin have ended.
   Velocities final_motion() const;
 
   /// Returns true if the motion was computed from the reduced system, without time steps.
   bool is_reduced() const;
 
-  /// Returns the orbits of the motion until slip and spin end; without a drive there is one. Empty for a motion that is
-  /// not reduced. With a drive it is also empty for a start without slip and spin.
+  /// Returns the orbits of which the motion consists until slip and spin end; without a drive there is one. Empty for a
+  /// motion that is not reduced. With a drive it is also empty for a start without slip and spin.
   std::vector<ReducedPiece> pieces() const;
 
-  /// Returns the ratio v/(eps |omega_z|) of a body that creeps while it spins; empty if it does not creep or spin.
+  /// Returns the ratio v/(eps |omega_z|) at which a body creeps while it spins; empty if it does not creep or spin.
   std::optional<double> creep_ratio() const;
 
   /// Returns the number of integration steps; 0 without an integration.
@@ -195,7 +197,7 @@ class Motion {
 
 class SharedFlows;
 
-/// The motions of one ball that differ only in their starts. They share what is solved once, also between threads.
+/// Motions of one ball that differ only in their starts. They share the solution of the system, also between threads.
 class Shots {
  public:
   /// @param ball  its start is not used

@@ -16,7 +16,7 @@ struct MotionPoint {
   double energy;                     ///< kinetic energy, J
 };
 
-/// The states at several times: a column for each number, a row for each time; w is the angular velocity.
+/// The states at several times: one column for each number, one row for each time; w is the angular velocity.
 struct MotionColumns {
   Eigen::ArrayXd t, x, y, vx, vy, wx, wy, wz, slip, energy;
 
@@ -26,14 +26,14 @@ struct MotionColumns {
   void set(Eigen::Index row, const MotionPoint& point);
 };
 
-/// Default slip, m/s, below which a ball counts as rolling. No eye or camera distinguishes 1 mm/s from rolling. The
-/// threshold 0 is useless: friction of a pivoting patch is viscous, so the slip ends only with the spin.
+/// Default slip, m/s, below which a ball counts as rolling. No eye or camera distinguishes a slip of 1 mm/s from
+/// rolling. A threshold of 0 is useless: the friction of a pivoting patch is viscous, so the slip ends with the spin.
 inline constexpr double rolling_slip = 1e-3;
 
 /// Returns the kinetic energy in J; for a homogeneous ball m V^2/2 + (m R^2/5) omega^2.
 double kinetic_energy(const Ball& ball, const Velocities& velocities);
 
-/// The energy in J that friction takes from an experiment until it rolls, under any friction law.
+/// The energies in J that friction dissipates until the body of an experiment rolls, under any friction law.
 struct EnergyLoss {
   double sliding;   ///< m v0^2/(2 chi), for a ball m v0^2/7
   double pivoting;  ///< m (R omega_z0)^2/(2 gamma), for a ball m (R omega_z0)^2/5
@@ -41,18 +41,18 @@ struct EnergyLoss {
 
 EnergyLoss energy_loss(const Experiment& experiment);
 
-/// Returns the final rolling of an experiment, or the rest of a body that lies flat, under any friction law. The axes
-/// are those of the start (for SlipAndSpin x is along the initial slip).
+/// Returns the velocities of the final rolling of an experiment, or of the rest of a body that lies flat, under any
+/// friction law. The axes are those of the start (for SlipAndSpin x points along the initial slip).
 ///
-/// Let x point along the slip v. R omega_y + (1 - 1/chi) v is a first integral, for a homogeneous ball 7 R omega_y + 5
-/// v (Zh98 after (2.5)). The velocity of the centre along the slip therefore falls by v0/chi, for this ball 2 v0/7.
+/// Let x point along the slip v. R omega_y + (1 - 1/chi) v is a first integral; for a homogeneous ball it is 7 R
+/// omega_y + 5 v. The velocity of the centre along the slip therefore falls by v0/chi, for this ball by 2 v0/7.
 Velocities final_motion(const Experiment& experiment);
 
-/// Returns the state of the motion, which slip, slip length and spin about the vertical determine.
+/// Returns the state of a motion at a time, computed from slip, slip length and spin about the vertical.
 ///
-/// The slip keeps its direction e, and so does omega along e. Along e the velocity of the centre falls by 1/chi of the
-/// lost slip, for a homogeneous ball 2/7; R omega across e takes the rest (Zh98 after (2.5)). So V = V0 - (v0 - v)
-/// e/chi and X = V0 t - (v0 t - slip_length) e/chi.
+/// The slip keeps its direction e, and omega keeps its component along e. Along e the velocity of the centre falls by
+/// 1/chi of the lost slip, for a homogeneous ball 2/7; R omega across e takes the rest (V. F. Zhuravlev, 1998, after
+/// (2.5)). So V = V0 - (v0 - v) e/chi and X = V0 t - (v0 t - slip_length) e/chi.
 ///
 /// @param t            time, s
 /// @param slip         slip v, m/s

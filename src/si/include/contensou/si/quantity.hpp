@@ -12,13 +12,13 @@ namespace contensou::si {
 struct Quantity {
   enum class Range { any, not_zero, not_negative, positive, poisson_ratio, tilt };
 
-  std::string_view name;  ///< the key of a run file
+  std::string_view name;  ///< name in run files, a key
   std::string_view unit;  ///< SI unit; empty for a pure number
   std::string_view meaning;
   Range range;
   std::string_view section;             ///< section of a run file
   std::string_view components = {};     ///< names of a vector's components, with commas; empty for a number
-  std::optional<double> standard = {};  ///< default value; it may be infinity, which cannot be given
+  std::optional<double> standard = {};  ///< default value; it may be infinity, which a user cannot give
 
   /// Returns the number of components.
   std::size_t count() const;
@@ -82,26 +82,26 @@ inline constexpr Quantity slope{.name = "slope",
 /// Returns all quantities in the order of a run file.
 const std::vector<const Quantity*>& quantities();
 
-/// The ways to give one value, of which one is used. The quantities of a way belong together.
+/// The ways to give one value, of which a user chooses one. The quantities of one way belong together.
 using Ways = std::vector<std::vector<const Quantity*>>;
 
-/// Returns the quantities of a way that must all be given; the others have a default.
+/// Returns the quantities of a way that must all be given. The other quantities of the way have a default.
 Ways::value_type needed_of(const Ways::value_type& way);
 
-/// Returns the values of an experiment that can be given in several ways: the patch, the start, and the load.
+/// Returns the values of an experiment that can be given in several ways: the patch, the start and the load.
 const std::vector<Ways>& alternatives();
 
-/// A unit that may follow a number; it is factor/divisor SI units.
+/// A unit that may follow a number. It equals factor/divisor SI units.
 struct Unit {
   std::string_view symbol;
   double factor;
   double divisor = 1;
 };
 
-/// A dimension: its SI unit (or degrees) and the other units that are accepted.
+/// A dimension: its SI unit (or degrees) and the other units that users may write.
 struct Dimension {
-  std::string_view name;    ///< name in help
-  std::string_view symbol;  ///< symbol of the unit of a plain number
+  std::string_view name;    ///< name in the program's help
+  std::string_view symbol;  ///< symbol of the unit of a number without a unit
   std::string_view words;   ///< name of that unit in the plural
   std::vector<Unit> others;
 };
@@ -113,11 +113,11 @@ const Dimension* find_dimension(std::string_view symbol);
 /// Returns the units as text, such as "m, cm, mm, in, ft or yd".
 std::string units_of(const Dimension& dimension);
 
-/// Returns the value of a number with one of the units behind it, such as "2.25 in"; empty for any other text.
+/// Returns the value of a number that is followed by one of the units, such as "2.25 in"; empty for any other text.
 std::optional<double> parse_quantity(std::string_view text, const Dimension& dimension);
 
 /// Throws for a value that the quantity cannot have. Infinity and NaN are never allowed.
-/// @throws std::domain_error  naming the quantity, the allowed values and the value
+/// @throws std::domain_error  with the quantity, the allowed values and the value in the message
 void require(const Quantity& quantity, double value);
 
 }  // namespace contensou::si

@@ -10,12 +10,12 @@
 
 namespace contensou::si {
 
-/// Returns the law that a text names; empty if no law has that name. Throws std::domain_error for a malformed text.
+/// Returns the law with the name in a text; empty if there is none. Throws std::domain_error for a malformed text.
 using FindLaw = std::function<std::optional<reduction::Law>(const std::string& text)>;
 
 /// Reads the text of a run file (TOML) as a description; experiment_of() makes the experiment.
 ///
-/// @param source    name of the text in messages
+/// @param source    name of the text, for messages
 /// @param find_law  finds the file's `law`; the numbers of [contact.param] are appended to its text as "; NAME = VALUE"
 /// @throws RunFileError  if the text is no run file, or contains an unknown key
 Description parse_run_file(std::string_view text, std::string_view source,

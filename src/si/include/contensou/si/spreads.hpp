@@ -18,29 +18,29 @@ struct Component {
   const Quantity* quantity;
   std::size_t index;
 
-  /// Returns its name in run files and on the command line, such as friction or vx.
+  /// Returns the name of the number in run files and on the command line, such as friction or vx.
   std::string name() const;
 
   bool operator==(const Component&) const = default;
 };
 
-/// Returns all such numbers in the order of quantities(). Moduli and the body's inertia are not among them.
+/// Returns all numbers that may have a standard deviation, in the order of quantities(). Moduli and the body's inertia
+/// are not among them.
 const std::vector<Component>& uncertain_components();
 
-/// Returns the names of these numbers.
+/// Returns the names of uncertain_components().
 const std::vector<std::string>& uncertain_names();
 
-/// Returns the number of that name; empty if there is none.
+/// Returns the number with that name; empty if there is none.
 std::optional<Component> find_component(std::string_view name);
 
 /// Returns a standard deviation from text such as "2 mm" or "5%", in the number's unit; empty for any other text.
 /// @param unit   unit of the Quantity
-/// @param value  value of which a % is taken
-/// @param value  value of which a % is taken
-/// @throws std::domain_error  for a % of 0
+/// @param value  value to which a percentage refers
+/// @throws std::domain_error  for a percentage of the value 0
 std::optional<double> parse_spread(std::string_view text, std::string_view unit, double value);
 
-/// Standard deviations and correlations of numbers of an experiment, whose distribution is normal.
+/// Standard deviations and correlations of numbers of an experiment. The numbers have a normal distribution.
 struct Spreads {
   struct Number {
     Component of;
@@ -57,20 +57,21 @@ struct Spreads {
   /// Adds a number that is independent of the others.
   void add(const Component& of, double standard);
 
-  /// Returns the spreads of some numbers alone; the others may have any value.
+  /// Returns the spreads of those numbers alone that satisfy a condition; the others may have any value.
   Spreads of(const std::function<bool(const Component&)>& kept) const;
 
   Eigen::MatrixXd covariance() const;
 };
 
-/// Returns the spreads of a covariance.
-/// @param named  numbers of its rows; a row without variance is left out
+/// Returns the standard deviations and correlations of a covariance matrix.
+/// @param named  numbers that belong to its rows; a row without variance is left out
 Spreads spreads_of(const Eigen::MatrixXd& covariance, const std::vector<Component>& named);
 
-/// Returns the smallest eigenvalue of a correlation matrix. If it is below 0, no numbers have these correlations.
+/// Returns the smallest eigenvalue of a correlation matrix. If it is negative, no numbers have these correlations.
 double least_eigenvalue(const Eigen::MatrixXd& correlation);
 
-/// Largest size of an eigenvalue that counts as 0. Correlations have few digits, and complete ones an eigenvalue 0.
+/// An eigenvalue of this size or smaller counts as 0. Correlations are given with few digits, and complete correlations
+/// have an eigenvalue 0.
 inline constexpr double eigenvalue_rounding = 1e-6;
 
 }  // namespace contensou::si

@@ -13,51 +13,51 @@ namespace contensou::si {
 struct Patch {
   double friction;  ///< f, >= 0
   double radius;    ///< eps in m, >= 0; 0: a point, without a moment
-  double creep;     ///< speed s in m/s, > 0, below which friction is viscous (PatchFriction)
+  double creep;     ///< speed s in m/s, > 0, below which friction is viscous (see PatchFriction)
 };
 
-/// The friction of a patch on a body, and its derivatives by the motion.
+/// Force and moment of a patch's friction on a body, and their derivatives by the motion.
 struct Wrench {
   Eigen::Vector3d value;     ///< Fx, Fy in N; moment about the normal in N m
   Eigen::Matrix3d jacobian;  ///< derivatives by vx, vy in m/s and omega in rad/s
 };
 
-/// The wrench of a patch for a time step, finite and continuous down to rest.
+/// The wrench of a patch, that is, its force and moment, for a time step. It is finite and continuous down to rest.
 ///
-/// It is the wrench of the law, with the sliding speed |v| replaced by V = sqrt(|v|^2 + s^2). With w = eps |omega|,
+/// It is computed by the law with the sliding speed |v| replaced by V = sqrt(|v|^2 + s^2). With w = eps |omega|,
 ///   F = -f N Phi(V, w) v/V,    M = -f N eps Psi(V, w) sign(omega)
 /// Every motion satisfies |F| <= f N, |M| <= f N eps Psi(0) and F.v + M omega <= 0.
 ///
-/// Under a law with a dissipation potential R (all named laws except pade, which also has a kink at omega = 0), this is
-/// minus the gradient of the convex function f N R(V, w). The Jacobian is then symmetric and negative semidefinite, and
-/// an implicit step under a given load N has exactly one solution (reduction/README.md, (R36)).
+/// Consider a law with a dissipation potential R: every named law except pade, which also has a kink at omega = 0. The
+/// wrench is then minus the gradient of the convex function f N R(V, w). The Jacobian is symmetric and negative
+/// semidefinite, and an implicit step under a given load N has exactly one solution (reduction/README.md, (R36)).
 ///
 /// At rest the Jacobian is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, with K = lim k Psi (1/5
-/// for exact). With lengths in units of eps it is below 5 f N/s everywhere under every law. (The law ring has a
-/// logarithm at k = 1, which differences cut off.) For exact, uniform and elliptic, which are in the kernel
-/// (contensou/wrench_kernel.h), it is symmetric to rounding. For others it is symmetric to 1e-9, and to 1e-6 next to
-/// the kink of ring and similar laws.
+/// for exact). With lengths in units of eps, it is below 5 f N/s for every motion under every law. (The law
+/// ring has a logarithm at k = 1, which differences cut off.) For the laws exact, uniform and elliptic of
+/// contensou/wrench_kernel.h, the Jacobian is symmetric up to rounding. For other laws it is symmetric to 1e-9, and to
+/// 1e-6 next to the kink of ring and similar laws.
 ///
-/// A body at rest under a force creeps. Under a tangential load T < f N alone it creeps at
+/// A body at rest under a force creeps. Under a tangential load T < f N alone, its speed is
 ///   |v| = s T/sqrt((f N)^2 - T^2),
-/// under a moment Q < f N eps Psi(0) alone at eps |omega| = s/k with Psi(k) = Q/(f N eps), and at s Q/(K f N eps) for
-/// small Q. At speeds above s the effect of s is of the order of s^2 divided by the larger speed squared.
+/// under a moment Q < f N eps Psi(0) alone, eps |omega| = s/k with Psi(k) = Q/(f N eps); for small Q, s Q/(K f N eps).
+/// At speeds above s the effect of s is of the order of s^2 divided by the larger speed squared.
 ///
 /// A stepper with one Newton step per time step dt needs s >= a dt/2, where a is the deceleration by friction alone
 /// (for a ball 7/2 f g). With a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
-/// Steps that iterate to the solution need no such bound.
+/// Steps that iterate to convergence need no such bound.
 class PatchFriction {
  public:
   explicit PatchFriction(const reduction::Law& law);
 
   /// Computes the wrench. It does not allocate, and several threads may call it at once.
-  /// @param motion  vx, vy of the patch centre over the other body in m/s, omega about the normal in rad/s
+  /// @param motion  vx, vy of the patch centre relative to the other body in m/s, omega about the normal in rad/s
   /// @param load    N in newtons; for 0 or less there is no contact, and the wrench is 0
   /// @throws std::domain_error  if a number is not finite, a result overflows, or the patch is out of range
   Wrench operator()(const Eigen::Vector3d& motion, double load, const Patch& patch) const;
 
   /// Computes the wrench without exceptions.
-  /// @param wrench  result; zeros in case of an error
+  /// @param wrench  result; zeros if there is an error
   /// @return        description of the error; null if there is none
   const char* evaluate(const Eigen::Vector3d& motion, double load, const Patch& patch, Wrench& wrench) const;
 
