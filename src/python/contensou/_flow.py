@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import Any, NamedTuple, Optional
+from functools import lru_cache, partial
+from typing import Any, Callable, NamedTuple, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._arrays import ArrayFunction
 from ._law import Body, Law, LawLike, body_of, core_flow, law as law_of
-from ._numbers import number, numbers, target, thread_count, together, whole
+from ._numbers import number, numbers, thread_count, together, whole
 from ._reduce import Reduction
 
 
@@ -159,37 +160,21 @@ class Flow:
         out: Optional[NDArray[np.float64]] = None,
         threads: int = 1,
         gradient: bool = False,
+        where: ArrayLike = True,
     ) -> Any:
         """Returns the time tau until u = v = 0, to a few eps (2e-15 relative).
 
         u, v:      numbers, or arrays of shapes that broadcast; any u, v >= 0. Invalid or masked entries of an array
                    become NaN
-        out:       float64 array of the broadcast shape for the result; may be u or v itself
+        out:       array of the broadcast shape for the result, float64 or, for float32, float32; may be u or v itself
         threads:   number of threads for a large array; other threads of Python continue meanwhile
         gradient:  True to return tau and a dict of its partial derivatives by u, v, mu, chi, gamma and drive; NaN at
                    rest
+        where:     True for each entry to compute; the others keep the value of out, or are NaN without it
         """
-        if gradient:
-            if out is not None or threads != 1:
-                raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
-            u, v = together(u=u, v=v)
-            tau, *derivatives = self._core.stop_time_gradients(u, v).reshape(7, *u.shape)
-            return tau[()], {by: each[()] for by, each in zip(_DERIVATIVES, derivatives)}
-        if out is None and isinstance(u, (float, int)) and isinstance(v, (float, int)):
+        if not gradient and out is None and where is True and isinstance(u, (float, int)) and isinstance(v, (float, int)):
             return self._core.stop_time(number("u", u), number("v", v))
-        threads = thread_count(threads)
-        u, v = together(u=u, v=v)
-        if out is not None:
-            target(out, u.shape)
-        direct = out is not None and out.flags.c_contiguous and all(
-            out.ctypes.data == given.ctypes.data and given.flags.c_contiguous or not np.may_share_memory(out, given)
-            for given in (u, v)
-        )
-        taus = out if out is not None and direct else np.empty(u.shape)
-        self._core.stop_times(u, v, taus, threads)
-        if out is not None and not direct:
-            out[...] = taus
-        return out if out is not None else taus[()]
+        return _array_stop_times(partial(_write_stop_times, self), ("u", "v"), (u, v), out, threads, gradient, where)
 
     def orbit(self, *, u: float, v: float) -> Orbit:
         """Returns the motion from one start."""
@@ -246,36 +231,54 @@ def stop_time(
     out: Optional[NDArray[np.float64]] = None,
     threads: int = 1,
     gradient: bool = False,
+    where: ArrayLike = True,
 ) -> Any:
     """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Each of its
     values costs a flow (0.4 ms); from 1000 values on, without a drive, all of them cost 0.1 s. The time is NaN where mu
     is NaN or masked."""
     if mu is None or isinstance(mu, (float, int)):
-        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient)
-    u, v, mu = together(u=u, v=v, mu=mu)
+        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient, where=where)
+    write = partial(_write_stop_times_of_mus, law, body, drive)
+    return _array_stop_times(write, ("u", "v", "mu"), (u, v, mu), out, threads, gradient, where)
+
+
+def _write_stop_times(flow: Flow, threads: int, u: NDArray[np.float64], v: NDArray[np.float64], *results: NDArray[np.float64]) -> None:
+    """Writes the stop times; with seven results also the derivatives."""
+    if len(results) == 1:
+        flow._core.stop_times(u, v, results[0], threads)
+        return
+    for result, found in zip(results, flow._core.stop_time_gradients(u, v)):
+        result[...] = found.reshape(u.shape)
+
+
+def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, threads: int, u: NDArray[np.float64],
+                             v: NDArray[np.float64], mu: NDArray[np.float64], *results: NDArray[np.float64]) -> None:
     if (unknown := np.isnan(mu)).any():
         u, mu = np.where(unknown, np.nan, u), np.where(unknown, 1, mu)
-    taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
-    if len(values) >= 1000 and drive == 0 and not gradient:
+    if len(values) >= 1000 and drive == 0 and len(results) == 1:
         ends = [Flow(float(value), law, body) for value in (values[0], values[-1])]  # they refuse what is no mu
         every = np.empty(u.shape)
-        mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
-        ends[0]._core.stop_times_of_mus(mus, us, vs, every)
-        taus[...] = every
-        return taus[()] if out is None else out
-    found = [Flow(float(value), law, body, drive).stop_time(u=u[group == i], v=v[group == i], out=out if gradient else None,
-                                                            threads=threads, gradient=gradient)
-             for i, value in enumerate(values)]
-    by = {name: np.empty(u.shape) for name in _DERIVATIVES if gradient}
-    for i, part in enumerate(found):
-        taus[group == i], derivatives = part if gradient else (part, {})
-        for name, each in derivatives.items():
-            by[name][group == i] = each
-    if gradient:
-        return taus[()], {name: each[()] for name, each in by.items()}
-    return taus[()] if out is None else out
+        ends[0]._core.stop_times_of_mus(np.ascontiguousarray(mu), np.ascontiguousarray(u), np.ascontiguousarray(v), every)
+        results[0][...] = every
+        return
+    for i, value in enumerate(values):
+        rows = group == i
+        parts = [np.empty(np.count_nonzero(rows)) for _ in results]
+        _write_stop_times(Flow(float(value), law, body, drive), threads, u[rows], v[rows], *parts)
+        for result, part in zip(results, parts):
+            result[rows] = part
+
+
+def _array_stop_times(write: Callable[..., None], names: Sequence[str], given: Sequence[Any], out: Any, threads: int,
+                      gradient: bool, where: ArrayLike) -> Any:
+    """Returns the stop times of arrays, which `write` computes by a number of threads."""
+    if gradient and (out is not None or threads != 1):
+        raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
+    times = ArrayFunction("stop_time", names, partial(write, thread_count(threads)), gives=(0,) * (7 if gradient else 1))
+    found = times(*given, out=out, where=where)
+    return (found[0], dict(zip(_DERIVATIVES, found[1:]))) if gradient else found
 
 
 class Check(NamedTuple):

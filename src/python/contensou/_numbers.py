@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import sys
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,33 @@ def needs(name: str, what: str, given: Any) -> TypeError:
     return TypeError(f"{name}: {what} is needed; got {given!r:.60}")
 
 
+def refuse_unit(name: str, given: Any) -> None:
+    """Raises TypeError for a quantity with a unit, and for a list or a DataArray that contains one."""
+    parts = given if isinstance(given, (list, tuple)) else (getattr(given, "data", given) if hasattr(type(given), "dims") else given,)
+    for each in parts:
+        unit = next((unit for unit in ("unit", "units") if hasattr(type(each), unit)), None)
+        if unit is not None:
+            raise TypeError(f"{name}: numbers without a unit are needed, got {type(each).__name__} in {getattr(each, unit)}")
+
+
+def _known(array: NDArray[Any]) -> list[Any]:
+    """Returns the entries of an array of objects; NA of pandas becomes NaN.
+    Raises TypeError for text."""
+    pandas = sys.modules.get("pandas")
+    entries: list[Any] = array.ravel().tolist()
+    if any(isinstance(each, (str, bytes)) for each in entries):
+        raise TypeError("text was given")
+    return entries if pandas is None else [np.nan if each is pandas.NA else each for each in entries]
+
+
 def numbers(name: str, given: Any) -> NDArray[np.float64]:
-    """Returns the numbers of an argument as one C array of doubles. Masked entries become NaN.
-    Raises TypeError unless they are real numbers (for None, text, dates, complex numbers), and ValueError for rows of
-    different lengths and numbers beyond doubles."""
+    """Returns the numbers of an argument as one C array of doubles. Masked entries and NA of pandas become NaN.
+    Raises TypeError unless they are real numbers (for None, text, dates, complex numbers, numbers with a unit), and
+    ValueError for rows of different lengths and numbers beyond doubles."""
     if given is None:
         raise needs(name, "a number, or an array of them,", given)
+    if type(given) is not np.ndarray:
+        refuse_unit(name, given)
     mask = given.mask if isinstance(given, np.ma.MaskedArray) else False
     try:
         array = np.asarray(given)
@@ -28,7 +50,8 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
     if array.dtype.kind not in "fiubO":
         raise TypeError(f"{name}: real numbers are needed, got {array.dtype}")
     try:
-        result: NDArray[np.float64] = np.asarray(array, dtype=np.float64, order="C")
+        plain = array if array.dtype.kind != "O" else np.array(_known(array), dtype=np.float64).reshape(array.shape)
+        result: NDArray[np.float64] = np.asarray(plain, dtype=np.float64, order="C")
     except OverflowError:
         raise ValueError(f"{name}: numbers up to {np.finfo(float).max:.3g} are allowed; got {given!r:.60}") from None
     except (TypeError, ValueError) as error:
