@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._law import Law, LawLike, body_of, law as law_of
 from ._numbers import needs, number, numbers, target, text, thread_count, whole
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Event(NamedTuple):
@@ -498,7 +501,26 @@ class Roll:
         return self.ball.but(rolling_friction=self.rolling_friction)._experiment, self.law._core, self.rolling_below
 
 
-_place = [("t", "f8"), ("x", "f8"), ("y", "f8")]
+_places = ("rolls_after", "spin_ends", "rest")
+_others = ("slip_length", "turns", "path", "stop_time")
+_nested = np.dtype([*((name, [(axis, "f8") for axis in "txy"]) for name in _places), *((name, "f8") for name in _others)])
+
+
+class _Row(np.void):
+    """One row of the events of Rolls: a number by its flat name, or an event."""
+
+    def __getitem__(self, key: Any) -> Any:
+        return np.array(self).view(_nested)[key][()] if key in _places else super().__getitem__(key)
+
+
+class _Events(np.ndarray[Any, Any]):
+    """The events of Rolls. The name of an event gives its t, x and y."""
+
+    def __getitem__(self, key: Any) -> Any:
+        if not isinstance(key, str):
+            return super().__getitem__(key)
+        plain = self.view(np.ndarray)
+        return plain.view(_nested)[key] if key in _places else plain[key]
 
 
 class Rolls:
@@ -506,20 +528,29 @@ class Rolls:
     shape S, they return a structured array of shape (N, *S) with the fields of Roll. An index returns one Roll, a slice
     Rolls.
 
-    events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), rest infinite
-             if a Roll has None; slip_length, path (m), turns, stop_time (s). Each is also an attribute
+    events:  a structured array of shape (N,) with flat names: rolls_after_t, rolls_after_x, rolls_after_y (s, m), so also
+             spin_ends and rest, which is infinite if a Roll has None; slip_length, path (m), turns, stop_time (s).
+             events["rest"] has the fields t, x, y. rolls_after, spin_ends, rest and the last four are also attributes
     """
 
     #: The dtype of events.
-    dtype = np.dtype([("rolls_after", _place), ("spin_ends", _place), ("rest", _place), ("slip_length", "f8"), ("turns", "f8"),
-                      ("path", "f8"), ("stop_time", "f8")])
+    dtype = np.dtype((_Row, [*((f"{name}_{axis}", "f8") for name in _places for axis in "txy"), *((name, "f8") for name in _others)]))
+
+    rolls_after: NDArray[np.void]
+    spin_ends: NDArray[np.void]
+    rest: NDArray[np.void]
+    slip_length: NDArray[np.float64]
+    turns: NDArray[np.float64]
+    path: NDArray[np.float64]
+    stop_time: NDArray[np.float64]
 
     def __init__(self, ball: Ball, starts: NDArray[np.float64], law: Law, rolling_below: float, rolling_friction: float,
                  threads: int = 1, out: Optional[NDArray[Any]] = None) -> None:
         self.ball, self.starts, self.law = ball, np.ascontiguousarray(starts), law
         self.rolling_below, self.rolling_friction, self.threads = rolling_below, rolling_friction, threads
         self._core = _core.Shots(ball._experiment, law._core, rolling_friction)
-        self.events = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
+        found = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
+        self.events: NDArray[np.void] = found.view(_Events)
 
     def _events(self, out: NDArray[Any]) -> NDArray[Any]:
         into = out if out.flags.c_contiguous else np.empty(len(self), self.dtype)
@@ -529,9 +560,16 @@ class Rolls:
         return out
 
     def __getattr__(self, name: str) -> NDArray[Any]:
-        if name in (Rolls.dtype.names or ()):
-            return self.events[name]
-        raise AttributeError(f"Rolls has no {name!r}; it has {', '.join(Rolls.dtype.names or ())}")
+        if name in (*_places, *_others):
+            found: NDArray[Any] = self.events[name]
+            return found
+        raise AttributeError(f"Rolls has no {name!r}; it has {', '.join((*_places, *_others))}")
+
+    def to_frame(self) -> pandas.DataFrame:
+        """Returns the events as a DataFrame of pandas, with a row for each start."""
+        import pandas
+
+        return pandas.DataFrame(self.events)
 
     def __len__(self) -> int:
         return len(self.starts)

@@ -147,3 +147,16 @@ def test_a_series_keeps_index_and_name():
     assert ct.stop_time(u=table, v=1, mu=0.3).columns.tolist() == ["u", "v"]
     motions = pandas.DataFrame(np.ones((4, 3)), columns=["vx", "vy", "omega"])
     assert isinstance(ct.wrench("exact", motions, pandas.Series([1.0] * 4), PATCH), np.ndarray)
+
+
+def test_events_are_a_table():
+    pandas = pytest.importorskip("pandas")
+    rolls = ct.Ball.pool(rolling_friction=0.01).roll(slip=[1, 2], spin=50)
+    table = pandas.DataFrame(rolls.events)
+    pandas.testing.assert_frame_equal(rolls.to_frame(), table)
+    assert table.columns.tolist() == list(ct.Rolls.dtype.names) and (table.dtypes == float).all()
+    np.testing.assert_array_equal(table.rest_t, rolls.rest["t"])
+    assert tuple(table.loc[1, ["rolls_after_t", "rolls_after_x", "rolls_after_y"]]) == rolls[1].rolls_after
+    out = np.empty(2, ct.Rolls.dtype)
+    ct.Ball.pool(rolling_friction=0.01).roll(slip=[1, 2], spin=50, out=out)
+    pandas.testing.assert_frame_equal(pandas.DataFrame(out), table)
