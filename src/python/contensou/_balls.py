@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,23 @@ from ._numbers import needs, number, numbers, target, text, thread_count, whole
 
 if TYPE_CHECKING:
     import pandas
+    from typing_extensions import Concatenate, ParamSpec
+
+    from ._numbers import Array, Number, NumberOrNone
+
+    Fields = ParamSpec("Fields")
+
+
+def _takes_fields(ball: Callable[[], Callable[Fields, Ball]]) -> Callable[[Callable[..., Ball]], Callable[Concatenate[Any, Fields], Ball]]:
+    """Tells type checkers that a method takes the fields of a Ball."""
+    return lambda method: method
+
+
+def _takes_one_and_fields(
+        ball: Callable[[], Callable[Fields, Ball]]
+) -> Callable[[Callable[..., Ball]], Callable[Concatenate[Any, Union[str, PathLike[str]], Fields], Ball]]:
+    """Tells type checkers that a method takes a name or path and the fields of a Ball."""
+    return lambda method: method
 
 
 class Event(NamedTuple):
@@ -109,12 +126,14 @@ class Ball:
             raise TypeError(f"a Ball has no {key}; it has {', '.join(allowed)}")
         return cls(**_core.changed(known, changes), **law)
 
+    @_takes_fields(lambda: Ball)
     def but(self, **changes: Any) -> Ball:
         """Returns the ball with other fields. A field replaces those that give the same value in another way:
         patch_radius moduli, a load gravity, slip with spin velocities."""
         return self._of(self._given(), changes)
 
     @classmethod
+    @_takes_one_and_fields(lambda: Ball)
     def read(cls, path: Union[str, PathLike[str]], **changes: Any) -> Ball:
         """Returns the ball of a run file (TOML), such as `contensou balls pool -o mine.toml` writes."""
         return cls._of(_core.parse_run_file(Path(path).read_text(encoding="utf-8"), str(path)), changes)
@@ -132,41 +151,49 @@ class Ball:
         Path(path).write_text(_core.run_file(self._experiment, name), encoding="utf-8")
 
     @classmethod
+    @_takes_one_and_fields(lambda: Ball)
     def named(cls, name: str, /, **changes: Any) -> Ball:
         """Returns the ball with a name of `contensou balls`."""
         return cls._of(_core.ball(text("name", name)), changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def pool(cls, **changes: Any) -> Ball:
         """A pool ball on cloth."""
         return cls.named("pool", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def steel(cls, **changes: Any) -> Ball:
         """A steel ball of 20 mm on glass."""
         return cls.named("steel", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def bowling(cls, **changes: Any) -> Ball:
         """A bowling ball on a dry lane."""
         return cls.named("bowling", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def rubber(cls, **changes: Any) -> Ball:
         """A rubber ball on steel."""
         return cls.named("rubber", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def gel(cls, **changes: Any) -> Ball:
         """A gel ball on a rigid plane, whose sliding and spinning are visibly coupled."""
         return cls.named("gel", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def basketball(cls, **changes: Any) -> Ball:
         """A basketball on a wooden floor, a hollow ball."""
         return cls.named("basketball", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def puck(cls, **changes: Any) -> Ball:
         """An ice hockey puck, a disc that lies flat."""
         return cls.named("puck", **changes)
@@ -179,24 +206,35 @@ class Ball:
         """Returns the given law, or by default the ball's own."""
         return law_of(self.law if asked is None else asked)
 
+    @overload
+    def roll(  # type: ignore[misc]
+        self, *, velocity: Union[Sequence[float], None] = None, angular_velocity: Union[Sequence[float], None] = None, slip: NumberOrNone = None, spin: NumberOrNone = None,
+        strike: NumberOrNone = None, tip: Union[Sequence[float], None] = None, elevation: NumberOrNone = None, cue_mass: NumberOrNone = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: None = None) -> Roll: ...
+    @overload
     def roll(
-        self,
-        *,
-        velocity: Optional[ArrayLike] = None,
-        angular_velocity: Optional[ArrayLike] = None,
-        slip: Optional[ArrayLike] = None,
-        spin: Optional[ArrayLike] = None,
-        strike: Optional[ArrayLike] = None,
-        tip: Optional[ArrayLike] = None,
-        elevation: Optional[ArrayLike] = None,
-        cue_mass: Optional[ArrayLike] = None,
-        law: Optional[LawLike] = None,
-        rolling_below: Optional[float] = None,
-        rolling_friction: Optional[float] = None,
-        load: Optional[tuple[ArrayLike, ArrayLike]] = None,
-        threads: int = 1,
-        out: Optional[NDArray[Any]] = None,
-    ) -> Any:
+        self, *, velocity: Optional[Union[Sequence[float], Sequence[Sequence[float]]]] = None, angular_velocity: Optional[Union[Sequence[float], Sequence[Sequence[float]]]] = None, slip: Optional[ArrayLike] = None, spin: Optional[ArrayLike] = None,
+        strike: Optional[ArrayLike] = None, tip: Optional[Union[Sequence[float], Sequence[Sequence[float]]]] = None, elevation: Optional[ArrayLike] = None, cue_mass: Optional[ArrayLike] = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Rolls: ...
+    @overload
+    def roll(
+        self, *, velocity: Array, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
+    @overload
+    def roll(
+        self, *, velocity: Any = None, angular_velocity: Array, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
+    def roll(
+        self, *, velocity: Any = None, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any:
         """Returns the motion of the ball, or of the body that lies flat, as a Roll. By default it starts as the ball
         does. If one of the following has an axis of N more, there are N starts, and the result is Rolls.
 
@@ -264,7 +302,8 @@ class Ball:
             if bad.size:
                 raise ValueError(f"row {bad[0]}: slip: 0 or more is needed, got {given['slip'].flat[bad[0]]}")
         rest = {"velocity": (0, 0), "angular_velocity": (0, 0, 0), "slip": 0, "spin": 0}
-        own = self.but(**{name: rest[name] for name in given})
+        at_rest: dict[str, Any] = {name: rest[name] for name in given}
+        own = self.but(**at_rest)
         starts = np.empty((count, 5))
         velocity, angular_velocity = own._experiment.start
         starts[:, :2], starts[:, 2:] = velocity, angular_velocity
@@ -395,6 +434,10 @@ class Roll:
     def __reduce__(self) -> tuple[Any, ...]:
         return Roll, tuple(getattr(self, each.name) for each in fields(self) if each.init)
 
+    @overload
+    def __call__(self, t: Number) -> np.void: ...  # type: ignore[misc]
+    @overload
+    def __call__(self, t: ArrayLike) -> NDArray[np.void]: ...
     def __call__(self, t: ArrayLike) -> Any:
         return self._core.at(numbers("t", t))[()]
 
@@ -574,6 +617,10 @@ class Rolls:
     def __len__(self) -> int:
         return len(self.starts)
 
+    @overload
+    def __getitem__(self, row: int) -> Roll: ...
+    @overload
+    def __getitem__(self, row: slice) -> Rolls: ...
     def __getitem__(self, row: Union[int, slice]) -> Any:
         if isinstance(row, slice):
             return Rolls(self.ball, self.starts[row], *self._again)
@@ -582,7 +629,7 @@ class Rolls:
         ball = self.ball.but(velocity=velocity, angular_velocity=angular_velocity)
         return Roll(ball, velocity, angular_velocity, self.law, self.rolling_below, self.rolling_friction)
 
-    def __call__(self, t: ArrayLike) -> NDArray[Any]:
+    def __call__(self, t: ArrayLike) -> NDArray[np.void]:
         times = numbers("t", t)
         return self._core.at(self.starts, times, self.threads).reshape(len(self), *times.shape)
 

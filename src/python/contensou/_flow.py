@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from typing import Any, Callable, NamedTuple, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Literal, NamedTuple, Optional, Sequence, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,8 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import ArrayFunction
 from ._law import Body, Law, LawLike, body_of, core_flow, law as law_of
-from ._numbers import number, numbers, thread_count, together, whole
+from ._numbers import number, numbers, thread_count, whole
 from ._reduce import Reduction
+
+if TYPE_CHECKING:
+    from ._numbers import Foreign, Number, NumberOrNone
 
 
 class Ray(NamedTuple):
@@ -87,6 +90,12 @@ class Orbit:
         """The relative error of stop_time."""
         return self._core.accuracy
 
+    @overload
+    def at(  # type: ignore[misc]
+        self, tau: NumberOrNone = None, *, tau_left: NumberOrNone = None, beta: NumberOrNone = None) -> np.void: ...
+    @overload
+    def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
+           beta: Optional[ArrayLike] = None) -> NDArray[np.void]: ...
     def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
            beta: Optional[ArrayLike] = None) -> Any:
         """Returns the states at times tau >= 0 after the start, at times tau_left before the stop, or at regularised
@@ -100,12 +109,16 @@ class Orbit:
             return self._core.at_left(numbers("tau_left", tau_left))[()]
         return self.flow._core.at_beta(number("u", self.u), number("v", self.v), numbers("beta", beta))[()]
 
-    def sample(self, count: int = 201) -> NDArray[Any]:
+    def sample(self, count: int = 201) -> NDArray[np.void]:
         """Returns the states at equidistant times from the start to the stop."""
         if whole("count", count) < 1:
             raise ValueError(f"count: one instant or more is needed, got {count}")
         return self._core.at(np.linspace(0, self.stop_time, count))
 
+    @overload
+    def gradient(self, tau: Number) -> dict[str, dict[str, float]]: ...  # type: ignore[misc]
+    @overload
+    def gradient(self, tau: ArrayLike) -> dict[str, dict[str, NDArray[np.float64]]]: ...
     def gradient(self, tau: ArrayLike) -> dict[str, dict[str, Any]]:
         """Returns u, v, slip_length (the integral of v) and turned (the integral of u) at times tau, with exact partial
         derivatives by the start and by tau, each as {value, u, v, tau}. The time at which v has a value changes with
@@ -116,6 +129,10 @@ class Orbit:
         return {name: {by: found[i, j].reshape(times.shape)[()] for j, by in enumerate(("value", "u", "v", "tau"))}
                 for i, name in enumerate(("u", "v", "slip_length", "turned"))}
 
+    @overload
+    def slip_length(self, tau: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def slip_length(self, tau: ArrayLike) -> NDArray[np.float64]: ...
     def slip_length(self, tau: ArrayLike) -> Any:
         """Returns the integral of v over [0, tau], in the unit of speed squared."""
         return self._core.slip_length(numbers("tau", tau))[()]
@@ -152,16 +169,23 @@ class Flow:
     def __reduce__(self) -> tuple[Any, ...]:
         return Flow, (self.mu, self.law, self.body, self.drive)
 
-    def stop_time(
-        self,
-        *,
-        u: ArrayLike,
-        v: ArrayLike,
-        out: Optional[NDArray[np.float64]] = None,
-        threads: int = 1,
-        gradient: bool = False,
-        where: ArrayLike = True,
-    ) -> Any:
+    @overload
+    def stop_time(  # type: ignore[misc]
+        self, *, u: Number, v: Number, threads: int = 1, gradient: Literal[False] = False) -> float: ...
+    @overload
+    def stop_time(self, *, u: Foreign, v: Any, threads: int = 1, gradient: bool = False, where: Any = True) -> Any: ...
+    @overload
+    def stop_time(self, *, u: Any, v: Foreign, threads: int = 1, gradient: bool = False, where: Any = True) -> Any: ...
+    @overload
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike, out: Optional[NDArray[Any]] = None, threads: int = 1,
+                  gradient: Literal[False] = False, where: ArrayLike = True) -> NDArray[Any]: ...
+    @overload
+    def stop_time(  # type: ignore[misc]
+        self, *, u: Number, v: Number, gradient: Literal[True]) -> tuple[float, dict[str, float]]: ...
+    @overload
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike, gradient: Literal[True],
+                  where: ArrayLike = True) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]: ...
+    def stop_time(self, *, u: Any, v: Any, out: Any = None, threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
         """Returns the time tau until u = v = 0, to a few eps (2e-15 relative).
 
         u, v:      numbers, or arrays of shapes that broadcast; any u, v >= 0. Invalid or masked entries of an array
@@ -202,10 +226,9 @@ class FlowReduction(Reduction):
         system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
         super().__init__(_core.Planar.of_flow(flow._core), system, None, (FlowReduction, (flow,)))
 
-    def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
-        u, v = together(u=u, v=v)
+    def _canonical(self, u: NDArray[np.float64], v: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         with np.errstate(divide="ignore", invalid="ignore"):
-            return (v / u)[()], np.log(v)[()]
+            return v / u, np.log(v)
 
 
 _kept_flow = lru_cache(maxsize=64)(Flow)
@@ -220,24 +243,43 @@ def _flow(mu: Optional[float], law: Optional[LawLike], body: Body, drive: float)
     return Flow(mu, law, body, drive)
 
 
+@overload
+def stop_time(  # type: ignore[misc]
+    *, u: Number, v: Number, mu: NumberOrNone = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    threads: int = 1, gradient: Literal[False] = False) -> float: ...
+@overload
 def stop_time(
-    *,
-    u: ArrayLike,
-    v: ArrayLike,
-    mu: Optional[ArrayLike] = None,
-    law: Optional[LawLike] = None,
-    body: Body = "ball",
-    drive: float = 0,
-    out: Optional[NDArray[np.float64]] = None,
-    threads: int = 1,
-    gradient: bool = False,
-    where: ArrayLike = True,
-) -> Any:
+    *, u: Foreign, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: Any, v: Foreign, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: Any, v: Any, mu: Foreign, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: ArrayLike, v: ArrayLike, mu: Optional[ArrayLike] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    out: Optional[NDArray[Any]] = None, threads: int = 1, gradient: Literal[False] = False, where: ArrayLike = True) -> NDArray[Any]: ...
+@overload
+def stop_time(  # type: ignore[misc]
+    *, u: Number, v: Number, mu: NumberOrNone = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    gradient: Literal[True]) -> tuple[float, dict[str, float]]: ...
+@overload
+def stop_time(
+    *, u: ArrayLike, v: ArrayLike, mu: Optional[ArrayLike] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    gradient: Literal[True], where: ArrayLike = True) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]: ...
+def stop_time(
+    *, u: Any, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, out: Any = None,
+    threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
     """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Each of its
     values costs a flow (0.4 ms); from 1000 values on, without a drive, all of them cost 0.1 s. The time is NaN where mu
     is NaN or masked."""
     if mu is None or isinstance(mu, (float, int)):
-        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient, where=where)
+        flow: Any = _flow(mu, law, body, drive)
+        return flow.stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient, where=where)
     write = partial(_write_stop_times_of_mus, law, body, drive)
     return _array_stop_times(write, ("u", "v", "mu"), (u, v, mu), out, threads, gradient, where)
 

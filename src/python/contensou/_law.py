@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import ArrayFunction
 from ._numbers import needs, number, numbers, text
+
+if TYPE_CHECKING:
+    from ._numbers import Foreign, Number
 
 Body = Union[str, tuple[float, float]]
 
@@ -57,7 +60,13 @@ class Law:
         for result, found in ((force, self._core.force(known)), (moment, self._core.moment(known))):
             result[...] = np.where(unknown, np.nan, found)
 
-    def __call__(self, k: ArrayLike, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[Any, Any]:
+    @overload
+    def __call__(self, k: Number) -> tuple[float, float]: ...  # type: ignore[misc]
+    @overload
+    def __call__(self, k: Foreign, *, where: Any = True) -> tuple[Any, Any]: ...
+    @overload
+    def __call__(self, k: ArrayLike, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
+    def __call__(self, k: Any, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[Any, Any]:
         if out is None and where is True and isinstance(k, (float, int)) and k == k:
             return self._core.force(number("k", k))[()], self._core.moment(number("k", k))[()]
         pair: tuple[Any, Any] = ArrayFunction("law", ("k",), self._write, gives=(0, 0))(k, out=out, where=where)

@@ -4,10 +4,34 @@ from __future__ import annotations
 
 import operator
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol, Union
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    #: One number, for which one number comes back. Completion by jedi looks one Union deep, and takes no int for a float.
+    Number = Union[int, float, np.integer[Any], np.floating[Any]]
+    NumberOrNone = Union[int, float, np.integer[Any], np.floating[Any], None]
+
+    class _Dimensions(Protocol):
+        @property
+        def dims(self) -> Any: ...
+
+    class _Chunks(Protocol):
+        @property
+        def chunks(self) -> Any: ...
+
+    class _Index(Protocol):
+        @property
+        def iloc(self) -> Any: ...
+
+    #: Arrays of xarray, dask and pandas, which come back as such.
+    Foreign = Union[_Dimensions, _Chunks, _Index]
+
+    class Array(Protocol):
+        @property
+        def __array__(self) -> Any: ...
 
 
 def needs(name: str, what: str, given: Any) -> TypeError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._numbers import needs, number, numbers, together
 from ._portrait import Portrait, points_of, start_of
+
+if TYPE_CHECKING:
+    from ._numbers import Number
 
 
 class Generator(NamedTuple):
@@ -89,6 +92,10 @@ class Reduction:
         """The kind of the blown-up centre: stable node, saddle, stable focus, ..."""
         return self._core.kind
 
+    @overload
+    def factor(self, u: Number, v: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def factor(self, u: ArrayLike, v: ArrayLike) -> NDArray[np.float64]: ...
     def factor(self, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns an inverse integrating factor V, for which f . grad V = V div f; NaN where it is not known."""
         return self._core.factor(*together(u=u, v=v))[()]
@@ -112,16 +119,31 @@ class Reduction:
         """For a focus the factor of exp(p) in a turn, and its length in sigma, d sigma = exp(-c p) dt; else None."""
         return self._core.turn
 
+    @overload
+    def canonical(self, u: Number, v: Number) -> tuple[float, float]: ...  # type: ignore[misc]
+    @overload
+    def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
         """Returns q, the angle, and p, which alone the symmetry moves: ln of the distance divided by that of reduce's
         start."""
-        q, p = self._core.canonical(*together(u=u, v=v))
+        q, p = self._canonical(*together(u=u, v=v))
         return q[()], p[()]
 
+    def _canonical(self, u: NDArray[np.float64], v: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        return self._core.canonical(u, v)
+
+    @overload
+    def first_integral(self, u: Number, v: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def first_integral(self, u: ArrayLike, v: ArrayLike) -> NDArray[np.float64]: ...
     def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns a number that is constant along an orbit; NaN on rays."""
         return self._core.first_integral(*together(u=u, v=v))[()]
 
+    @overload
+    def stop_time(self, *, u: Number, v: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> NDArray[np.float64]: ...
     def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns the time to the centre, relative 1e-12; inf if not reached; NaN beyond a border of the field or a
         jump."""
@@ -199,6 +221,10 @@ class PlanarOrbit:
     def __repr__(self) -> str:
         return f"<orbit from u = {self.u}, v = {self.v} to {self.end}>"
 
+    @overload
+    def at(self, t: Number) -> np.void: ...  # type: ignore[misc]
+    @overload
+    def at(self, t: ArrayLike) -> NDArray[np.void]: ...
     def at(self, t: ArrayLike) -> Any:
         """Returns the states at times t >= 0 after the start, as a structured array of their shape with fields t, u, v,
         q, p (as in Reduction.canonical). From end_time on the centre; NaN at infinity and beyond a border."""

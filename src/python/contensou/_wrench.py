@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, Optional, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,14 +13,27 @@ from ._arrays import ArrayFunction
 from ._law import Law, LawLike, law as law_of
 from ._numbers import flag, needs
 
+if TYPE_CHECKING:
+    from ._numbers import Foreign
+
 
 def _write(law: Law, motions: NDArray[np.float64], *rest: NDArray[np.float64]) -> None:
     given = [each.reshape(-1)[:1] if not any(each.strides) else each.reshape(-1) for each in rest[:4]]
     _core.wrenches(law._core, motions, given, rest[4], rest[5] if len(rest) > 5 else np.empty(0))
 
 
-def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[ArrayLike, ArrayLike, ArrayLike], *,
-           slopes: bool = False, out: Any = None, where: ArrayLike = True) -> Any:
+@overload
+def wrench(law: LawLike, motion: Foreign, load: Any, patch: tuple[Any, Any, Any], *, slopes: bool = False, where: Any = True) -> Any: ...
+@overload
+def wrench(law: LawLike, motion: Any, load: Foreign, patch: tuple[Any, Any, Any], *, slopes: bool = False, where: Any = True) -> Any: ...
+@overload
+def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[Any, Any, Any], *, slopes: Literal[False] = False,
+           out: Optional[NDArray[Any]] = None, where: ArrayLike = True) -> NDArray[Any]: ...
+@overload
+def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[Any, Any, Any], *, slopes: Literal[True],
+           out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
+def wrench(law: LawLike, motion: Any, load: Any, patch: tuple[Any, Any, Any], *, slopes: bool = False, out: Any = None,
+           where: Any = True) -> Any:
     """Returns the friction of contact patches on a body: Fx, Fy in N and the moment about the normal in N m, along the
     last axis of an array. One contact or a million contacts may be given; a million take about 0.1 s.
 
