@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._display import picture, table, with_picture
 from ._law import Law, LawLike, body_of, law as law_of
 from ._numbers import needs, number, numbers, target, text, thread_count, whole
 
@@ -471,6 +472,23 @@ class Roll:
         way.legend(fontsize="small", loc="upper left", bbox_to_anchor=(0, -0.2), ncols=2, frameon=False)
         speeds.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
         return axes
+
+    def _repr_svg_(self) -> Optional[str]:
+        return picture(self.plot)
+
+    def _repr_html_(self) -> str:
+        motions = [self] if self.textbook else [self, self.uncoupled]
+        ends = "rests" if self.ball.body in _flat else "rolls"
+        asked: dict[str, Callable[[Roll], Any]] = {
+            f"{ends} after, s": lambda roll: roll.rolls_after.t, f"{ends} at x, m": lambda roll: roll.rolls_after.x,
+            f"{ends} at y, m": lambda roll: roll.rolls_after.y, "path until then, m": lambda roll: roll.path,
+            "length of slip, m": lambda roll: roll.slip_length, "spin ends after, s": lambda roll: roll.spin_ends.t,
+            "turns": lambda roll: roll.turns}
+        if self.rest is not None:
+            asked["centre rests after, s"] = lambda roll: roll.rest.t if roll.rest is not None else "never"
+        head = ["", "textbook" if self.textbook else "this motion", "textbook"][:len(motions) + 1]
+        rows = [[name, *(find(roll) for roll in motions)] for name, find in asked.items()]
+        return with_picture(table(f"{self.ball.name}: law {self.law.name}", head, rows), self._repr_svg_())
 
     @property
     def uncoupled(self) -> Roll:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import ArrayFunction
+from ._display import table
 from ._law import Body, Law, LawLike, body_of, core_flow, law as law_of
 from ._numbers import number, numbers, thread_count, whole
 from ._reduce import Reduction
@@ -346,6 +347,10 @@ class Checks(tuple[Check, ...]):
         if self.passed:
             return self
         raise ArithmeticError("\n".join(str(Checks([row])) for row in self if not row.passed))
+
+    def _repr_html_(self) -> str:
+        rows = [(row.law, row.check, f"{row.measured:.2g}", f"{row.allowed:.2g}", "yes" if row.passed else "NO") for row in self]
+        return table("checks of the theory", ("law", "statement", "measured", "allowed", "passed"), rows)
 
     def __str__(self) -> str:
         return "\n".join(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._display import table, with_picture
 from ._numbers import needs, number, numbers, together
 from ._portrait import Portrait, points_of, start_of
 
@@ -79,6 +80,25 @@ class Reduction:
         if self.solved:
             return f"<reduction: {self.kind if self.form == 'scaling' else self.form}>"
         return f"<reduction: {len(self.generators)} generators, no factor>"
+
+    def _repr_svg_(self) -> Optional[str]:
+        try:
+            return self.portrait().svg()
+        except (ValueError, OSError, RuntimeError):  # no picture of this system, or no gnuplot
+            return None
+
+    def _repr_html_(self) -> str:
+        rows: list[tuple[str, Any]] = [("solved by", self.form or "no quadrature"), ("verdict on symmetries", self.verdict)]
+        if self.form == "scaling":
+            rows.append(("kind of the centre", self.kind))
+        for time, matrix, shift, everywhere in self.generators:
+            numbers = [time, *matrix[0], shift[0], *matrix[1], shift[1]]
+            terms = ("t d/dt", "u d/du", "v d/du", "d/du", "u d/dv", "v d/dv", "d/dv")
+            parts = [f"{each:.6g} {term}" for each, term in zip(numbers, terms) if abs(each) > 1e-9]
+            rows.append(("symmetry" if everywhere else "symmetry of a sector", " + ".join(parts).replace("+ -", "- ")))
+        for each in self.equilibria:
+            rows.append((each.kind, f"({each.u:g}, {each.v:g})"))
+        return with_picture(table(self._system, ("", ""), rows), self._repr_svg_())
 
     @property
     def generator(self) -> Generator:
