@@ -143,7 +143,7 @@ def test_an_array_decides_what_comes_back(function):
         function(Refusing())
     for metres in (Metres(), [1, Metres()]):
         if not (isinstance(metres, list) and function is FUNCTIONS["mu"]):
-            with pytest.raises(TypeError, match="numbers without a unit are needed, got Metres in m"):
+            with pytest.raises(TypeError, match="numbers without a unit are needed; got a Metres of unit 'm': pass its value"):
                 function(metres)
 
 

@@ -39,7 +39,7 @@ CALLS = {
              "pool.roll(strike=2, tip=(0.3, -0.2))", "pool.roll(slip=[1, 2])[0]", "pool.roll(slip=1).uncoupled"],
     "Rolls": ["pool.roll(slip=[1, 2])", "pool.roll(slip=a, spin=1, threads=2)", "pool.roll(velocity=[(1, 0), (2, 0)])", "pool.roll(slip=a)[1:]"],
     "Ball": ["ct.Ball.pool(friction=0.3)", "pool.but(slip=2, spin=3)", "ct.Ball.named('steel', mass=1)"],
-    "Any": ["pool.roll(velocity=m[:, :2])", "pool.roll(velocity=m[0, :2])"],
+    "Any": ["pool.roll(strike=2, tip=np.zeros(2))", "pool.roll(velocity=m[:, :2])", "pool.roll(velocity=m[0, :2])"],
     "PlanarOrbit": ["plane.orbit(1, 1)"], "Fit": ["ct.fit(film['t'], slip=film['slip'], spin=film['wz'], ball=pool)"],
 }
 WRONG = {

@@ -125,7 +125,8 @@ class ArrayFunction:
         """Returns float32 where NumPy would compute in it or in float16, else float64."""
         if not any(getattr(each, "dtype", _double) in _small for each in given):
             return _double
-        found = np.result_type(*(each if isinstance(each, (float, int)) else getattr(each, "dtype", None) or np.asarray(each) for each in given))
+        found = np.result_type(*(each if isinstance(each, (float, int)) else getattr(each, "dtype", None) or np.asarray(each)
+                                 for each in given))
         return _small[0] if found in _small else _double
 
     def _arrays(self, given: Sequence[Any]) -> tuple[list[NDArray[np.float64]], tuple[int, ...]]:
@@ -157,7 +158,8 @@ class ArrayFunction:
             self._write_where(where, arrays, results, shape)
         else:
             results = outs or tuple(np.empty(full, dtype) for full in shapes)
-            into = [each if each.dtype == _double and (not outs or self._is_direct(each, arrays)) else np.empty(each.shape) for each in results]
+            into = [each if each.dtype == _double and (not outs or self._is_direct(each, arrays)) else np.empty(each.shape)
+                    for each in results]
             self._compute(*arrays, *into)
             for each, found in zip(results, into):
                 if found is not each:
@@ -165,7 +167,8 @@ class ArrayFunction:
         found_all = results if outs else tuple(each[()] for each in results)
         return found_all[0] if self.nout == 1 else found_all
 
-    def _write_where(self, where: Any, arrays: Sequence[NDArray[np.float64]], results: Sequence[NDArray[Any]], shape: tuple[int, ...]) -> None:
+    def _write_where(self, where: Any, arrays: Sequence[NDArray[np.float64]], results: Sequence[NDArray[Any]],
+                     shape: tuple[int, ...]) -> None:
         asked = np.asarray(where)
         if asked.dtype != bool:
             raise TypeError(f"where: True or False is needed for each entry; got {asked.dtype}")

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from ._numbers import Array, Number, NumberOrNone
 
     Fields = ParamSpec("Fields")
+    #: Columns of one start; columns of one start or of many.
+    Row = Union[Sequence[float], None]
+    Rows = Union[Sequence[float], Sequence[Sequence[float]], None]
 
 
 def _takes_fields(ball: Callable[[], Callable[Fields, Ball]]) -> Callable[[Callable[..., Ball]], Callable[Concatenate[Any, Fields], Ball]]:
@@ -209,15 +212,15 @@ class Ball:
 
     @overload
     def roll(  # type: ignore[misc]
-        self, *, velocity: Union[Sequence[float], None] = None, angular_velocity: Union[Sequence[float], None] = None, slip: NumberOrNone = None, spin: NumberOrNone = None,
-        strike: NumberOrNone = None, tip: Union[Sequence[float], None] = None, elevation: NumberOrNone = None, cue_mass: NumberOrNone = None, law: Optional[LawLike] = None,
-        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        self, *, velocity: Row = None, angular_velocity: Row = None, slip: NumberOrNone = None, spin: NumberOrNone = None,
+        strike: NumberOrNone = None, tip: Row = None, elevation: NumberOrNone = None, cue_mass: NumberOrNone = None,
+        law: Optional[LawLike] = None, rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
         load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: None = None) -> Roll: ...
     @overload
     def roll(
-        self, *, velocity: Optional[Union[Sequence[float], Sequence[Sequence[float]]]] = None, angular_velocity: Optional[Union[Sequence[float], Sequence[Sequence[float]]]] = None, slip: Optional[ArrayLike] = None, spin: Optional[ArrayLike] = None,
-        strike: Optional[ArrayLike] = None, tip: Optional[Union[Sequence[float], Sequence[Sequence[float]]]] = None, elevation: Optional[ArrayLike] = None, cue_mass: Optional[ArrayLike] = None, law: Optional[LawLike] = None,
-        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        self, *, velocity: Rows = None, angular_velocity: Rows = None, slip: Optional[ArrayLike] = None, spin: Optional[ArrayLike] = None,
+        strike: Optional[ArrayLike] = None, tip: Rows = None, elevation: Optional[ArrayLike] = None, cue_mass: Optional[ArrayLike] = None,
+        law: Optional[LawLike] = None, rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
         load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Rolls: ...
     @overload
     def roll(
@@ -229,6 +232,12 @@ class Ball:
     def roll(
         self, *, velocity: Any = None, angular_velocity: Array, slip: Any = None, spin: Any = None,
         strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
+    @overload
+    def roll(
+        self, *, velocity: Any = None, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Array, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
         rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
         load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
     def roll(
@@ -595,7 +604,8 @@ class Rolls:
     """
 
     #: The dtype of events.
-    dtype = np.dtype((_Row, [*((f"{name}_{axis}", "f8") for name in _places for axis in "txy"), *((name, "f8") for name in _others)]))
+    dtype = np.dtype((_Row, [*((f"{name}_{axis}", "f8") for name in _places for axis in "txy"),
+                             *((name, "f8") for name in _others)]))
 
     rolls_after: NDArray[np.void]
     spin_ends: NDArray[np.void]

@@ -65,7 +65,8 @@ class Law:
     @overload
     def __call__(self, k: Foreign, *, where: Any = True) -> tuple[Any, Any]: ...
     @overload
-    def __call__(self, k: ArrayLike, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
+    def __call__(self, k: ArrayLike, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None,
+                 where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
     def __call__(self, k: Any, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[Any, Any]:
         if out is None and where is True and isinstance(k, (float, int)) and k == k:
             return self._core.force(number("k", k))[()], self._core.moment(number("k", k))[()]

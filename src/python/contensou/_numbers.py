@@ -45,7 +45,8 @@ def refuse_unit(name: str, given: Any) -> None:
     for each in parts:
         unit = next((unit for unit in ("unit", "units") if hasattr(type(each), unit)), None)
         if unit is not None:
-            raise TypeError(f"{name}: numbers without a unit are needed, got {type(each).__name__} in {getattr(each, unit)}")
+            given_as = f"a {type(each).__name__} of unit '{getattr(each, unit)}'"
+            raise TypeError(f"{name}: numbers without a unit are needed; got {given_as}: pass its value")
 
 
 def _known(array: NDArray[Any]) -> list[Any]:

@@ -46,7 +46,7 @@ def wrench(law: LawLike, motion: Any, load: Any, patch: tuple[Any, Any, Any], *,
     where:   True for each contact to compute; the others keep the value of out, or are NaN without it
 
     Motions, loads and the members of the patch broadcast. A NaN or a masked entry gives NaN for its contact; another
-    number out of its range raises ValueError with the index of the contact in the flattened arrays.
+    number out of its range raises ValueError with the index of the contact in the flattened arrays, among those computed.
     """
     if not isinstance(patch, (tuple, list)) or len(patch) != 3:
         raise needs("patch", "(friction, radius, creep)", patch)

@@ -99,7 +99,7 @@ def test_a_unit_is_refused(function, library):
     for given in quantities(library):
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # pint warns where a unit is lost
-            with pytest.raises(TypeError, match="numbers without a unit are needed, got .*Quantity in "):
+            with pytest.raises(TypeError, match="numbers without a unit are needed; got a .*Quantity of unit '.*': pass its value"):
                 function(given)
 
 
