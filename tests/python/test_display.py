@@ -1,4 +1,4 @@
-"""What a notebook shows: tables, and pictures below them."""
+"""The display in a notebook: tables, and pictures below them."""
 
 import sys
 import xml.etree.ElementTree as ElementTree

@@ -55,7 +55,7 @@ WRONG = {
 
 @pytest.fixture(scope="module")
 def told(tmp_path_factory):
-    """What mypy says of each line."""
+    """The messages of mypy about each line."""
     folder = tmp_path_factory.mktemp("types")
     calls = [*(call for group in CALLS.values() for call in group)]
     (folder / "calls.py").write_text(SETUP + "\n".join(f"reveal_type({call})" for call in calls) + "\n" + "\n".join(WRONG))
