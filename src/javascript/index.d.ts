@@ -16,8 +16,11 @@ export interface System {
   drive?: number;
 }
 
+/** One number, or an array of one number for each start. */
+export type Numbers = number | ArrayLike<number>;
+
 export class Flow {
-  /** @throws Error in the library's words */
+  /** @throws Error in the library's words, also for an unknown option, with the nearest one */
   constructor(system: System);
   /** What k = v/(mu |u|) tends to. */
   readonly terminalRatio: number;
@@ -25,6 +28,8 @@ export class Flow {
   readonly meaning: string;
   /** tau until slip and spin have ended. */
   stopTime(start: State): number;
+  /** The same for each of many starts; NaN where there is no start. A number belongs to each start. */
+  stopTimes(starts: { u: Numbers; v: Numbers }): Float64Array;
   /** From the start to the stop, columns. */
   motion(start: State): { tau: Float64Array; u: Float64Array; v: Float64Array; lnV: Float64Array; k: Float64Array };
   /** After tau; `force` is the friction against the slip, over f N. */
@@ -34,6 +39,8 @@ export class Flow {
 }
 
 export function stopTime(start: System & State): number;
+/** mu may be an array, too. Each of its values costs 3 ms, all of its starts 3 us each. */
+export function stopTimes(starts: Omit<System, "mu"> & { mu?: Numbers; u: Numbers; v: Numbers }): Float64Array;
 
 /** SI units. One of patch_radius, spin_deceleration and both moduli tells the patch; neither does, of what lies flat. */
 export interface BallFields {

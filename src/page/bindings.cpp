@@ -16,6 +16,7 @@
 #include <emscripten/val.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "answers/asked/formula_law.hpp"
 #include "answers/asked/portrait_spec.hpp"
@@ -35,6 +36,7 @@
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"
+#include "text/nearest_name.hpp"
 
 namespace contensou::page {
 
@@ -58,7 +60,12 @@ Law law_of(const std::string& name) {
     return known.emplace(name, answers::read_pressure_profile(table, "pressure.csv")).first->second;
   }
   if (auto law = answers::find_law_or_formulas(name)) return known.emplace(name, *law).first->second;
-  throw std::domain_error(fmt::format("no such law: {}", name));
+  std::vector<std::string> names;
+  for (std::string_view known_name : reduction::names_of_laws()) names.emplace_back(known_name);
+  for (const reduction::LawFamily& family : reduction::law_families())
+    names.push_back(fmt::format("{}:{}", family.name, family.letter));
+  throw std::domain_error(
+      fmt::format("no such law '{}'{}; laws: {}", name, suggestion(name, names), fmt::join(names, ", ")));
 }
 
 si::Experiment experiment_of(const val& fields) {
@@ -389,6 +396,11 @@ val laws() {
   return all;
 }
 
+/// Returns the end of a message about a name that is none of an array's: the nearest of them, or nothing.
+std::string suggestion_of(const std::string& typed, const val& names) {
+  return suggestion(typed, emscripten::vecFromJSArray<std::string>(names));
+}
+
 /// Returns the library's name of a law.
 std::string law_name(const std::string& called) {
   const Law law = law_of(called);
@@ -497,5 +509,6 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("contact", answering<contact>);
   function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
+  function("suggestion", &suggestion_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
 }

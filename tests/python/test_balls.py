@@ -383,6 +383,21 @@ def test_many_strokes_threads_and_out():
     assert not out[1::2]["path"].any() and by_threads.events.base is not None
 
 
+def test_events_by_flat_names_and_by_events():
+    rolls = ct.Ball.pool().roll(slip=[1, 2, 3], spin=50)
+    assert rolls.events.dtype.names[:3] == ("rolls_after_t", "rolls_after_x", "rolls_after_y") and len(rolls.events.dtype) == 13
+    for name in ("rolls_after", "spin_ends", "rest"):
+        for axis in "txy":
+            flat = rolls.events[f"{name}_{axis}"]
+            assert type(flat) is np.ndarray and flat.dtype == float and rolls.events[1:][f"{name}_{axis}"][0] == flat[1]
+            np.testing.assert_array_equal(rolls.events[name][axis], flat)
+            assert rolls.events[2][name][axis] == rolls.events[2][f"{name}_{axis}"] == flat[2]
+    copied = pickle.loads(pickle.dumps(rolls.events))
+    assert copied["rest"].dtype.names == ("t", "x", "y") and copied[0]["path"] == rolls.path[0]
+    with pytest.raises(AttributeError, match="^Rolls has no 'rolls_after_t'; it has rolls_after, spin_ends, rest, slip_length"):
+        rolls.rolls_after_t
+
+
 @pytest.mark.parametrize("given, told", [
     ({"velocity": np.ones((10000, 4))}, r"velocity: \(2,\) or \(3,\) is needed, or \(N, 2\) or \(N, 3\) for N starts; got shape \(10000, 4\)"),
     ({"velocity": np.ones((10000, 3))}, "row 0: velocity: the ball stays on the plane, v_z = 0 is needed, got 1.0"),

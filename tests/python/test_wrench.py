@@ -49,7 +49,7 @@ def test_an_entry_that_is_not_a_number():
     ((1, 2), 1, PATCH, False, ValueError, r"motion: vx, vy, omega along the last axis are needed; got an array of shape \(2,\)"),
     (1, 1, PATCH, False, ValueError, r"motion: .* shape \(\)"),
     ((1, 2, 3), 1, (0.2, 3e-3), False, TypeError, r"patch: \(friction, radius, creep\) is needed; got \(0.2"),
-    ((1, 2, 3), [1, 2], (0.2, [1, 2, 3], 1e-4), False, ValueError, r"shapes that broadcast are needed; got motions of \(\)"),
+    ((1, 2, 3), [1, 2], (0.2, [1, 2, 3], 1e-4), False, ValueError, r"shapes that broadcast are needed; got motion of \(\)"),
     ((1, 2, 3), "1", PATCH, False, TypeError, "load: real numbers are needed"),
     ((1, 2, 3), 1, PATCH, 1, TypeError, "slopes: True or False is needed"),
     ((1, 2, 3), 1, ([0.2, -0.2], 3e-3, 1e-4), False, ValueError, "contact 1: friction must be >= 0"),

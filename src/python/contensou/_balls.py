@@ -7,14 +7,38 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._display import picture, table, with_picture
 from ._law import Law, LawLike, body_of, law as law_of
 from ._numbers import needs, number, numbers, target, text, thread_count, whole
+
+if TYPE_CHECKING:
+    import pandas
+    from typing_extensions import Concatenate, ParamSpec
+
+    from ._numbers import Array, Number, NumberOrNone
+
+    Fields = ParamSpec("Fields")
+    #: Columns of one start; columns of one start or of many.
+    Row = Union[Sequence[float], None]
+    Rows = Union[Sequence[float], Sequence[Sequence[float]], None]
+
+
+def _takes_fields(ball: Callable[[], Callable[Fields, Ball]]) -> Callable[[Callable[..., Ball]], Callable[Concatenate[Any, Fields], Ball]]:
+    """Tells type checkers that a method takes the fields of a Ball."""
+    return lambda method: method
+
+
+def _takes_one_and_fields(
+        ball: Callable[[], Callable[Fields, Ball]]
+) -> Callable[[Callable[..., Ball]], Callable[Concatenate[Any, Union[str, PathLike[str]], Fields], Ball]]:
+    """Tells type checkers that a method takes a name or path and the fields of a Ball."""
+    return lambda method: method
 
 
 class Event(NamedTuple):
@@ -106,12 +130,14 @@ class Ball:
             raise TypeError(f"a Ball has no {key}; it has {', '.join(allowed)}")
         return cls(**_core.changed(known, changes), **law)
 
+    @_takes_fields(lambda: Ball)
     def but(self, **changes: Any) -> Ball:
         """Returns the ball with other fields. A field replaces fields that determine the same value in
         another way: patch_radius replaces moduli, a load gravity, slip with spin the velocities."""
         return self._of(self._given(), changes)
 
     @classmethod
+    @_takes_one_and_fields(lambda: Ball)
     def read(cls, path: Union[str, PathLike[str]], **changes: Any) -> Ball:
         """Returns the ball of a run file (TOML), such as `contensou balls pool -o mine.toml` writes."""
         return cls._of(_core.parse_run_file(Path(path).read_text(encoding="utf-8"), str(path)), changes)
@@ -129,41 +155,49 @@ class Ball:
         Path(path).write_text(_core.run_file(self._experiment, name), encoding="utf-8")
 
     @classmethod
+    @_takes_one_and_fields(lambda: Ball)
     def named(cls, name: str, /, **changes: Any) -> Ball:
         """Returns the ball with a name of `contensou balls`."""
         return cls._of(_core.ball(text("name", name)), changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def pool(cls, **changes: Any) -> Ball:
         """A pool ball on cloth."""
         return cls.named("pool", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def steel(cls, **changes: Any) -> Ball:
         """A steel ball of 20 mm on glass."""
         return cls.named("steel", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def bowling(cls, **changes: Any) -> Ball:
         """A bowling ball on a dry lane."""
         return cls.named("bowling", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def rubber(cls, **changes: Any) -> Ball:
         """A rubber ball on steel."""
         return cls.named("rubber", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def gel(cls, **changes: Any) -> Ball:
         """A gel ball on a rigid plane, whose sliding and spinning are visibly coupled."""
         return cls.named("gel", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def basketball(cls, **changes: Any) -> Ball:
         """A basketball on a wooden floor, a hollow ball."""
         return cls.named("basketball", **changes)
 
     @classmethod
+    @_takes_fields(lambda: Ball)
     def puck(cls, **changes: Any) -> Ball:
         """An ice hockey puck, a disc that lies flat."""
         return cls.named("puck", **changes)
@@ -176,24 +210,41 @@ class Ball:
         """Returns the given law, or by default the ball's own."""
         return law_of(self.law if asked is None else asked)
 
+    @overload
+    def roll(  # type: ignore[misc]
+        self, *, velocity: Row = None, angular_velocity: Row = None, slip: NumberOrNone = None, spin: NumberOrNone = None,
+        strike: NumberOrNone = None, tip: Row = None, elevation: NumberOrNone = None, cue_mass: NumberOrNone = None,
+        law: Optional[LawLike] = None, rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: None = None) -> Roll: ...
+    @overload
     def roll(
-        self,
-        *,
-        velocity: Optional[ArrayLike] = None,
-        angular_velocity: Optional[ArrayLike] = None,
-        slip: Optional[ArrayLike] = None,
-        spin: Optional[ArrayLike] = None,
-        strike: Optional[ArrayLike] = None,
-        tip: Optional[ArrayLike] = None,
-        elevation: Optional[ArrayLike] = None,
-        cue_mass: Optional[ArrayLike] = None,
-        law: Optional[LawLike] = None,
-        rolling_below: Optional[float] = None,
-        rolling_friction: Optional[float] = None,
-        load: Optional[tuple[ArrayLike, ArrayLike]] = None,
-        threads: int = 1,
-        out: Optional[NDArray[Any]] = None,
-    ) -> Any:
+        self, *, velocity: Rows = None, angular_velocity: Rows = None, slip: Optional[ArrayLike] = None, spin: Optional[ArrayLike] = None,
+        strike: Optional[ArrayLike] = None, tip: Rows = None, elevation: Optional[ArrayLike] = None, cue_mass: Optional[ArrayLike] = None,
+        law: Optional[LawLike] = None, rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Rolls: ...
+    @overload
+    def roll(
+        self, *, velocity: Array, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
+    @overload
+    def roll(
+        self, *, velocity: Any = None, angular_velocity: Array, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
+    @overload
+    def roll(
+        self, *, velocity: Any = None, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Array, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
+    def roll(
+        self, *, velocity: Any = None, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
+        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
+        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any:
         """Returns the motion of the ball, or of the body that lies flat, as a Roll. By default it has the ball's own
         start. If one of the following arguments has one more axis, of length N, there are N starts, and the result is
         Rolls.
@@ -262,7 +313,8 @@ class Ball:
             if bad.size:
                 raise ValueError(f"row {bad[0]}: slip: 0 or more is needed, got {given['slip'].flat[bad[0]]}")
         rest = {"velocity": (0, 0), "angular_velocity": (0, 0, 0), "slip": 0, "spin": 0}
-        own = self.but(**{name: rest[name] for name in given})
+        at_rest: dict[str, Any] = {name: rest[name] for name in given}
+        own = self.but(**at_rest)
         starts = np.empty((count, 5))
         velocity, angular_velocity = own._experiment.start
         starts[:, :2], starts[:, 2:] = velocity, angular_velocity
@@ -393,6 +445,10 @@ class Roll:
     def __reduce__(self) -> tuple[Any, ...]:
         return Roll, tuple(getattr(self, each.name) for each in fields(self) if each.init)
 
+    @overload
+    def __call__(self, t: Number) -> np.void: ...  # type: ignore[misc]
+    @overload
+    def __call__(self, t: ArrayLike) -> NDArray[np.void]: ...
     def __call__(self, t: ArrayLike) -> Any:
         return self._core.at(numbers("t", t))[()]
 
@@ -426,6 +482,23 @@ class Roll:
         way.legend(fontsize="small", loc="upper left", bbox_to_anchor=(0, -0.2), ncols=2, frameon=False)
         speeds.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
         return axes
+
+    def _repr_svg_(self) -> Optional[str]:
+        return picture(self.plot)
+
+    def _repr_html_(self) -> str:
+        motions = [self] if self.textbook else [self, self.uncoupled]
+        ends = "rests" if self.ball.body in _flat else "rolls"
+        asked: dict[str, Callable[[Roll], Any]] = {
+            f"{ends} after, s": lambda roll: roll.rolls_after.t, f"{ends} at x, m": lambda roll: roll.rolls_after.x,
+            f"{ends} at y, m": lambda roll: roll.rolls_after.y, "path until then, m": lambda roll: roll.path,
+            "length of slip, m": lambda roll: roll.slip_length, "spin ends after, s": lambda roll: roll.spin_ends.t,
+            "turns": lambda roll: roll.turns}
+        if self.rest is not None:
+            asked["centre rests after, s"] = lambda roll: roll.rest.t if roll.rest is not None else "never"
+        head = ["", "textbook" if self.textbook else "this motion", "textbook"][:len(motions) + 1]
+        rows = [[name, *(find(roll) for roll in motions)] for name, find in asked.items()]
+        return with_picture(table(f"{self.ball.name}: law {self.law.name}", head, rows), self._repr_svg_())
 
     @property
     def uncoupled(self) -> Roll:
@@ -499,7 +572,26 @@ class Roll:
         return self.ball.but(rolling_friction=self.rolling_friction)._experiment, self.law._core, self.rolling_below
 
 
-_place = [("t", "f8"), ("x", "f8"), ("y", "f8")]
+_places = ("rolls_after", "spin_ends", "rest")
+_others = ("slip_length", "turns", "path", "stop_time")
+_nested = np.dtype([*((name, [(axis, "f8") for axis in "txy"]) for name in _places), *((name, "f8") for name in _others)])
+
+
+class _Row(np.void):
+    """One row of the events of Rolls: a number by its flat name, or an event."""
+
+    def __getitem__(self, key: Any) -> Any:
+        return np.array(self).view(_nested)[key][()] if key in _places else super().__getitem__(key)
+
+
+class _Events(np.ndarray[Any, Any]):
+    """The events of Rolls. The name of an event gives its t, x and y."""
+
+    def __getitem__(self, key: Any) -> Any:
+        if not isinstance(key, str):
+            return super().__getitem__(key)
+        plain = self.view(np.ndarray)
+        return plain.view(_nested)[key] if key in _places else plain[key]
 
 
 class Rolls:
@@ -507,20 +599,30 @@ class Rolls:
     shape S, they return a structured array of shape (N, *S) with the fields of Roll. An index returns one Roll, a slice
     Rolls.
 
-    events:  a structured array of shape (N,): rolls_after, spin_ends and rest, each with t, x, y (s, m), rest infinite
-             if a Roll has None; slip_length, path (m), turns, stop_time (s). Each is also an attribute
+    events:  a structured array of shape (N,) with flat names: rolls_after_t, rolls_after_x, rolls_after_y (s, m), so also
+             spin_ends and rest, which is infinite if a Roll has None; slip_length, path (m), turns, stop_time (s).
+             events["rest"] has the fields t, x, y. rolls_after, spin_ends, rest and the last four are also attributes
     """
 
     #: The dtype of events.
-    dtype = np.dtype([("rolls_after", _place), ("spin_ends", _place), ("rest", _place), ("slip_length", "f8"), ("turns", "f8"),
-                      ("path", "f8"), ("stop_time", "f8")])
+    dtype = np.dtype((_Row, [*((f"{name}_{axis}", "f8") for name in _places for axis in "txy"),
+                             *((name, "f8") for name in _others)]))
+
+    rolls_after: NDArray[np.void]
+    spin_ends: NDArray[np.void]
+    rest: NDArray[np.void]
+    slip_length: NDArray[np.float64]
+    turns: NDArray[np.float64]
+    path: NDArray[np.float64]
+    stop_time: NDArray[np.float64]
 
     def __init__(self, ball: Ball, starts: NDArray[np.float64], law: Law, rolling_below: float, rolling_friction: float,
                  threads: int = 1, out: Optional[NDArray[Any]] = None) -> None:
         self.ball, self.starts, self.law = ball, np.ascontiguousarray(starts), law
         self.rolling_below, self.rolling_friction, self.threads = rolling_below, rolling_friction, threads
         self._core = _core.Shots(ball._experiment, law._core, rolling_friction)
-        self.events = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
+        found = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
+        self.events: NDArray[np.void] = found.view(_Events)
 
     def _events(self, out: NDArray[Any]) -> NDArray[Any]:
         into = out if out.flags.c_contiguous else np.empty(len(self), self.dtype)
@@ -530,13 +632,24 @@ class Rolls:
         return out
 
     def __getattr__(self, name: str) -> NDArray[Any]:
-        if name in (Rolls.dtype.names or ()):
-            return self.events[name]
-        raise AttributeError(f"Rolls has no {name!r}; it has {', '.join(Rolls.dtype.names or ())}")
+        if name in (*_places, *_others):
+            found: NDArray[Any] = self.events[name]
+            return found
+        raise AttributeError(f"Rolls has no {name!r}; it has {', '.join((*_places, *_others))}")
+
+    def to_frame(self) -> pandas.DataFrame:
+        """Returns the events as a DataFrame of pandas, with a row for each start."""
+        import pandas
+
+        return pandas.DataFrame(self.events)
 
     def __len__(self) -> int:
         return len(self.starts)
 
+    @overload
+    def __getitem__(self, row: int) -> Roll: ...
+    @overload
+    def __getitem__(self, row: slice) -> Rolls: ...
     def __getitem__(self, row: Union[int, slice]) -> Any:
         if isinstance(row, slice):
             return Rolls(self.ball, self.starts[row], *self._again)
@@ -545,7 +658,7 @@ class Rolls:
         ball = self.ball.but(velocity=velocity, angular_velocity=angular_velocity)
         return Roll(ball, velocity, angular_velocity, self.law, self.rolling_below, self.rolling_friction)
 
-    def __call__(self, t: ArrayLike) -> NDArray[Any]:
+    def __call__(self, t: ArrayLike) -> NDArray[np.void]:
         times = numbers("t", t)
         return self._core.at(self.starts, times, self.threads).reshape(len(self), *times.shape)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from html import escape
 from typing import Any, NamedTuple, Optional, Sequence
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._balls import Ball, a_ball
+from ._display import picture, table, with_picture
 from ._law import Law, LawLike
 from ._numbers import flag, needs, numbers, text
 
@@ -46,6 +48,10 @@ class Combination(NamedTuple):
     standard_error: float
     low: float
     high: float
+
+
+_units = {"patch_radius": "m", "slip": "m/s", "spin": "rad/s", "direction": "rad", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s",
+          "angle": "rad", "rolling": "m/s"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +102,6 @@ class Fit:
         turns of the fit. Returns the axes."""
         if not self.observed:
             raise ValueError("a planned film has nothing to draw")
-        units = {"slip": "m/s", "spin": "rad/s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "angle": "rad"}
         if axes is None:
             from matplotlib import pyplot
 
@@ -111,12 +116,23 @@ class Fit:
                 seen = fitted + np.remainder(seen - fitted + np.pi, 2 * np.pi) - np.pi
             above.plot(self.t, seen, ".", color="C7", markersize=3, label="film")
             above.plot(self.t, fitted, "-", color="C3", label="fitted")
-            above.set(ylabel=f"{name}, {units[name]}")
+            above.set(ylabel=f"{name}, {_units[name]}")
             below.plot(self.t, seen - fitted, ".", color="C7", markersize=3)
             below.axhline(0, color="C3", linewidth=0.8)
             below.set(xlabel="t, s", ylabel="residual")
         axes[0, 0].legend(fontsize="small")
         return axes
+
+    def _repr_svg_(self) -> Optional[str]:
+        return picture(self.plot) if self.observed else None
+
+    def _repr_html_(self) -> str:
+        rows = [(name, *each, _units.get(name, "")) for name, each in self.estimates.items()]
+        caption = f"{self.ball.name}: law {self.law}, reduced chi^2 {self.reduced_chi2:.3g}"
+        html = table(caption, ("", "value", "standard error", "95 % from", "to", "unit"), rows)
+        for misfit in self.misfits:
+            html += f"\n<p>{escape(misfit)}</p>"
+        return with_picture(html, self._repr_svg_())
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={each.value:.6g} +- {each.standard_error:.2g}" for name, each in self.estimates.items())

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import Any, NamedTuple, Optional
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Any, Callable, Literal, NamedTuple, Optional, Sequence, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._arrays import ArrayFunction
+from ._display import table
 from ._law import Body, Law, LawLike, body_of, core_flow, law as law_of
-from ._numbers import number, numbers, target, thread_count, together, whole
+from ._numbers import number, numbers, thread_count, whole
 from ._reduce import Reduction
+
+if TYPE_CHECKING:
+    from ._numbers import Foreign, Number, NumberOrNone
 
 
 class Ray(NamedTuple):
@@ -86,6 +91,12 @@ class Orbit:
         """The relative error of stop_time."""
         return self._core.accuracy
 
+    @overload
+    def at(  # type: ignore[misc]
+        self, tau: NumberOrNone = None, *, tau_left: NumberOrNone = None, beta: NumberOrNone = None) -> np.void: ...
+    @overload
+    def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
+           beta: Optional[ArrayLike] = None) -> NDArray[np.void]: ...
     def at(self, tau: Optional[ArrayLike] = None, *, tau_left: Optional[ArrayLike] = None,
            beta: Optional[ArrayLike] = None) -> Any:
         """Returns the states at times tau >= 0 after the start, at times tau_left before the stop, or at regularised
@@ -99,12 +110,16 @@ class Orbit:
             return self._core.at_left(numbers("tau_left", tau_left))[()]
         return self.flow._core.at_beta(number("u", self.u), number("v", self.v), numbers("beta", beta))[()]
 
-    def sample(self, count: int = 201) -> NDArray[Any]:
+    def sample(self, count: int = 201) -> NDArray[np.void]:
         """Returns the states at equidistant times from the start to the stop."""
         if whole("count", count) < 1:
             raise ValueError(f"count: one instant or more is needed, got {count}")
         return self._core.at(np.linspace(0, self.stop_time, count))
 
+    @overload
+    def gradient(self, tau: Number) -> dict[str, dict[str, float]]: ...  # type: ignore[misc]
+    @overload
+    def gradient(self, tau: ArrayLike) -> dict[str, dict[str, NDArray[np.float64]]]: ...
     def gradient(self, tau: ArrayLike) -> dict[str, dict[str, Any]]:
         """Returns u, v, slip_length (the integral of v) and turned (the integral of u) at times tau, with exact partial
         derivatives by the start and by tau, each as {value, u, v, tau}. The time at which v has a value changes with
@@ -115,6 +130,10 @@ class Orbit:
         return {name: {by: found[i, j].reshape(times.shape)[()] for j, by in enumerate(("value", "u", "v", "tau"))}
                 for i, name in enumerate(("u", "v", "slip_length", "turned"))}
 
+    @overload
+    def slip_length(self, tau: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def slip_length(self, tau: ArrayLike) -> NDArray[np.float64]: ...
     def slip_length(self, tau: ArrayLike) -> Any:
         """Returns the integral of v over [0, tau], in the unit of speed squared."""
         return self._core.slip_length(numbers("tau", tau))[()]
@@ -151,45 +170,36 @@ class Flow:
     def __reduce__(self) -> tuple[Any, ...]:
         return Flow, (self.mu, self.law, self.body, self.drive)
 
-    def stop_time(
-        self,
-        *,
-        u: ArrayLike,
-        v: ArrayLike,
-        out: Optional[NDArray[np.float64]] = None,
-        threads: int = 1,
-        gradient: bool = False,
-    ) -> Any:
+    @overload
+    def stop_time(  # type: ignore[misc]
+        self, *, u: Number, v: Number, threads: int = 1, gradient: Literal[False] = False) -> float: ...
+    @overload
+    def stop_time(self, *, u: Foreign, v: Any, threads: int = 1, gradient: bool = False, where: Any = True) -> Any: ...
+    @overload
+    def stop_time(self, *, u: Any, v: Foreign, threads: int = 1, gradient: bool = False, where: Any = True) -> Any: ...
+    @overload
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike, out: Optional[NDArray[Any]] = None, threads: int = 1,
+                  gradient: Literal[False] = False, where: ArrayLike = True) -> NDArray[Any]: ...
+    @overload
+    def stop_time(  # type: ignore[misc]
+        self, *, u: Number, v: Number, gradient: Literal[True]) -> tuple[float, dict[str, float]]: ...
+    @overload
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike, gradient: Literal[True],
+                  where: ArrayLike = True) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]: ...
+    def stop_time(self, *, u: Any, v: Any, out: Any = None, threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
         """Returns the time tau until u = v = 0, to a few eps (2e-15 relative).
 
         u, v:      numbers, or arrays of shapes that broadcast; any u, v >= 0. Invalid or masked entries of an array
                    become NaN
-        out:       float64 array of the broadcast shape for the result; may be u or v itself
+        out:       array of the broadcast shape for the result, float64 or, for float32, float32; may be u or v itself
         threads:   number of threads for a large array; other threads of Python continue meanwhile
         gradient:  True to return tau and a dict of its partial derivatives by u, v, mu, chi, gamma and drive; NaN at
                    rest
+        where:     True for each entry to compute; the others keep the value of out, or are NaN without it
         """
-        if gradient:
-            if out is not None or threads != 1:
-                raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
-            u, v = together(u=u, v=v)
-            tau, *derivatives = self._core.stop_time_gradients(u, v).reshape(7, *u.shape)
-            return tau[()], {by: each[()] for by, each in zip(_DERIVATIVES, derivatives)}
-        if out is None and isinstance(u, (float, int)) and isinstance(v, (float, int)):
+        if not gradient and out is None and where is True and isinstance(u, (float, int)) and isinstance(v, (float, int)):
             return self._core.stop_time(number("u", u), number("v", v))
-        threads = thread_count(threads)
-        u, v = together(u=u, v=v)
-        if out is not None:
-            target(out, u.shape)
-        direct = out is not None and out.flags.c_contiguous and all(
-            out.ctypes.data == given.ctypes.data and given.flags.c_contiguous or not np.may_share_memory(out, given)
-            for given in (u, v)
-        )
-        taus = out if out is not None and direct else np.empty(u.shape)
-        self._core.stop_times(u, v, taus, threads)
-        if out is not None and not direct:
-            out[...] = taus
-        return out if out is not None else taus[()]
+        return _array_stop_times(partial(_write_stop_times, self), ("u", "v"), (u, v), out, threads, gradient, where)
 
     def orbit(self, *, u: float, v: float) -> Orbit:
         """Returns the motion from one start."""
@@ -217,10 +227,9 @@ class FlowReduction(Reduction):
         system = f"(2.6), mu = {flow.mu:g}, law {flow.law.name}"
         super().__init__(_core.Planar.of_flow(flow._core), system, None, (FlowReduction, (flow,)))
 
-    def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
-        u, v = together(u=u, v=v)
+    def _canonical(self, u: NDArray[np.float64], v: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         with np.errstate(divide="ignore", invalid="ignore"):
-            return (v / u)[()], np.log(v)[()]
+            return v / u, np.log(v)
 
 
 _kept_flow = lru_cache(maxsize=64)(Flow)
@@ -235,47 +244,84 @@ def _flow(mu: Optional[float], law: Optional[LawLike], body: Body, drive: float)
     return Flow(mu, law, body, drive)
 
 
+@overload
+def stop_time(  # type: ignore[misc]
+    *, u: Number, v: Number, mu: NumberOrNone = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    threads: int = 1, gradient: Literal[False] = False) -> float: ...
+@overload
 def stop_time(
-    *,
-    u: ArrayLike,
-    v: ArrayLike,
-    mu: Optional[ArrayLike] = None,
-    law: Optional[LawLike] = None,
-    body: Body = "ball",
-    drive: float = 0,
-    out: Optional[NDArray[np.float64]] = None,
-    threads: int = 1,
-    gradient: bool = False,
-) -> Any:
+    *, u: Foreign, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: Any, v: Foreign, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: Any, v: Any, mu: Foreign, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: ArrayLike, v: ArrayLike, mu: Optional[ArrayLike] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    out: Optional[NDArray[Any]] = None, threads: int = 1, gradient: Literal[False] = False, where: ArrayLike = True) -> NDArray[Any]: ...
+@overload
+def stop_time(  # type: ignore[misc]
+    *, u: Number, v: Number, mu: NumberOrNone = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    gradient: Literal[True]) -> tuple[float, dict[str, float]]: ...
+@overload
+def stop_time(
+    *, u: ArrayLike, v: ArrayLike, mu: Optional[ArrayLike] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    gradient: Literal[True], where: ArrayLike = True) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]: ...
+def stop_time(
+    *, u: Any, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, out: Any = None,
+    threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
     """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Each of its
     values costs a flow (0.4 ms); from 1000 values on, without a drive, all of them cost 0.1 s. The time is NaN where mu
     is NaN or masked."""
     if mu is None or isinstance(mu, (float, int)):
-        return _flow(mu, law, body, drive).stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient)
-    u, v, mu = together(u=u, v=v, mu=mu)
+        flow: Any = _flow(mu, law, body, drive)
+        return flow.stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient, where=where)
+    write = partial(_write_stop_times_of_mus, law, body, drive)
+    return _array_stop_times(write, ("u", "v", "mu"), (u, v, mu), out, threads, gradient, where)
+
+
+def _write_stop_times(flow: Flow, threads: int, u: NDArray[np.float64], v: NDArray[np.float64], *results: NDArray[np.float64]) -> None:
+    """Writes the stop times; with seven results also the derivatives."""
+    if len(results) == 1:
+        flow._core.stop_times(u, v, results[0], threads)
+        return
+    for result, found in zip(results, flow._core.stop_time_gradients(u, v)):
+        result[...] = found.reshape(u.shape)
+
+
+def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, threads: int, u: NDArray[np.float64],
+                             v: NDArray[np.float64], mu: NDArray[np.float64], *results: NDArray[np.float64]) -> None:
     if (unknown := np.isnan(mu)).any():
         u, mu = np.where(unknown, np.nan, u), np.where(unknown, 1, mu)
-    taus = np.empty(u.shape) if out is None else target(out, u.shape)
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
-    if len(values) >= 1000 and drive == 0 and not gradient:
+    if len(values) >= 1000 and drive == 0 and len(results) == 1:
         ends = [Flow(float(value), law, body) for value in (values[0], values[-1])]  # they refuse what is no mu
         every = np.empty(u.shape)
-        mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
-        ends[0]._core.stop_times_of_mus(mus, us, vs, every)
-        taus[...] = every
-        return taus[()] if out is None else out
-    found = [Flow(float(value), law, body, drive).stop_time(u=u[group == i], v=v[group == i], out=out if gradient else None,
-                                                            threads=threads, gradient=gradient)
-             for i, value in enumerate(values)]
-    by = {name: np.empty(u.shape) for name in _DERIVATIVES if gradient}
-    for i, part in enumerate(found):
-        taus[group == i], derivatives = part if gradient else (part, {})
-        for name, each in derivatives.items():
-            by[name][group == i] = each
-    if gradient:
-        return taus[()], {name: each[()] for name, each in by.items()}
-    return taus[()] if out is None else out
+        ends[0]._core.stop_times_of_mus(np.ascontiguousarray(mu), np.ascontiguousarray(u), np.ascontiguousarray(v), every)
+        results[0][...] = every
+        return
+    for i, value in enumerate(values):
+        rows = group == i
+        parts = [np.empty(np.count_nonzero(rows)) for _ in results]
+        _write_stop_times(Flow(float(value), law, body, drive), threads, u[rows], v[rows], *parts)
+        for result, part in zip(results, parts):
+            result[rows] = part
+
+
+def _array_stop_times(write: Callable[..., None], names: Sequence[str], given: Sequence[Any], out: Any, threads: int,
+                      gradient: bool, where: ArrayLike) -> Any:
+    """Returns the stop times of arrays, which `write` computes by a number of threads."""
+    if gradient and (out is not None or threads != 1):
+        raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
+    times = ArrayFunction("stop_time", names, partial(write, thread_count(threads)), gives=(0,) * (7 if gradient else 1))
+    found = times(*given, out=out, where=where)
+    return (found[0], dict(zip(_DERIVATIVES, found[1:]))) if gradient else found
 
 
 class Check(NamedTuple):
@@ -301,6 +347,10 @@ class Checks(tuple[Check, ...]):
         if self.passed:
             return self
         raise ArithmeticError("\n".join(str(Checks([row])) for row in self if not row.passed))
+
+    def _repr_html_(self) -> str:
+        rows = [(row.law, row.check, f"{row.measured:.2g}", f"{row.allowed:.2g}", "yes" if row.passed else "NO") for row in self]
+        return table("checks of the theory", ("law", "statement", "measured", "allowed", "passed"), rows)
 
     def __str__(self) -> str:
         return "\n".join(

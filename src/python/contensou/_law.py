@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Union, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._arrays import ArrayFunction
 from ._numbers import needs, number, numbers, text
+
+if TYPE_CHECKING:
+    from ._numbers import Foreign, Number
 
 Body = Union[str, tuple[float, float]]
 
@@ -17,7 +21,8 @@ Body = Union[str, tuple[float, float]]
 @dataclass(frozen=True)
 class Law:
     """A friction law; `law` makes it. Called with k = v/(mu |u|) of any shape, it returns (force, moment): Phi, the
-    force divided by f N, and Psi, the moment divided by f N times the patch radius, each of the shape of k.
+    force divided by f N, and Psi, the moment divided by f N times the patch radius, each of the shape of k, and NaN
+    where k is NaN. `out`, a pair of arrays, and `where` are those of a ufunc.
 
     name:           a name of `contensou law`, such as exact, pade, uniform, pressure:1.5; formulas in k with their
                     parameters, "phi = k/(a + k); psi = 1/(a + k); a = 2"; or any name for a function or table
@@ -49,9 +54,24 @@ class Law:
     def __repr__(self) -> str:
         return f"law({self.name!r})" if self.function is None and self.rho is None else f"<law {self.name}>"
 
-    def __call__(self, k: ArrayLike) -> tuple[Any, Any]:
-        k = numbers("k", k)
-        return self._core.force(k)[()], self._core.moment(k)[()]
+    def _write(self, k: NDArray[np.float64], force: NDArray[np.float64], moment: NDArray[np.float64]) -> None:
+        unknown = np.isnan(k)
+        known = np.where(unknown, 0, k)
+        for result, found in ((force, self._core.force(known)), (moment, self._core.moment(known))):
+            result[...] = np.where(unknown, np.nan, found)
+
+    @overload
+    def __call__(self, k: Number) -> tuple[float, float]: ...  # type: ignore[misc]
+    @overload
+    def __call__(self, k: Foreign, *, where: Any = True) -> tuple[Any, Any]: ...
+    @overload
+    def __call__(self, k: ArrayLike, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None,
+                 where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
+    def __call__(self, k: Any, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[Any, Any]:
+        if out is None and where is True and isinstance(k, (float, int)) and k == k:
+            return self._core.force(number("k", k))[()], self._core.moment(number("k", k))[()]
+        pair: tuple[Any, Any] = ArrayFunction("law", ("k",), self._write, gives=(0, 0))(k, out=out, where=where)
+        return pair
 
     @property
     def pivoting_moment(self) -> float:

@@ -3,10 +3,35 @@
 from __future__ import annotations
 
 import operator
-from typing import Any
+import sys
+from typing import TYPE_CHECKING, Any, Protocol, Union
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    #: One number, for which one number comes back. Completion by jedi looks one Union deep, and takes no int for a float.
+    Number = Union[int, float, np.integer[Any], np.floating[Any]]
+    NumberOrNone = Union[int, float, np.integer[Any], np.floating[Any], None]
+
+    class _Dimensions(Protocol):
+        @property
+        def dims(self) -> Any: ...
+
+    class _Chunks(Protocol):
+        @property
+        def chunks(self) -> Any: ...
+
+    class _Index(Protocol):
+        @property
+        def iloc(self) -> Any: ...
+
+    #: Arrays of xarray, dask and pandas, which come back as such.
+    Foreign = Union[_Dimensions, _Chunks, _Index]
+
+    class Array(Protocol):
+        @property
+        def __array__(self) -> Any: ...
 
 
 def needs(name: str, what: str, given: Any) -> TypeError:
@@ -14,12 +39,34 @@ def needs(name: str, what: str, given: Any) -> TypeError:
     return TypeError(f"{name}: {what} is needed; got {given!r:.60}")
 
 
+def refuse_unit(name: str, given: Any) -> None:
+    """Raises TypeError for a quantity with a unit, and for a list or a DataArray that contains one."""
+    parts = given if isinstance(given, (list, tuple)) else (getattr(given, "data", given) if hasattr(type(given), "dims") else given,)
+    for each in parts:
+        unit = next((unit for unit in ("unit", "units") if hasattr(type(each), unit)), None)
+        if unit is not None:
+            given_as = f"a {type(each).__name__} of unit '{getattr(each, unit)}'"
+            raise TypeError(f"{name}: numbers without a unit are needed; got {given_as}: pass its value")
+
+
+def _known(array: NDArray[Any]) -> list[Any]:
+    """Returns the entries of an array of objects; NA of pandas becomes NaN.
+    Raises TypeError for text."""
+    pandas = sys.modules.get("pandas")
+    entries: list[Any] = array.ravel().tolist()
+    if any(isinstance(each, (str, bytes)) for each in entries):
+        raise TypeError("text was given")
+    return entries if pandas is None else [np.nan if each is pandas.NA else each for each in entries]
+
+
 def numbers(name: str, given: Any) -> NDArray[np.float64]:
-    """Returns the numbers of an argument as one C array of doubles. Masked entries become NaN.
-    Raises TypeError unless they are real numbers (for None, text, dates, complex numbers), and ValueError for rows of
-    different lengths and numbers beyond doubles."""
+    """Returns the numbers of an argument as one C array of doubles. Masked entries and NA of pandas become NaN.
+    Raises TypeError unless they are real numbers (for None, text, dates, complex numbers, numbers with a unit), and
+    ValueError for rows of different lengths and numbers beyond doubles."""
     if given is None:
         raise needs(name, "a number, or an array of them,", given)
+    if type(given) is not np.ndarray:
+        refuse_unit(name, given)
     mask = given.mask if isinstance(given, np.ma.MaskedArray) else False
     try:
         array = np.asarray(given)
@@ -28,7 +75,8 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
     if array.dtype.kind not in "fiubO":
         raise TypeError(f"{name}: real numbers are needed, got {array.dtype}")
     try:
-        result: NDArray[np.float64] = np.asarray(array, dtype=np.float64, order="C")
+        plain = array if array.dtype.kind != "O" else np.array(_known(array), dtype=np.float64).reshape(array.shape)
+        result: NDArray[np.float64] = np.asarray(plain, dtype=np.float64, order="C")
     except OverflowError:
         raise ValueError(f"{name}: numbers up to {np.finfo(float).max:.3g} are allowed; got {given!r:.60}") from None
     except (TypeError, ValueError) as error:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._display import table, with_picture
 from ._numbers import needs, number, numbers, together
 from ._portrait import Portrait, points_of, start_of
+
+if TYPE_CHECKING:
+    from ._numbers import Number
 
 
 class Generator(NamedTuple):
@@ -77,6 +81,25 @@ class Reduction:
             return f"<reduction: {self.kind if self.form == 'scaling' else self.form}>"
         return f"<reduction: {len(self.generators)} generators, no factor>"
 
+    def _repr_svg_(self) -> Optional[str]:
+        try:
+            return self.portrait().svg()
+        except (ValueError, OSError, RuntimeError):  # no picture of this system, or no gnuplot
+            return None
+
+    def _repr_html_(self) -> str:
+        rows: list[tuple[str, Any]] = [("solved by", self.form or "no quadrature"), ("verdict on symmetries", self.verdict)]
+        if self.form == "scaling":
+            rows.append(("kind of the centre", self.kind))
+        for time, matrix, shift, everywhere in self.generators:
+            numbers = [time, *matrix[0], shift[0], *matrix[1], shift[1]]
+            terms = ("t d/dt", "u d/du", "v d/du", "d/du", "u d/dv", "v d/dv", "d/dv")
+            parts = [f"{each:.6g} {term}" for each, term in zip(numbers, terms) if abs(each) > 1e-9]
+            rows.append(("symmetry" if everywhere else "symmetry of a sector", " + ".join(parts).replace("+ -", "- ")))
+        for each in self.equilibria:
+            rows.append((each.kind, f"({each.u:g}, {each.v:g})"))
+        return with_picture(table(self._system, ("", ""), rows), self._repr_svg_())
+
     @property
     def generator(self) -> Generator:
         """The first generator. Raises ValueError if there is none."""
@@ -89,6 +112,10 @@ class Reduction:
         """The kind of the blown-up centre: stable node, saddle, stable focus, ..."""
         return self._core.kind
 
+    @overload
+    def factor(self, u: Number, v: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def factor(self, u: ArrayLike, v: ArrayLike) -> NDArray[np.float64]: ...
     def factor(self, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns an inverse integrating factor V, for which f . grad V = V div f; NaN where it is not known."""
         return self._core.factor(*together(u=u, v=v))[()]
@@ -112,16 +139,31 @@ class Reduction:
         """For a focus, the factor of exp(p) in a turn, and sigma of a turn, d sigma = exp(-c p) dt; else None."""
         return self._core.turn
 
+    @overload
+    def canonical(self, u: Number, v: Number) -> tuple[float, float]: ...  # type: ignore[misc]
+    @overload
+    def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
         """Returns q, the angle, and p, the only coordinate that the symmetry changes. p is ln(d/d0) with the distance d
         from the centre, and d0 that of reduce's start."""
-        q, p = self._core.canonical(*together(u=u, v=v))
+        q, p = self._canonical(*together(u=u, v=v))
         return q[()], p[()]
 
+    def _canonical(self, u: NDArray[np.float64], v: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        return self._core.canonical(u, v)
+
+    @overload
+    def first_integral(self, u: Number, v: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def first_integral(self, u: ArrayLike, v: ArrayLike) -> NDArray[np.float64]: ...
     def first_integral(self, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns a number that is constant along an orbit; NaN on rays."""
         return self._core.first_integral(*together(u=u, v=v))[()]
 
+    @overload
+    def stop_time(self, *, u: Number, v: Number) -> float: ...  # type: ignore[misc]
+    @overload
+    def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> NDArray[np.float64]: ...
     def stop_time(self, *, u: ArrayLike, v: ArrayLike) -> Any:
         """Returns the time to the centre, relative 1e-12; inf if not reached; NaN beyond a border of the field or a
         jump."""
@@ -199,6 +241,10 @@ class PlanarOrbit:
     def __repr__(self) -> str:
         return f"<orbit from u = {self.u}, v = {self.v} to {self.end}>"
 
+    @overload
+    def at(self, t: Number) -> np.void: ...  # type: ignore[misc]
+    @overload
+    def at(self, t: ArrayLike) -> NDArray[np.void]: ...
     def at(self, t: ArrayLike) -> Any:
         """Returns the states at times t >= 0 after the start, as a structured array of their shape with fields t, u, v,
         q, p (as in Reduction.canonical). From end_time on the centre; NaN at infinity and beyond a border."""

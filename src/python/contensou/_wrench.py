@@ -2,17 +2,38 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, Literal, Optional, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._law import LawLike, law as law_of
-from ._numbers import flag, needs, numbers
+from ._arrays import ArrayFunction
+from ._law import Law, LawLike, law as law_of
+from ._numbers import flag, needs
+
+if TYPE_CHECKING:
+    from ._numbers import Foreign
 
 
-def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[ArrayLike, ArrayLike, ArrayLike], *, slopes: bool = False) -> Any:
+def _write(law: Law, motions: NDArray[np.float64], *rest: NDArray[np.float64]) -> None:
+    given = [each.reshape(-1)[:1] if not any(each.strides) else each.reshape(-1) for each in rest[:4]]
+    _core.wrenches(law._core, motions, given, rest[4], rest[5] if len(rest) > 5 else np.empty(0))
+
+
+@overload
+def wrench(law: LawLike, motion: Foreign, load: Any, patch: tuple[Any, Any, Any], *, slopes: bool = False, where: Any = True) -> Any: ...
+@overload
+def wrench(law: LawLike, motion: Any, load: Foreign, patch: tuple[Any, Any, Any], *, slopes: bool = False, where: Any = True) -> Any: ...
+@overload
+def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[Any, Any, Any], *, slopes: Literal[False] = False,
+           out: Optional[NDArray[Any]] = None, where: ArrayLike = True) -> NDArray[Any]: ...
+@overload
+def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[Any, Any, Any], *, slopes: Literal[True],
+           out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None, where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
+def wrench(law: LawLike, motion: Any, load: Any, patch: tuple[Any, Any, Any], *, slopes: bool = False, out: Any = None,
+           where: Any = True) -> Any:
     """Returns the friction of contact patches on a body: Fx, Fy in N and the moment about the normal in N m, along the
     last axis of an array. One contact or a million contacts may be given; a million take about 0.1 s.
 
@@ -21,23 +42,14 @@ def wrench(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[ArrayL
     load:    N in newtons; for 0 or less there is no contact, and the result is 0
     patch:   (f, radius in m, creep speed in m/s); f, radius >= 0, creep > 0, below which friction is viscous
     slopes:  True: returns a pair, the second with the derivatives by vx, vy and omega along one more axis
+    out:     array for the result; with slopes a pair of them
+    where:   True for each contact to compute; the others keep the value of out, or are NaN without it
 
     Motions, loads and the members of the patch broadcast. A NaN or a masked entry gives NaN for its contact; another
-    number out of its range raises ValueError with the index of the contact in the flattened arrays.
+    number out of its range raises ValueError with the index of the contact in the flattened arrays, among those computed.
     """
-    motions = numbers("motion", motion)
-    if motions.ndim == 0 or motions.shape[-1] != 3:
-        raise ValueError(f"motion: vx, vy, omega along the last axis are needed; got an array of shape {motions.shape}")
     if not isinstance(patch, (tuple, list)) or len(patch) != 3:
         raise needs("patch", "(friction, radius, creep)", patch)
-    given = [numbers(name, each) for name, each in zip(("load", "friction", "radius", "creep"), (load, *patch))]
-    try:
-        shape = np.broadcast_shapes(motions.shape[:-1], *(each.shape for each in given))
-    except ValueError:
-        shapes = ", ".join(str(each.shape) for each in given)
-        raise ValueError(f"shapes that broadcast are needed; got motions of {motions.shape[:-1]}; load, friction, radius, creep of {shapes}") from None
-    flat = [each.reshape(1) if each.size == 1 else np.broadcast_to(each, shape).reshape(-1) for each in given]
-    value = np.empty((*shape, 3))
-    slope = np.empty((*shape, 3, 3) if flag("slopes", slopes) else 0)
-    _core.wrenches(law_of(law)._core, np.broadcast_to(motions, value.shape), flat, value, slope)
-    return (value, slope) if slopes else value
+    wrenches = ArrayFunction("wrench", ("motion", "load", "friction", "radius", "creep"), partial(_write, law_of(law)),
+                             ("vx", "vy", "omega"), (1, 2) if flag("slopes", slopes) else (1,))
+    return wrenches(motion, load, *patch, out=out, where=where)
