@@ -1,10 +1,13 @@
 #include "data/zero_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
+
+#include <boost/math/tools/minima.hpp>
 
 namespace contensou::portraits {
 
@@ -31,6 +34,23 @@ std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, Vector
   return std::abs(piece.value(middle)) <= least + 1e-9 * std::max(std::abs(at_from), std::abs(at_to))
              ? std::optional(middle)
              : std::nullopt;
+}
+
+/// Returns the place between two neighbours at which a function touches 0 without a change of its sign, as v^2 does;
+/// none where it stays away from 0.
+/// @param values  at four points in one line; the middle two are the neighbours
+std::optional<Vector2d> touch_between(const reduction::FactorPiece& piece, Vector2d from, Vector2d to,
+                                      const std::array<double, 4>& values) {
+  std::array<double, 4> sizes{};
+  std::ranges::transform(values, sizes.begin(), [](double value) { return std::abs(value); });
+  const double largest = std::max(sizes[0], sizes[3]);
+  if (!(largest < INFINITY && sizes[0] > sizes[1] && sizes[2] < sizes[3])) return std::nullopt;
+  constexpr int bits = 26;
+  const auto place = [&](double s) { return Vector2d(from + s * (to - from)); };
+  const auto [s, least] =
+      boost::math::tools::brent_find_minima([&](double s) { return std::abs(piece.value(place(s))); }, 0.0, 1.0, bits);
+  constexpr double rounding = 1e-8;
+  return least <= rounding * largest ? std::optional(place(s)) : std::nullopt;
 }
 
 }  // namespace
@@ -72,9 +92,13 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
       for (const bool up : {false, true}) {
         const int k = up ? i : i + 1, l = up ? j + 1 : j;
         if (k > columns || l > rows) continue;
-        if (const auto zero = zero_between(piece, corner(i, j), corner(k, l), value(i, j), value(k, l))) {
-          crossings[{{i, j}, up}] = {*zero, {}};
+        auto zero = zero_between(piece, corner(i, j), corner(k, l), value(i, j), value(k, l));
+        if (!zero && (up ? j > 0 && l < rows : i > 0 && k < columns)) {
+          zero = touch_between(piece, corner(i, j), corner(k, l),
+                               {up ? value(i, j - 1) : value(i - 1, j), value(i, j), value(k, l),
+                                up ? value(k, l + 1) : value(k + 1, l)});
         }
+        if (zero) crossings[{{i, j}, up}] = {*zero, {}};
       }
     }
   }

@@ -9,7 +9,8 @@
 
 namespace contensou::portraits {
 
-/// Returns the curves on which a function changes its sign within its rectangle. Squares are 1/160 of a window.
+/// Returns the curves on which a function is 0 within its rectangle, with or without a change of its sign. Squares are
+/// 1/160 of a window.
 /// @param sides  sides of the window
 std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Eigen::Vector2d& sides);
 

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "contensou/reduction/integrating_factor.hpp"
 #include "contensou/reduction/planar_symmetry.hpp"
 #include "figures.hpp"
 
@@ -106,6 +107,25 @@ TEST_CASE("the orbit of a start begins there, one through a point at the border"
   }
   CHECK(nearest < 1e-12);
   CHECK(portrait.orbits.size() >= 5);
+}
+
+TEST_CASE("the curves V = 0 are drawn where V changes its sign and where it only touches 0", "[physics]") {
+  const auto lines_of = [](const PlanarField& field) {
+    const reduction::FactorReduction reduction({field}, {0.3, 0.5});
+    REQUIRE(reduction.found());
+    PortraitRequest request;
+    request.window = Window{{-1, -1}, {1.2, 1.1}};
+    return planar_portrait(reduction.reduction(), "a system", request).invariant;
+  };
+  for (const double power : {1, 2, 3, 4}) {
+    INFO("v' = v^" << power);
+    const std::vector<PortraitOrbit> lines =
+        lines_of([&](const Vector2d& x) { return Vector2d(1, std::pow(x[1], power)); });
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].v.abs().maxCoeff() < 1e-3);
+    CHECK(lines[0].u.maxCoeff() - lines[0].u.minCoeff() > 2.1);
+  }
+  CHECK(lines_of([](const Vector2d& x) { return Vector2d(1, x[1] * x[1] + 1e-4); }).empty());
 }
 
 TEST_CASE("a planar portrait is refused where there is nothing to show", "[input]") {

@@ -82,7 +82,7 @@ struct FactorPiece {
 
 /// A planar system x' = f(x) reduced to quadratures. The reduction uses a scaling X = c t d/dt + A (x - x_0) . d/dx, so
 /// that f on one closed curve about x_0 determines f everywhere. Or it uses an inverse integrating factor V alone
-/// (reduced_by_factor).
+/// (FactorReduction).
 ///
 ///     const PlanarReduction reduction(field, *find_symmetries(field, start).scaling, start);
 ///     reduction.end(start);          // PlanarEnd::centre
