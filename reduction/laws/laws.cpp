@@ -31,14 +31,14 @@ struct NamedLaw {
 
 constexpr std::array laws_with_meaning{
     NamedLaw{"exact", "pressure of Hertz, (1 - rho^2)^(1/2)", []() -> Law { return HertzLaw{}; }},
-    NamedLaw{"pade", "approximation of exact by the paper", []() -> Law { return PadeLaw{}; }},
+    NamedLaw{"pade", "approximation of exact by V. F. Zhuravlev (1998)", []() -> Law { return PadeLaw{}; }},
     NamedLaw{"uniform", "uniform pressure over the patch", []() -> Law { return PressureLaw::uniform(); }},
     NamedLaw{"punch", "pressure of a flat rigid punch, (1 - rho^2)^(-1/2)",
              []() -> Law { return PressureLaw::punch(); }},
     NamedLaw{"ring", "pressure on the rim alone", []() -> Law { return PressureLaw::ring(); }},
     NamedLaw{"paraboloid", "pressure of a soft foundation, 1 - rho^2",
              []() -> Law { return PressureLaw::paraboloid(); }},
-    NamedLaw{"elliptic", "ellipse as limit surface, with Psi(0) of Hertz; used for grasping and in physics engines",
+    NamedLaw{"elliptic", "ellipse as limit surface, with the Psi(0) of exact; used for grasping and in physics engines",
              []() -> Law { return EllipticLaw{}; }},
 };
 

@@ -27,7 +27,7 @@ void LawOption::add(CLI::App& app, const std::string& note) {
   app.option_defaults()->group("Law of friction");
   law_.add(
       app, "--law", "LAW",
-      "a name, formulas or FILE.csv (default: the law of the body); 'contensou help laws' lists all of them" + note);
+      "name, formulas or FILE.csv of a law ('contensou help laws'); default: the law that belongs to the body" + note);
   parameters_.add(app);
 }
 
