@@ -97,7 +97,8 @@ inline const std::array view_layouts{
         "the curves depend on " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") alone"},
     ViewLayout{
         View::regularised, "regularised",
-        "curves of u, ln v and time tau against 1 + beta/beta_1, where beta is the time of equations (2.7); for a ball under exact or pade, 1/beta_1 = 40 mu^3 u0 + 105 pi v0",
+        "curves of u, ln v and time tau against 1 + beta/beta_1, where beta is the time of equations (2.7); for a ball "
+        "under exact or pade, 1/beta_1 = 40 mu^3 u0 + 105 pi v0",
         regularised_view, 3, 270, 105, nullptr,
         "(2.7) in " + math("β") + " has no denominator and never reaches rest; (2.8) gives the finite stop time"},
     ViewLayout{View::pair, "pair", "planes (u, v) and (u, ln k) side by side", pair_view, 2, 300, 125, nullptr,

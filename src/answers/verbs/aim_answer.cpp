@@ -66,7 +66,8 @@ constexpr Field<AimReport> aim_row[]{
     {"rest", "s, m, m", "time and place at which the ball comes to rest, with rolling friction",
      [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
     {"strike", "m/s; 1; kg",
-     "level stroke of a cue that gives this start: speed and mass of the cue, and the point that it hits, right of and above the centre, in radii of the ball",
+     "level stroke of a cue that gives this start: speed and mass of the cue, and the point that it hits, right of and "
+     "above the centre, in radii of the ball",
      [](const AimReport& r) -> Json {
        if (!r.strike) return {};
        const auto& [speed, right, above, elevation, mass] = *r.strike;

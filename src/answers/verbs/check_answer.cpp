@@ -61,7 +61,9 @@ constexpr Field<MotionsBeside> beside_fields[]{
      },
      "", 0, " {`slip`, `spin`}"},
     {"models", "",
-     "largest differences between the table and each model, divided by slip and spin at the start. The law is the first model. elliptic: friction of an engine with a joint limit of force and moment. textbook: friction with two separate limits",
+     "largest differences between the table and each model, divided by slip and spin at the start. The law is the "
+     "first model. elliptic: friction of an engine with a joint limit of force and moment. textbook: friction with two "
+     "separate limits",
      [](const MotionsBeside& motions) {
        Json models = Json::array();
        for (const auto& [name, motion, slip, spin] : motions.models) {
@@ -176,13 +178,14 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
 }
 
 std::vector<FieldText> check_fields() {
-  return joined(
-      {texts_of_rows("checks", row_fields),
-       {{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
-         "columns of the table of --against. Times increase, and the first row is the start. A heading may name a unit, as in 'wz [rpm]'"},
-        {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
-         "velocity of the centre and angular velocity (z up), instead of slip and spin. A disc or ring needs no wx, wy"}},
-       texts_of(beside_fields)});
+  return joined({texts_of_rows("checks", row_fields),
+                 {{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
+                   "columns of the table of --against. Times increase, and the first row is the start. A heading may "
+                   "name a unit, as in 'wz [rpm]'"},
+                  {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
+                   "velocity of the centre and angular velocity (z up), instead of slip and spin. A disc or ring needs "
+                   "no wx, wy"}},
+                 texts_of(beside_fields)});
 }
 
 }  // namespace contensou::answers

@@ -74,7 +74,8 @@ constexpr Field<Contact> setting_fields[]{
     {"setting", "", "setting of the engine in words; the setting nearest to the law comes first",
      [](const Contact& of) -> Json { return of.label; }},
     {"cone", "",
-     "joint limit of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1, box F <= F0 and M <= M0, pyramid F/F0 + M/M0 <= 1, points (friction at a few points), none",
+     "joint limit of force F and moment M, with limits F0 and M0 of each alone: elliptic (F/F0)^2 + (M/M0)^2 <= 1, box "
+     "F <= F0 and M <= M0, pyramid F/F0 + M/M0 <= 1; or points (friction at a few points), none",
      [](const Contact& of) -> Json { return of.cone; }},
     {"moment_arm", "m", "largest moment of friction in the engine divided by the load",
      [](const Contact& of) -> Json { return of.moment_arm; }},
@@ -89,8 +90,8 @@ constexpr Field<Contact> setting_fields[]{
 };
 
 constexpr Field<EngineWithBall> name_fields[]{
-    {"name", "", "name of the engine, as for NAME", [](const EngineWithBall& of) -> Json { return of.engine->name; },
-     "engine"},
+    {"name", "", "name of the engine, as in the argument NAME",
+     [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
 };
 constexpr Field<EngineWithBall> moment_fields[]{
     {"", "", "name and value of the parameter that sets the moment",
@@ -122,7 +123,8 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"needs", "", "further settings; without them the engine ignores the parameters",
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
     {"settings", "",
-     "list of settings of the engine, with the fields from setting on; one row of CSV each. Empty if the engine does not support a flat body",
+     "list of settings of the engine, each with the last seven fields of this help; one row of CSV each. Empty if the "
+     "engine does not support a flat body",
      [](const EngineWithBall& of) {
        Json settings = Json::array();
        for (const Contact& setting : of.settings) settings.push_back(members_of(setting_fields, setting));

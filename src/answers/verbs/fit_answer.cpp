@@ -203,7 +203,8 @@ constexpr Field<FitReport> answer_fields[]{
     {"correlation", "", "correlation between the errors of friction and patch_radius",
      [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }, ""},
     {"reduced_chi2", "",
-     "chi squared (sum of squared residuals, each divided by its standard deviation) divided by degrees_of_freedom; 1 if the noise is estimated",
+     "chi squared (sum of squared residuals, each divided by its standard deviation) divided by degrees_of_freedom; 1 "
+     "if the noise is estimated",
      [](const FitReport& r) {
        const Json value = reduced_chi2(r.best, r.planned);
        return value.is_null() ? said_null : value;
@@ -225,7 +226,8 @@ constexpr Field<FitReport> answer_fields[]{
      },
      "", 0, of_estimate},
     {"only", "",
-     "combination of friction and patch radius that the data determine, if they do not determine both. The combination is a product of powers",
+     "combination of friction and patch radius that the data determine, if they do not determine both. The combination "
+     "is a product of powers",
      [](const FitReport& r) -> Json {
        if (!r.best.only) return {};
        const auto& [friction_power, patch_power, value, error, interval] = *r.best.only;
@@ -239,7 +241,9 @@ constexpr Field<FitReport> answer_fields[]{
      },
      "", 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
     {"tracks", "rad/s",
-     "start of the motion in each film: estimates of `slip`, `spin`, `direction`, `vx`, `vy`, `x`, `y`, `angle`, or `rolling` instead of `vx`, `vy` with rolling friction. `half_turn_spin`: spin above which a mark turns more than half a turn between two pictures. `other_spins`: other spins that fit the data equally well",
+     "start of the motion in each film: estimates of `slip`, `spin`, `direction`, `vx`, `vy`, `x`, `y`, `angle`, or "
+     "`rolling` instead of `vx`, `vy` with rolling friction. `half_turn_spin`: spin above which a mark turns more than "
+     "half a turn between two pictures. `other_spins`: other spins that fit the data equally well",
      [](const FitReport& r) {
        Json list = Json::array();
        for (std::size_t i = 0; i < r.tracks.size(); ++i) {
@@ -258,7 +262,8 @@ constexpr Field<FitReport> answer_fields[]{
      },
      "", 0, " [{`file`, `start`, `slip`, ...}]"},
     {"noise", "",
-     "noise of each column: number of values, root mean square of the residuals, standard deviation. `outliers_at` [{`file`, `t`}] lists the outliers (s)",
+     "noise of each column: number of values, root mean square of the residuals, standard deviation. `outliers_at` "
+     "[{`file`, `t`}] lists the outliers (s)",
      [](const FitReport& r) {
        Json noise = Json::object();
        for (const auto& [observable, values, rms, sd, estimated, outliers] : r.best.noise) {

@@ -85,7 +85,8 @@ constexpr Field<End> end_fields[]{
 };
 constexpr Field<TerminalRatios> list_fields[]{
     {"rays", "",
-     "values of k at which a half-line v = k mu |u| is the curve of a motion. attracts: true if neighbouring motions approach this half-line. accuracy: relative error of k",
+     "values of k at which a half-line v = k mu |u| is the curve of a motion. attracts: true if neighbouring motions "
+     "approach this half-line. accuracy: relative error of k",
      [](const TerminalRatios& ratios) {
        Json rays = Json::array();
        for (const InvariantRay& ray : ratios.rays) {

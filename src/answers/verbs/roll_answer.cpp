@@ -69,7 +69,8 @@ constexpr Field<RollEvents> event_fields[]{
     {"spin_ends", "s, m, m", "time and place at which the spin ends; 0 if there was none",
      [](const RollEvents& events) { return members_of(events.of.spin_ends); }, nullptr, 0, " {`t`, `x`, `y`}"},
     {"rest", "s, m, m",
-     "time and place at which the centre comes to rest: turning has ended and the slip is below 0.0001 m/s. For a puck, which has no rolls_after, and for a ball with rolling friction or on a slope",
+     "time and place at which the centre comes to rest: turning has ended and the slip is below 0.0001 m/s. For a "
+     "puck, which has no rolls_after, and for a ball with rolling friction or on a slope",
      [](const RollEvents& events) {
        if (events.lies_flat) return members_of(events.of.rolls);
        return events.of.rest ? members_of(*events.of.rest) : Json();
@@ -85,14 +86,16 @@ constexpr Field<RollEvents> event_fields[]{
 
 constexpr Field<Roll> rest_of_roll_fields[]{
     {"creeps", "",
-     "limit of the slip divided by the patch radius and by |wz| while the ball spins, with --rolling-friction or --slope",
+     "limit of the slip divided by the patch radius and by |wz| while the ball spins, with --rolling-friction or "
+     "--slope",
      [](const Roll& roll) -> Json {
        const auto k = roll.whole.creep_ratio();
        return k ? Json{{"k", *k}} : Json();
      },
      nullptr, 0, " {`k`}"},
     {"integrated", "s; m; 1; 1",
-     "results of --route integrated, by which the rows are computed. All other events are computed by the route reduced",
+     "results of --route integrated, by which the rows are computed. All other events are computed by the route "
+     "reduced",
      [](const Roll& roll) -> Json {
        if (!roll.in_steps) return {};
        const si::Motion& motion = *roll.in_steps;
@@ -103,7 +106,9 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      },
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
     {"energy_balance", "J",
-     "energies at the start, lost and kept at the end, if the mass is known. kept: energy of rolling. `lost_rolling` only with --rolling-friction, `gained_on_slope` only with --slope. If the ball rolls down for ever, the end is the time when slip and spin end",
+     "energies at the start, lost and kept at the end, if the mass is known. kept: energy of rolling. `lost_rolling` "
+     "only with --rolling-friction, `gained_on_slope` only with --slope. If the ball rolls down for ever, the end is "
+     "the time when slip and spin end",
      [](const Roll& roll) -> Json {
        if (!si::mass_is_known(roll.experiment.ball)) return {};
        const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();
@@ -114,12 +119,14 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      },
      nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
     {"textbook", "",
-     "events under the uncoupled model, in which friction brakes slip and spin separately; with the threshold of the ball",
+     "events under the uncoupled model, in which friction brakes slip and spin separately; with the threshold of the "
+     "ball",
      [](const Roll& roll) {
        return members_of(event_fields, RollEvents{roll.theirs(), roll.lies_flat()});
      }},
     {"gradient", "SI",
-     "partial derivatives of the numbers of each event with respect to the numbers of the ball and its start, with --gradient. A derivative that does not exist is left out",
+     "partial derivatives of the numbers of each event with respect to the numbers of the ball and its start, with "
+     "--gradient. A derivative that does not exist is left out",
      [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
     {"uncertainty", "as the event", "uncertainty of each number of an event, with --uncertainty; members as in stop",

@@ -157,7 +157,7 @@ constexpr Field<StopReport> fields[]{
      },
      nullptr, 4},
     {"pieces", "speed, 1, 1",
-     "parts of a motion that rolling friction divides: tau at the begin, true if the ball turns, drive",
+     "parts of a motion in which the ball turns only for a time: begin, true if it turns, drive",
      [](const StopReport& r) -> Json {
        const auto pieces = r.start.pieces();
        if (pieces.size() < 2) return {};
@@ -192,7 +192,7 @@ constexpr Field<StopReport> fields[]{
      },
      "other_law,other_tau", 4, " {`law`, `tau_stop`}"},
     {"coarser_table", "1; speed",
-     "tau_stop with every second row of the table of --law left out: shows the interpolation error",
+     "tau_stop without every second row of the table of --law; the change shows the interpolation error",
      [](const StopReport& r) -> Json {
        if (!r.coarser) return {};
        return {{"rows", r.coarser->rows}, {"tau_stop", r.coarser->tau}};
@@ -217,7 +217,9 @@ constexpr Field<StopReport> fields[]{
      },
      "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
     {"uncertainty", "s or speed",
-     "uncertainty of t_stop, without --ball of tau_stop. standard: standard deviation to first order. shares: part of standard from each input. quantiles [{probability, value}]: results of random samples. first_order_holds: true if the samples confirm standard. outside: share of impossible samples",
+     "uncertainty of t_stop, without --ball of tau_stop. standard: standard deviation to first order. shares: part of "
+     "standard from each input. quantiles [{probability, value}]: results of random samples. first_order_holds: true "
+     "if the samples confirm standard. outside: share of impossible samples",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};
        Json members = members_of(r.uncertainty->parts.front().known);

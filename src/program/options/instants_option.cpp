@@ -42,12 +42,11 @@ CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const s
                                        : ", in " + std::string(si::find_dimension(unit)->words)),
               read);
   samples_
-      .add(
-          app, "--samples", "N",
-          fmt::format(
-              "number of instants{}, 2 or more, instead of --at (default {}). Half of them lie in the time in which the body slides",
-              extent, standard_samples),
-          whole_number(2, max_samples))
+      .add(app, "--samples", "N",
+           fmt::format("number of instants{}, 2 or more, instead of --at (default {}). Half of them lie in the time in "
+                       "which the body slides",
+                       extent, standard_samples),
+           whole_number(2, max_samples))
       ->excludes(at);
   app.add_flag("--equidistant", equidistant_, "equal time steps between the instants of --samples")->excludes(at);
   return at;

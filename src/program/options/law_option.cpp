@@ -27,7 +27,8 @@ void LawOption::add(CLI::App& app, const std::string& note) {
   app.option_defaults()->group("Law of friction");
   law_.add(
       app, "--law", "LAW",
-      "name, formulas or FILE.csv of a law ('contensou help laws'); default: the law that belongs to the body" + note);
+      "law of friction: name, formulas or FILE.csv (default: law of the body); 'contensou help laws' explains them" +
+          note);
   parameters_.add(app);
 }
 

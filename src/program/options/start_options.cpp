@@ -54,10 +54,10 @@ void BodyOptions::add_mu(CLI::App& app) {
 }
 
 void BodyOptions::add_body(CLI::App& app) {
-  body_.add(
-      app, "--body", "BODY",
-      "kind of body: ball (default), hollow-ball, disc, puck, ring, or its inertia as CHI,GAMMA ('contensou help ball')",
-      parse_body);
+  body_.add(app, "--body", "BODY",
+            "kind of body: ball (default), hollow-ball, disc, puck, ring, or its inertia as CHI,GAMMA ('contensou help "
+            "ball')",
+            parse_body);
 }
 
 void BodyOptions::add_drive(CLI::App& app) {

@@ -29,7 +29,7 @@ constexpr std::pair<std::string_view, std::string_view> glossary[]{
      "regularised time, which grows from 0 at the start to infinity at the stop: (2.8) in 'contensou help theory'"},
     {"chi, gamma",
      "1 + m R^2/J and m R^2/J_z, with mass m and moments of inertia J about a horizontal axis, J_z about the vertical"},
-    {"(2.6)", "equations of motion for u and v ('contensou help theory')"},
+    {"(2.6), (2.7)", "equations for u and v, printed by 'contensou help theory'"},
     {"orbit", "curve that a motion draws in the plane of u and v"},
     {"symmetry", "change of time, u and v that turns motions into motions"},
     {"centre", "point that the symmetry leaves fixed; u = v = 0 for (2.6)"},
@@ -42,7 +42,8 @@ constexpr std::pair<std::string_view, std::string_view> glossary[]{
     {"uncoupled model", "model in which friction brakes slip and spin separately"},
     {"run file", "file with the values of a body ('contensou help files')"},
     {"the paper",
-     "V. F. Zhuravlev, On a model of dry friction in the problem of rolling of rigid bodies, Prikl. Mat. Mekh. 62 (1998)"},
+     "V. F. Zhuravlev, On a model of dry friction in the problem of rolling of rigid bodies, Prikl. Mat. Mekh. 62 "
+     "(1998)"},
     {"(speed)", "unit of a field: the unit in which --u0 and --v0 are given"},
 };
 

@@ -31,17 +31,18 @@ class AimCommand final : public Verb {
         at_least_0("m"));
     turns_.add(app, "--turns", "N", "number of turns about the vertical until slip and spin end, of either sign",
                number);
-    time_.add(
-        app, "--time", "TIME",
-        "time when slip and spin end; with rolling friction, time of rest. Two of --distance, --turns and --time must be given",
-        at_least_0("s"));
-    rolls_at_.add(
-        app, "--rolls-at", "LENGTH",
-        "distance from the start to the place where a ball begins to roll (slip below 1 mm/s), instead of --distance, --turns, --time. Only starts with forward slip are found",
-        at_least_0("m", true));
-    rolling_speed_.add(app, "--rolling-speed", "SPEED",
-                       "speed of rolling after the spin has ended, for --rolls-at. With 0 the ball stops at that place",
-                       at_least_0("m/s"));
+    time_.add(app, "--time", "TIME",
+              "time when slip and spin end; with rolling friction, time of rest. Two of --distance, --turns and --time "
+              "must be given",
+              at_least_0("s"));
+    rolls_at_.add(app, "--rolls-at", "LENGTH",
+                  "distance from the start to the place where a ball begins to roll (slip below 1 mm/s), instead of "
+                  "--distance, --turns, --time. Only starts with forward slip are found",
+                  at_least_0("m", true));
+    rolling_speed_.add(
+        app, "--rolling-speed", "SPEED",
+        "speed of rolling after the spin has ended, for --rolls-at; with 0 the ball stops where it would begin to roll",
+        at_least_0("m/s"));
     spin_.add(app, "--spin", "ROTATION",
               "spin about the vertical at the start, for --rolls-at, of either sign (default 0)", quantity("rad/s"));
     start_.add_ball(app, "real body in SI units, built-in or from a run file; its start is not used",

@@ -89,7 +89,9 @@ class FitCommand final : public Verb {
     files_
         .add(
             app, "FILE", "",
-            "table measured on a film, as CSV or text with tabs; - is standard input. Columns: t, or frame with --fps; and any of slip, spin (or wz), x, y, vx, vy, angle (or theta), in SI units or as 'spin [rpm]'. A column NAME_sd contains the standard deviation of NAME. Several files are films of one ball",
+            "table measured on a film, as CSV or text with tabs; - is standard input. Columns: t, or frame with --fps; "
+            "and any of slip, spin (or wz), x, y, vx, vy, angle (or theta), in SI units or as 'spin [rpm]'. A column "
+            "NAME_sd contains the standard deviation of NAME. Several files are films of one ball",
             [](const std::string& typed) { return typed; }, true)
         ->expected(1, -1)
         ->allow_extra_args();
@@ -97,10 +99,10 @@ class FitCommand final : public Verb {
     from_.add(app, "--from", "TIME", "first instant that is used, in seconds (default: the first row)", quantity("s"));
     until_.add(app, "--until", "TIME",
                "last instant that is used, in seconds (default: the last row, or with --plan the stop)", quantity("s"));
-    noise_.add(
-        app, "--noise", "NAME=SD,...",
-        "standard deviations of the columns, and of --stop-time under the name stop (default: estimated from the deviations between data and motion)",
-        parse_noise);
+    noise_.add(app, "--noise", "NAME=SD,...",
+               "standard deviations of columns; stop=SD belongs to --stop-time (default: estimated from the deviations "
+               "between data and motion)",
+               parse_noise);
     stop_time_.add(app, "--stop-time", "TIME",
                    "measured time of the stop, in seconds after the start; needs --noise stop=SD",
                    positive("time", "s"));
@@ -112,10 +114,10 @@ class FitCommand final : public Verb {
         app, "LAW,...",
         "law of friction, or several laws to compare (default exact); 'contensou help laws' lists all laws");
     app.option_defaults()->group("Estimate");
-    free_.add(
-        app, "--free", "NAMES",
-        "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has, except the patch of a disc or ring)",
-        parse_free);
+    free_.add(app, "--free", "NAMES",
+              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has, "
+              "except the patch of a disc or ring)",
+              parse_free);
     app.add_flag("--robust", robust_, "give outliers less weight, by Huber's loss");
     app.add_flag("--plan", plan_,
                  "predict the standard errors that a film with --fps and --noise would give; without FILE");

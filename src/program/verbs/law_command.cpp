@@ -39,7 +39,8 @@ class LawCommand final : public Verb {
     app.option_defaults()->group("Ratios");
     CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
     batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input")->excludes(k);
-    app.add_flag("--surface", surface_, "draw force against moment (the limit surface), for several laws");
+    app.add_flag("--surface", surface_,
+                 "draw the limit surface, force against moment, of --law beside exact, pade, uniform and ring");
     figure_.add(app);
     output_.add(app);
   }

@@ -64,7 +64,8 @@ constexpr ColumnField<OrbitReport> orbit_columns[]{
     {"u_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.u_estimate); }},
     {"v_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.v_estimate); }},
     {"ln_v_estimate", "speed",
-     "approximate solution for small mu at this tau, with --estimate. It has a stop time of its own, after which u and v are 0",
+     "approximate solution for small mu at this tau, with --estimate. It has a stop time of its own, after which u and "
+     "v are 0",
      [](const OrbitReport& r) { return unless_empty(r.ln_v_estimate); }},
     {"tau_left", "speed", "tau from this time until the stop, with --time-left",
      [](const OrbitReport& r) { return unless_empty(r.tau_left); }},
@@ -72,7 +73,8 @@ constexpr ColumnField<OrbitReport> orbit_columns[]{
     {"q", "", "ratio v/u, with --reduction", [](const OrbitReport& r) { return unless_empty(r.q); }},
     {"p", "", "logarithm ln v, with --reduction", [](const OrbitReport& r) { return unless_empty(r.p); }},
     {"integral", "",
-     "constant of the motion, with --reduction: ln |u| - ln w(k), with a function w that the law determines; inf where it has no value",
+     "constant of the motion, with --reduction: ln |u| - ln w(k), with a function w that the law determines; inf where "
+     "it has no value",
      [](const OrbitReport& r) { return unless_empty(r.integral); }},
 };
 
@@ -88,10 +90,10 @@ class OrbitCommand final : public Verb {
     route_.add(app);
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
     time_left_
-        .add(
-            app, "--time-left", "T1,T2,...|FILE",
-            "times that are left until the stop, instead of --at; with --ball also in seconds, such as '1,2 s'. FILE has a column tau_left. The output adds the column tau_left",
-            [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
+        .add(app, "--time-left", "T1,T2,...|FILE",
+             "times that are left until the stop, instead of --at; with --ball also in seconds, such as '1,2 s'. FILE "
+             "has a column tau_left. The output adds the column tau_left",
+             [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
     beta_
         .add(app, "--beta", "B1,B2,...|FILE", "times beta >= 0, instead of --at. FILE has a column beta",
@@ -101,12 +103,12 @@ class OrbitCommand final : public Verb {
                return betas.values;
              })
         ->excludes(at);
-    app.add_flag(
-        "--estimate", estimate_,
-        "add an approximate solution for small mu: columns u_estimate (relative error of order mu^4), v_estimate and ln_v_estimate (order mu^2)");
-    app.add_flag(
-        "--reduction", reduction_,
-        "add the coordinates q = v/u and p = ln v in which the equations are solved, and integral, a constant of the motion");
+    app.add_flag("--estimate", estimate_,
+                 "add an approximate solution for small mu: columns u_estimate (relative error of order mu^4), "
+                 "v_estimate and ln_v_estimate (order mu^2)");
+    app.add_flag("--reduction", reduction_,
+                 "add the coordinates q = v/u and p = ln v in which the equations are solved, and integral, a constant "
+                 "of the motion");
     output_.add(app);
   }
 

@@ -95,7 +95,7 @@ std::vector<FieldText> portrait_fields() {
       {"JSON `body` {`chi`, `gamma`}, `view`", "", "inertia of the body; name of the view"},
       {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane of u and v that is drawn"},
       {"JSON `drive`", "", "constant force along the slip divided by f N, from --drive, rolling friction or a slope"},
-      {"JSON `ball`, `seconds_per_tau`", "; s/speed", "name of the ball; number of seconds in one unit of tau"},
+      {"JSON `ball`, `seconds_per_tau`", "s/speed", "name of the ball; number of seconds in one unit of tau"},
       {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV",
        "list of orbits, each with lists of its states and of the times left until the stop"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "lines of states with one stop time each"},
@@ -124,7 +124,8 @@ std::vector<FieldText> system_portrait_fields() {
        "list of orbits, each with lists of its states and of the times left until the stop"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "lines of states with one time left each"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
-       "orbit of the start, orbits through the points of --through, and orbits that end in saddles. Their form is that of an entry of orbits"},
+       "orbit of the start, orbits through the points of --through, and orbits that end in saddles. Their form is that "
+       "of an entry of orbits"},
       {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor is 0"},
   };
 }
@@ -141,9 +142,9 @@ class PortraitCommand final : public Verb {
     add_looks(app);
     figure_.add(app);
     app.option_defaults()->group("Output");
-    app.add_flag(
-        "--facts", facts_,
-        "print a table instead of a picture: the limit of k at the stop, the singular points, and the directions in which orbits enter the origin");
+    app.add_flag("--facts", facts_,
+                 "print a table instead of a picture: the limit of k at the stop, the singular points, and the "
+                 "directions in which orbits enter the origin");
     output_.add(app);
   }
 
@@ -280,11 +281,13 @@ class PortraitCommand final : public Verb {
         into(request_.view, one_of(views, "view")));
     view_ = &looks_.back();
     add("--scale", "SCALE",
-        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). Bent shows a power of v in a shaded part, in which orbits end as straight lines",
+        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). Bent shows a "
+        "power of v in a shaded part, in which orbits end as straight lines",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V). The form U1:U2,V1:V2 is for the views uv, patch, pair and for --system",
+        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V). The form U1:U2,V1:V2 is for the "
+        "views uv, patch, pair and for --system",
         [this](const std::string& typed) { read_window(typed, request_); });
     window_ = &looks_.back();
     add("--orbits", "N",
@@ -295,9 +298,9 @@ class PortraitCommand final : public Verb {
         "--through", "U,V", "point through which one more orbit is drawn; may be repeated",
         [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N|T1,T2,...",
-        fmt::format(
-            "lines of equal stop time: their number, 0 to {} (about; default 7), or a list of stop times, with --ball in seconds; 'T,' is a list of one time",
-            max_isochrones),
+        fmt::format("lines of equal stop time: about how many, 0 to {} (default 7), or a list of stop times, with "
+                    "--ball in seconds. A list of one time is 'T,'",
+                    max_isochrones),
         [this, read = at_most(max_isochrones)](const std::string& typed) {
           if (typed.find(',') != std::string::npos) {
             request_.isochrone_times = parse_times(typed);
@@ -313,7 +316,8 @@ class PortraitCommand final : public Verb {
              one_of<Style::Arrows>(
                  {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}})));
     add("--field", "FIELD",
-        "arrows of the direction of motion all over the plane: by the equations motion (2.6) or regularised (2.7), or none (default). Their length shows the logarithm of the speed",
+        "arrows of the direction of motion all over the plane: by the equations motion (2.6) or regularised (2.7), or "
+        "none (default). Their length shows the logarithm of the speed",
         into(style_.field, one_of<Style::Field>({{"none", Style::Field::none},
                                                  {"motion", Style::Field::motion},
                                                  {"regularised", Style::Field::regularised},
@@ -369,7 +373,7 @@ class PortraitCommand final : public Verb {
 const RegisteredVerb<PortraitCommand> portrait_verb(
     Purpose::draw, "portrait", "Draw a phase portrait", "contensou portrait --mu 0.3 -o portrait.svg",
     {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}},
-    {"u", "v", "mu", "k", "f, N", "tau", "(2.6)", "orbit", "ray"});
+    {"u", "v", "mu", "k", "f, N", "tau", "(2.6), (2.7)", "orbit", "ray"});
 
 }  // namespace
 

@@ -64,10 +64,12 @@ class ReduceCommand final : public Verb {
   OutputOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};
 };
 
-const RegisteredVerb<ReduceCommand> reduce_verb(
-    Purpose::check, "reduce", "Find the symmetry of a planar system and solve its motion",
-    "contensou reduce --mu 0.3 --u0 1 --v0 1", {{"", reduce_fields}, {"--system", reduce_system_fields}},
-    {"u", "v", "mu", "k", "f, N", "tau", "chi, gamma", "(2.6)", "orbit", "symmetry", "centre", "ray", "(speed)"});
+const RegisteredVerb<ReduceCommand> reduce_verb(Purpose::check, "reduce",
+                                                "Find the symmetry of a planar system and solve its motion",
+                                                "contensou reduce --mu 0.3 --u0 1 --v0 1",
+                                                {{"", reduce_fields}, {"--system", reduce_system_fields}},
+                                                {"u", "v", "mu", "k", "f, N", "tau", "chi, gamma", "(2.6), (2.7)",
+                                                 "orbit", "symmetry", "centre", "ray", "(speed)"});
 
 }  // namespace
 

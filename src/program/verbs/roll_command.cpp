@@ -90,7 +90,8 @@ constexpr std::initializer_list<ColumnText> shot_events{
     {"t_rolls,x_rolls,y_rolls", "s, m, m", "time and place at which the slip falls below --rolling-below"},
     {"t_spin_ends,x_spin_ends,y_spin_ends", "s, m, m", "time and place at which the spin ends; 0 if there was none"},
     {"slip_length,turns,path", "m, 1, m",
-     "distance that the contact point slides, number of turns about the vertical, path of the centre until the body rolls or rests"},
+     "distance that the contact point slides, number of turns about the vertical, path of the centre until the body "
+     "rolls or rests"},
     {"t_rest,x_rest,y_rest", "s, m, m",
      "time and place at which the centre comes to rest, for a puck or with --rolling-friction"}};
 
@@ -104,16 +105,15 @@ class RollCommand final : public Verb {
     start_.take_load_history();
     start_.add_ball(app);
     app.option_defaults()->group("Stroke of a cue along x, instead of the start of the ball");
-    strike_.add(
-        app, "--strike", "SPEED",
-        "speed of the cue, in metres per second. The impulse is elastic and along the cue. The model leaves out squirt, miscues, throw and bounces off the table",
-        quantity("m/s"));
-    tip_.add(
-        app, "--tip", "A,B",
-        fmt::format(
-            "point that the cue hits, in radii of the ball: A to the right of the centre and B above it, seen along the cue; at most {} from the centre (default 0,0)",
-            si::largest_tip_offset),
-        [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
+    strike_.add(app, "--strike", "SPEED",
+                "speed of the cue, in metres per second. The impulse is elastic and along the cue. The model leaves "
+                "out squirt, miscues, throw and bounces off the table",
+                quantity("m/s"));
+    tip_.add(app, "--tip", "A,B",
+             fmt::format("point that the cue hits, in radii of the ball: A to the right of the centre and B above it, "
+                         "seen along the cue; at most {} from the centre (default 0,0)",
+                         si::largest_tip_offset),
+             [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
     elevation_.add(app, "--elevation", "ANGLE",
                    "angle by which the butt of the cue is raised, 0 to below 90 degrees (default 0)", quantity("deg"));
     cue_mass_.add(app, "--cue-mass", "MASS",
@@ -124,24 +124,23 @@ class RollCommand final : public Verb {
         "numerical method: reduced (default, by integrals) or integrated (equations of motion in time steps)",
         one_of<bool>({{"reduced", false}, {"integrated", true}}, "route"));
     app.option_defaults()->group("Rolling");
-    rolling_below_.add(
-        app, "--rolling-below", "SPEED",
-        fmt::format(
-            "slip below which the ball counts as rolling, in metres per second (default {}). It also applies to the uncoupled model",
-            si::rolling_slip),
-        [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
+    rolling_below_.add(app, "--rolling-below", "SPEED",
+                       fmt::format("slip below which the ball counts as rolling, in metres per second (default {}). It "
+                                   "also applies to the uncoupled model",
+                                   si::rolling_slip),
+                       [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     app.add_flag("--gradient", gradient_,
                  "also print the derivatives of each event with respect to each number of the ball and its start");
-    uncertainty_.add(
-        app, "--uncertainty", "NAME=SPREAD,...",
-        "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in the run file. Also prints the standard deviations of the events");
+    uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
+                     "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in "
+                     "the run file. Also prints the standard deviations of the events");
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_.add(app, "--until", "TIME", "last instant, in seconds (default: a little after the stop)", parse_end)
         ->excludes(at);
     app.option_defaults()->group("Many starts");
-    batch_.add(
-        app, "--batch", "FILE",
-        "table with one start a row, - for standard input. Columns: slip,spin or vx,vy,wx,wy,wz in SI units. The output adds columns with the events");
+    batch_.add(app, "--batch", "FILE",
+               "table with one start a row, - for standard input. Columns: slip,spin or vx,vy,wx,wy,wz in SI units. "
+               "The output adds columns with the events");
     app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its results empty");
     bulk_.add(app);
     figure_.add(app);

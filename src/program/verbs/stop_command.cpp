@@ -43,13 +43,13 @@ class StopCommand final : public Verb {
     route_.add(app);
     app.add_flag("--estimate", estimate_, "also print estimates for small mu, with their errors");
     app.add_flag("--gradient", gradient_, "also print the derivatives of the stop time (see gradient)");
-    uncertainty_.add(
-        app, "--uncertainty", "NAME=SPREAD,...",
-        "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in the run file. Also prints the standard deviation of the stop time");
+    uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
+                     "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in "
+                     "the run file. Also prints the standard deviation of the stop time");
     app.option_defaults()->group("Many starts");
-    batch_.add(
-        app, "--batch", "FILE",
-        "table with one start a row, - for standard input. Columns: mu,u0,v0, or with --ball slip,spin (m/s, rad/s). The output adds the column tau_stop or t_stop");
+    batch_.add(app, "--batch", "FILE",
+               "table with one start a row, - for standard input. Columns: mu,u0,v0, or with --ball slip,spin (m/s, "
+               "rad/s). The output adds the column tau_stop or t_stop");
     app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its result empty");
     bulk_.add(app);
     output_.add(app);

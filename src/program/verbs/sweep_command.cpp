@@ -72,9 +72,9 @@ struct SweepGrid {
 enum class SweepFormat { npy, csv };
 
 /// Columns of a table, without and with --ball; npy contains the last.
-constexpr ColumnText system_columns{
-    "mu,u0,v0,tau_stop", "1, speed, speed, speed",
-    "start, and time tau when slip and spin end. A file in npy contains tau_stop alone, in the shape (N_v0, N_u0), or (N_mu, N_v0, N_u0) for several mu"};
+constexpr ColumnText system_columns{"mu,u0,v0,tau_stop", "1, speed, speed, speed",
+                                    "start, and time tau when slip and spin end. A file in npy contains tau_stop "
+                                    "alone, in the shape (N_v0, N_u0), or (N_mu, N_v0, N_u0) for several mu"};
 constexpr ColumnText ball_columns{
     "spin,slip,t_stop", "1/s, m/s, s",
     "start, and time when slip and spin end, with --ball. The shape in npy is (N_slip, N_spin)"};
