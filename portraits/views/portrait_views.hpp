@@ -86,9 +86,9 @@ inline const std::array view_layouts{
                  return std::pair{scaled_stop_time(portrait, -6, -4), scaled_stop_time(portrait, 6, 0)};
                },
                "canonical coordinates: all orbits are one curve, shifted"},
-    ViewLayout{View::blowup, "blowup", "plane with the origin enlarged to a half-circle, and plane (u, ln k)",
-               blowup_view, 2, 280, 112, far_times,
-               "the origin as a half-circle: each half-line joins a saddle to a node"},
+    ViewLayout{View::blowup, "blowup",
+               "plane in which the origin is drawn as a half-circle of directions, and plane (u, ln k)", blowup_view, 2,
+               280, 112, far_times, "the origin as a half-circle: each half-line joins a saddle to a node"},
     ViewLayout{View::disc, "disc", "whole half-plane v >= 0 in a half-disc, with infinity as its rim (Poincare disc)",
                disc_view, 1, 210, 125, far_times,
                "the Poincaré disc: every orbit comes from infinity and ends at the stop", true},
@@ -97,8 +97,8 @@ inline const std::array view_layouts{
         "the curves depend on " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") alone"},
     ViewLayout{
         View::regularised, "regularised",
-        "curves of u, ln v and time tau against 1 + beta/beta_1, where beta is the time of equations (2.7); for a ball "
-        "under exact or pade, 1/beta_1 = 40 mu^3 u0 + 105 pi v0",
+        "curves of u, ln v and time tau against the time beta of equations (2.7), drawn as 1 + beta/beta_1; for a ball "
+        "under exact or pade 1/beta_1 is 40 mu^3 u0 + 105 pi v0",
         regularised_view, 3, 270, 105, nullptr,
         "(2.7) in " + math("β") + " has no denominator and never reaches rest; (2.8) gives the finite stop time"},
     ViewLayout{View::pair, "pair", "planes (u, v) and (u, ln k) side by side", pair_view, 2, 300, 125, nullptr,

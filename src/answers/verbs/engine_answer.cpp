@@ -123,8 +123,8 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"needs", "", "further settings; without them the engine ignores the parameters",
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
     {"settings", "",
-     "list of settings of the engine, each with the last seven fields of this help; one row of CSV each. Empty if the "
-     "engine does not support a flat body",
+     "list of settings of the engine, each with setting, cone, moment_arm, t_slip, t_spin, slip_length, turns; one row "
+     "of CSV each. Empty if the engine does not support a flat body",
      [](const EngineWithBall& of) {
        Json settings = Json::array();
        for (const Contact& setting : of.settings) settings.push_back(members_of(setting_fields, setting));

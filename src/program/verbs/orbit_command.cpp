@@ -57,7 +57,7 @@ constexpr ColumnField<OrbitReport> orbit_columns[]{
     {"tau", "speed", "time tau since the start", [](const OrbitReport& r) { return &r.motion.tau; }},
     {"u", "speed", "", [](const OrbitReport& r) { return &r.motion.u; }},
     {"v", "speed", "u and v at this time", [](const OrbitReport& r) { return &r.motion.v; }},
-    {"ln_v", "", "natural logarithm of v, also where v is too small for a number and is printed as 0",
+    {"ln_v", "", "natural logarithm of v; a normal number even where v is so small that it is printed as 0",
      [](const OrbitReport& r) { return &r.motion.ln_v; }},
     {"k", "", "ratio k = v/(mu |u|)", [](const OrbitReport& r) { return &r.motion.k; }},
     {"beta", "1/speed", "time beta since the start", [](const OrbitReport& r) { return &r.motion.beta; }},

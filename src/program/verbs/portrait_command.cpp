@@ -316,8 +316,8 @@ class PortraitCommand final : public Verb {
              one_of<Style::Arrows>(
                  {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}})));
     add("--field", "FIELD",
-        "arrows of the direction of motion all over the plane: by the equations motion (2.6) or regularised (2.7), or "
-        "none (default). Their length shows the logarithm of the speed",
+        "arrows of the direction of motion on a grid: motion, by (2.6); regularised, by (2.7); none (default). Their "
+        "length grows with the logarithm of the speed",
         into(style_.field, one_of<Style::Field>({{"none", Style::Field::none},
                                                  {"motion", Style::Field::motion},
                                                  {"regularised", Style::Field::regularised},
