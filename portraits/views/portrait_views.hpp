@@ -69,10 +69,10 @@ constexpr std::string_view bent_shows = "slip falls first, at nearly constant sp
 
 /// All views, in the order of lists.
 inline const std::array view_layouts{
-    ViewLayout{View::uv, "uv", "plane (u, v) of the paper", plane_view, 1, 190, 125, nullptr, plane_shows, true},
-    ViewLayout{View::patch, "patch",
-               "plane (mu u, v): rim speed of spinning and speed of sliding, on axes of one scale", patch_view, 1, 190,
-               125, nullptr, "sliding speed against the rim speed of the patch, on equal scales", true},
+    ViewLayout{View::uv, "uv", "plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows, true},
+    ViewLayout{View::patch, "patch", "plane (mu u, v): rim speed of the patch and slip, on axes of one scale",
+               patch_view, 1, 190, 125, nullptr, "sliding speed against the rim speed of the patch, on equal scales",
+               true},
     ViewLayout{View::log, "log", "plane (mu u, v) with logarithmic axes", log_view, 1, 175, 130,
                [](const PhasePortrait& portrait) {
                  const double tau = portrait.flow.orbit({portrait.window.u(), portrait.window.v()}).stop_time();
@@ -80,22 +80,25 @@ inline const std::array view_layouts{
                },
                "all orbits are one curve, shifted along the diagonal"},
     ViewLayout{View::similarity, "similarity",
-               "planes (q, p) and (ln k, p), in which all orbits are one curve, shifted", similarity_view, 2, 270, 125,
+               "planes (v/u, ln v) and (ln k, ln v), in which all orbits are shifted copies of one curve",
+               similarity_view, 2, 270, 125,
                [](const PhasePortrait& portrait) {
                  return std::pair{scaled_stop_time(portrait, -6, -4), scaled_stop_time(portrait, 6, 0)};
                },
                "canonical coordinates: all orbits are one curve, shifted"},
-    ViewLayout{View::blowup, "blowup", "origin blown up to a half-circle, and the chart (u, ln k)", blowup_view, 2, 280,
-               112, far_times, "the origin as a half-circle: each half-line joins a saddle to a node"},
-    ViewLayout{View::disc, "disc", "Poincare disc: the whole half-plane with infinity", disc_view, 1, 210, 125,
-               far_times, "the Poincaré disc: every orbit comes from infinity and ends at the stop", true},
+    ViewLayout{View::blowup, "blowup",
+               "plane in which the origin is drawn as a half-circle of directions, and plane (u, ln k)", blowup_view, 2,
+               280, 112, far_times, "the origin as a half-circle: each half-line joins a saddle to a node"},
+    ViewLayout{View::disc, "disc", "whole half-plane v >= 0 in a half-disc, with infinity as its rim (Poincare disc)",
+               disc_view, 1, 210, 125, far_times,
+               "the Poincaré disc: every orbit comes from infinity and ends at the stop", true},
     ViewLayout{
-        View::time, "time", "curves of u, v and k against tau/tau*", time_view, 3, 270, 105, nullptr,
+        View::time, "time", "curves of u, v and k against time divided by stop time", time_view, 3, 270, 105, nullptr,
         "the curves depend on " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") alone"},
     ViewLayout{
         View::regularised, "regularised",
-        "curves of u, ln v and tau against 1 + beta/beta_1, with 1/beta_1 = 40 mu^3 u0 + 105 pi v0 for a ball, exact "
-        "or pade",
+        "curves of u, ln v and time tau against the time beta of equations (2.7), drawn as 1 + beta/beta_1; for a ball "
+        "under exact or pade 1/beta_1 is 40 mu^3 u0 + 105 pi v0",
         regularised_view, 3, 270, 105, nullptr,
         "(2.7) in " + math("β") + " has no denominator and never reaches rest; (2.8) gives the finite stop time"},
     ViewLayout{View::pair, "pair", "planes (u, v) and (u, ln k) side by side", pair_view, 2, 300, 125, nullptr,

@@ -31,14 +31,14 @@ struct NamedLaw {
 
 constexpr std::array laws_with_meaning{
     NamedLaw{"exact", "pressure of Hertz, (1 - rho^2)^(1/2)", []() -> Law { return HertzLaw{}; }},
-    NamedLaw{"pade", "approximation of exact by the paper", []() -> Law { return PadeLaw{}; }},
+    NamedLaw{"pade", "approximation of exact by V. F. Zhuravlev (1998)", []() -> Law { return PadeLaw{}; }},
     NamedLaw{"uniform", "uniform pressure over the patch", []() -> Law { return PressureLaw::uniform(); }},
     NamedLaw{"punch", "pressure of a flat rigid punch, (1 - rho^2)^(-1/2)",
              []() -> Law { return PressureLaw::punch(); }},
     NamedLaw{"ring", "pressure on the rim alone", []() -> Law { return PressureLaw::ring(); }},
     NamedLaw{"paraboloid", "pressure of a soft foundation, 1 - rho^2",
              []() -> Law { return PressureLaw::paraboloid(); }},
-    NamedLaw{"elliptic", "ellipse as limit surface, with Psi(0) of Hertz; used for grasping and in physics engines",
+    NamedLaw{"elliptic", "ellipse as limit surface, with the Psi(0) of exact; used for grasping and in physics engines",
              []() -> Law { return EllipticLaw{}; }},
 };
 
@@ -108,9 +108,9 @@ const std::vector<LawFamily>& law_families() {
   static const std::vector<LawFamily> families{
       {"pressure", "P", "pressure (1 - rho^2)^P", "-1 < P <= 25 (the limit P -> -1 is the law ring)", 0.5,
        std::nextafter(-1.0, 0.0), PressureLaw::max_p, [](double p) -> Law { return PressureLaw(p); }},
-      {"annulus", "ETA", "uniform pressure from ETA to 1 of the radius", "0 < ETA <= 0.999 (0 is the law uniform)",
-       0.65, std::numeric_limits<double>::min(), 0.999, annulus},
-      {"soft", "K", "pressure of a soft finger, (1 - rho^K)^(1/K), from 2001 points",
+      {"annulus", "ETA", "uniform pressure between ETA and 1 times the patch radius",
+       "0 < ETA <= 0.999 (0 is the law uniform)", 0.65, std::numeric_limits<double>::min(), 0.999, annulus},
+      {"soft", "K", "pressure of a soft finger, (1 - rho^K)^(1/K), as a table of 2001 points",
        "1 <= K <= 50 (2 is the law exact, 50 nearly uniform)", 4, 1, 50, soft},
       {"elliptic", "C", "ellipse as limit surface, with Psi(0) = C", "0.001 <= C <= 1", 0.6, EllipticLaw::min_moment, 1,
        [](double c) -> Law { return EllipticLaw(c); }},

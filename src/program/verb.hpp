@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +34,7 @@ struct VerbEntry {
   std::string summary;  ///< one line of help
   std::string example;  ///< a command line that works, for the help
   std::vector<VerbFields> fields;
+  std::vector<std::string_view> words;  ///< entries of the glossary that its help needs
   std::unique_ptr<Verb> (*make)();
 };
 
@@ -43,9 +45,9 @@ std::vector<VerbEntry>& verbs();
 template <class AVerb>
 struct RegisteredVerb {
   RegisteredVerb(Purpose purpose, std::string name, std::string summary, std::string example,
-                 std::vector<VerbFields> fields = {}) {
+                 std::vector<VerbFields> fields = {}, std::vector<std::string_view> words = {}) {
     verbs().push_back({purpose, std::move(name), std::move(summary), std::move(example), std::move(fields),
-                       []() -> std::unique_ptr<Verb> { return std::make_unique<AVerb>(); }});
+                       std::move(words), []() -> std::unique_ptr<Verb> { return std::make_unique<AVerb>(); }});
   }
 };
 

@@ -144,7 +144,8 @@ Answer answer_of_rows(const char* list, const Field<Result> (&fields)[count], co
 /// Returns the fields of such an answer, as help shows them.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of_rows(const char* list, const Field<Result> (&fields)[count]) {
-  return joined({{{std::string("JSON `") + list + "` [...]", "", "an entry for each row of CSV, with its fields"}},
+  return joined({{{std::string("JSON `") + list + "` [...]", "",
+                   "list with an object for each row of CSV, whose members are the columns"}},
                  texts_of(fields)});
 }
 

@@ -29,9 +29,9 @@ struct AimReport {
 
 constexpr Field<AimReport> aim_row[]{
     {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
-    {"ball", "", "values of the body and of its patch",
+    {"ball", "", "values of the body of --ball and of its patch",
      [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
-    {"slip", "m/s", "sliding speed at the start, along x; also the speed of the centre, if the ball does not roll yet",
+    {"slip", "m/s", "sliding speed of the contact point at the start, along x",
      [](const AimReport& r) -> Json { return r.slip; }},
     {"spin", "1/s", "spin at the start, about the vertical",
      [](const AimReport& r) -> Json { return r.start.angular_velocity.z(); }},
@@ -47,14 +47,15 @@ constexpr Field<AimReport> aim_row[]{
      },
      ",wy,", 0, " [x, y, z]"},
     {"distance", "m",
-     "distance of the centre from its start when slip and spin end, or with rolling friction when the ball rests",
+     "distance from the start to the place where slip and spin end; with rolling friction, to the place of rest",
      [](const AimReport& r) -> Json { return r.distance; }},
-    {"turns", "", "number of turns about the vertical", [](const AimReport& r) -> Json { return r.turns; }},
-    {"time", "s", "time when slip and spin end; with rolling friction: when the ball rests",
+    {"turns", "", "number of turns about the vertical until slip and spin end",
+     [](const AimReport& r) -> Json { return r.turns; }},
+    {"time", "s", "time when slip and spin end; with rolling friction, time of rest",
      [](const AimReport& r) -> Json { return r.time; }},
-    {"final_velocity", "m/s", "speed of the ball when it rolls without spin; not with rolling friction",
+    {"final_velocity", "m/s", "speed of rolling after slip and spin have ended; not with rolling friction",
      [](const AimReport& r) { return r.is_ball() && !r.rest ? Json(r.final.velocity.x()) : Json(); }},
-    {"rolls_after", "s, m, m, m/s", "time and place at which the slip of a ball falls below the threshold",
+    {"rolls_after", "s, m, m, m/s", "time and place at which a ball begins to roll: its slip falls below the threshold",
      [](const AimReport& r) -> Json {
        if (!r.rolls) return {};
        Json members = members_of(*r.rolls);
@@ -62,10 +63,11 @@ constexpr Field<AimReport> aim_row[]{
        return members;
      },
      "", 0, " {`t`, `x`, `y`, `threshold`}"},
-    {"rest", "s, m, m", "time and place at which the centre rests, with rolling friction",
+    {"rest", "s, m, m", "time and place at which the ball comes to rest, with rolling friction",
      [](const AimReport& r) { return r.rest ? members_of(*r.rest) : Json(); }, "", 0, " {`t`, `x`, `y`}"},
     {"strike", "m/s; 1; kg",
-     "level stroke of a cue that gives the start; its point right of and above the centre, in radii",
+     "level stroke of a cue that gives this start: speed and mass of the cue, and the point that it hits, right of and "
+     "above the centre, in radii of the ball",
      [](const AimReport& r) -> Json {
        if (!r.strike) return {};
        const auto& [speed, right, above, elevation, mass] = *r.strike;

@@ -58,29 +58,30 @@ constexpr const char* textbook_columns =
 
 constexpr Field<BounceReport> bounce_row[]{
     {"law", "", "name of the law of friction", [](const BounceReport& r) -> Json { return r.law.name(); }},
-    {"mu", "", "radius of the patch divided by the radius R of the body",
+    {"mu", "", "radius of the patch divided by radius of the ball",
      [](const BounceReport& r) -> Json { return si::patch_ratio(r.experiment, r.law); }},
-    {"ball", "", "values of the body and of its patch at the impact",
+    {"ball", "", "values of the ball and of its patch at the impact",
      [](const BounceReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"height", "m", "height of the drop, with --drop",
      [](const BounceReport& r) -> Json { return r.height ? Json(*r.height) : Json(); }, ""},
-    {"normal_speed", "m/s", "speed towards the plane",
+    {"normal_speed", "m/s", "speed towards the plane before the impact",
      [](const BounceReport& r) -> Json { return r.impact.normal_speed; }},
-    {"restitution", "", "coefficient of restitution",
-     [](const BounceReport& r) -> Json { return r.impact.restitution; }},
-    {"impulse", "m/s", "impulse along the normal, divided by the mass",
+    {"restitution", "", "value of --restitution", [](const BounceReport& r) -> Json { return r.impact.restitution; }},
+    {"impulse", "m/s", "impulse perpendicular to the plane, divided by the mass",
      [](const BounceReport& r) -> Json { return r.impact.impulse(); }},
-    {"threshold", "m/s", "slip below which the ball rolls",
+    {"threshold", "m/s", "slip below which the ball counts as rolling",
      [](const BounceReport& r) -> Json { return r.rolling_below; }, ""},
-    {"start", "m/s, 1/s, degrees", "motion before the impact; angle from the normal, z is up",
+    {"start", "m/s, 1/s, degrees",
+     "motion before the impact: velocity of the centre, angular velocity (z up), slip, and angle between path and "
+     "normal of the plane",
      [](const BounceReport& r) { return motion(r.start(), -r.impact.normal_speed, si::slip_at_start(r.experiment)); },
      "", 0, " {`vx`, `vy`, `vz`, `wx`, `wy`, `wz`, `slip`, `angle`}"},
     {"after", "m/s, 1/s, degrees, 1",
-     "motion after the impact; change_*: after minus before; grip: share of the impulse after which the ball rolls, "
-     "above 1 if it leaves slipping",
+     "motion after the impact. change_*: value after minus value before. grip: part of the impulse after which the "
+     "ball rolls; above 1 if the ball still slips when it leaves the plane",
      [](const BounceReport& r) { return rebound(r, r.ours); }, rebound_columns, 0,
      " {as `start`, `change_vx`, `change_vy`, `change_wz`, `grip`}"},
-    {"textbook", "", "motion after the impact under the uncoupled model",
+    {"textbook", "", "motion after the impact under the uncoupled model, with members as after",
      [](const BounceReport& r) { return rebound(r, r.textbook); }, textbook_columns, 0, " {as `after`}"},
 };
 

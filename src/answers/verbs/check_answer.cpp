@@ -41,28 +41,29 @@ Json of_deviation(const CheckedLaw& row, double Deviation::*number) {
 using Row = CheckedLaw;
 constexpr Field<Row> row_fields[]{
     {"law", "", "name of the law of friction", [](const Row& row) -> Json { return row.law; }},
-    {"check", "", "name of the check", [](const Row& row) -> Json { return row.check.name; }},
-    {"measured", "", "largest error found; the check passes if it is at most allowed",
+    {"check", "", "statement that is checked, in a few words", [](const Row& row) -> Json { return row.check.name; }},
+    {"measured", "", "largest error that was found",
      [](const Row& row) -> Json { return or_infinity(row.check.measured); }},
-    {"allowed", "", "limit of the measured value", [](const Row& row) -> Json { return row.check.allowed; }},
+    {"allowed", "", "largest error that passes", [](const Row& row) -> Json { return row.check.allowed; }},
     {"", "", "ok or FAIL", [](const Row& row) -> Json { return verdict(row.check); }, "verdict"},
-    {"passed", "", "true if measured is at most allowed", [](const Row& row) -> Json { return row.check.passed(); },
-     ""},
-    {"error", "m/s or rad/s", "largest error in the table of --against",
+    {"passed", "", "true if the check passes", [](const Row& row) -> Json { return row.check.passed(); }, ""},
+    {"error", "m/s or rad/s", "largest difference between the table of --against and the law",
      [](const Row& row) { return of_deviation(row, &Deviation::error); }},
-    {"t", "s", "time of that error", [](const Row& row) { return of_deviation(row, &Deviation::t); }},
-    {"leaves", "s", "time from which an error is larger than allowed, or inf",
+    {"t", "s", "time of the largest difference, with --against",
+     [](const Row& row) { return of_deviation(row, &Deviation::t); }},
+    {"leaves", "s", "first time at which the difference from the law is larger than allowed, or inf if it never is",
      [](const Row& row) { return of_deviation(row, &Deviation::leaves); }},
 };
 constexpr Field<MotionsBeside> beside_fields[]{
-    {"start", "m/s, rad/s", "start of all models, with --against",
+    {"start", "m/s, rad/s", "slip and spin at the start, with --against",
      [](const MotionsBeside& motions) -> Json {
        return {{"slip", motions.start.slip}, {"spin", motions.start.spin}};
      },
      "", 0, " {`slip`, `spin`}"},
     {"models", "",
-     "largest errors divided by slip and spin at the start, the law first; elliptic is the elliptic cone of engines, "
-     "textbook their box",
+     "largest differences between the table and each model, divided by slip and spin at the start. The law is the "
+     "first model. elliptic: friction of an engine with a joint limit of force and moment. textbook: friction with two "
+     "separate limits",
      [](const MotionsBeside& motions) {
        Json models = Json::array();
        for (const auto& [name, motion, slip, spin] : motions.models) {
@@ -71,7 +72,7 @@ constexpr Field<MotionsBeside> beside_fields[]{
        return models;
      },
      "", 0, " [{`model`, `slip`, `spin`}]"},
-    {"nearest", "", "name of the nearest model",
+    {"nearest", "", "name of the model with the smallest differences",
      [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
 };
 
@@ -177,13 +178,14 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
 }
 
 std::vector<FieldText> check_fields() {
-  return joined(
-      {texts_of_rows("checks", row_fields),
-       {{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
-         "columns of the table of --against. The first row is the start; times increase. Another unit: 'wz [rpm]'"},
-        {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
-         "velocities that replace slip and spin; z is up. A body that lies flat needs no wx, wy"}},
-       texts_of(beside_fields)});
+  return joined({texts_of_rows("checks", row_fields),
+                 {{"in: `t` or `time`; `slip`; `spin` or `wz`", "s; m/s; rad/s",
+                   "columns of the table of --against. Times increase, and the first row is the start. A heading may "
+                   "name a unit, as in 'wz [rpm]'"},
+                  {"in: `vx`, `vy`; `wx`, `wy`, `wz`", "m/s; rad/s",
+                   "velocity of the centre and angular velocity (z up), instead of slip and spin. A disc or ring needs "
+                   "no wx, wy"}},
+                 texts_of(beside_fields)});
 }
 
 }  // namespace contensou::answers

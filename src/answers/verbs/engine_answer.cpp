@@ -71,25 +71,30 @@ Json list_of_texts(const std::vector<std::string_view>& texts) {
 }
 
 constexpr Field<Contact> setting_fields[]{
-    {"setting", "", "settings of the engine, nearest to the law first",
+    {"setting", "", "setting of the engine in words; the setting nearest to the law comes first",
      [](const Contact& of) -> Json { return of.label; }},
-    {"cone", "", "elliptic, box, pyramid, points or none", [](const Contact& of) -> Json { return of.cone; }},
-    {"moment_arm", "m", "greatest moment divided by the load", [](const Contact& of) -> Json { return of.moment_arm; }},
-    {"t_slip", "s", "time until 1e-3 of the slip is left in the engine",
+    {"cone", "",
+     "joint limit of force F and moment M, with limits F0 and M0 of each alone: elliptic (F/F0)^2 + (M/M0)^2 <= 1, box "
+     "F <= F0 and M <= M0, pyramid F/F0 + M/M0 <= 1; or points (friction at a few points), none",
+     [](const Contact& of) -> Json { return of.cone; }},
+    {"moment_arm", "m", "largest moment of friction in the engine divided by the load",
+     [](const Contact& of) -> Json { return of.moment_arm; }},
+    {"t_slip", "s", "time until 1e-3 of the slip is left, in the engine",
      [](const Contact& of) -> Json { return of.fade.slip; }},
-    {"t_spin", "s", "time until 1e-3 of the spin is left in the engine",
+    {"t_spin", "s", "time until 1e-3 of the spin is left, in the engine",
      [](const Contact& of) -> Json { return of.fade.spin; }},
-    {"slip_length", "m", "total length that the contact slides",
+    {"slip_length", "m", "distance that the contact point slides, in the engine",
      [](const Contact& of) -> Json { return of.fade.slip_length; }},
-    {"turns", "", "turns about the vertical in the engine", [](const Contact& of) -> Json { return of.fade.turns; }},
+    {"turns", "", "number of turns about the vertical, in the engine",
+     [](const Contact& of) -> Json { return of.fade.turns; }},
 };
 
 constexpr Field<EngineWithBall> name_fields[]{
-    {"name", "", "name of the engine, as the verb takes it",
+    {"name", "", "name of the engine, as in the argument NAME",
      [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
 };
 constexpr Field<EngineWithBall> moment_fields[]{
-    {"", "", "name and value of the parameter of the moment",
+    {"", "", "name and value of the parameter that sets the moment",
      [](const EngineWithBall& of) {
        const auto& all = of.use->parameters;
        return all.empty() ? Json::array({"", ""}) : Json::array({all.back().name, all.back().value(of.contact)});
@@ -97,11 +102,12 @@ constexpr Field<EngineWithBall> moment_fields[]{
      "parameter,value"},
 };
 constexpr Field<EngineWithBall> text_fields[]{
-    {"title", "", "full name", [](const EngineWithBall& of) -> Json { return of.engine->title; }, ""},
-    {"repository", "", "repository on github.com",
+    {"title", "", "full name of the engine", [](const EngineWithBall& of) -> Json { return of.engine->title; }, ""},
+    {"repository", "", "repository of the engine on github.com",
      [](const EngineWithBall& of) -> Json { return of.engine->repository; }, ""},
-    {"version", "", "version of its source", [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
-    {"parameters", "", "parameters to type in; the last one sets the moment",
+    {"version", "", "version of the engine whose source was read",
+     [](const EngineWithBall& of) -> Json { return of.engine->version; }, ""},
+    {"parameters", "", "parameters to type into the engine; the last one sets the moment of friction",
      [](const EngineWithBall& of) {
        Json parameters = Json::object();
        for (const auto& [name, unit, value] : of.use->parameters) {
@@ -110,21 +116,24 @@ constexpr Field<EngineWithBall> text_fields[]{
        return parameters;
      },
      "", 0, " {NAME {`value`, `unit`, `formula`}}"},
-    {"limit", "", "limit of the moment in the engine", [](const EngineWithBall& of) -> Json { return of.use->limit; },
-     ""},
-    {"combination", "", "rule by which the engine combines the numbers of two bodies",
+    {"limit", "", "rule by which the engine limits the moment of friction",
+     [](const EngineWithBall& of) -> Json { return of.use->limit; }, ""},
+    {"combination", "", "rule by which the engine makes one number from the numbers of two bodies in contact",
      [](const EngineWithBall& of) -> Json { return of.engine->combination; }, ""},
-    {"needs", "", "settings without which the engine ignores the numbers",
+    {"needs", "", "further settings; without them the engine ignores the parameters",
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
-    {"settings", "", "settings, one row of CSV each; none for a flat body that the engine does not support",
+    {"settings", "",
+     "list of settings of the engine, each with setting, cone, moment_arm, t_slip, t_spin, slip_length, turns; one row "
+     "of CSV each. Empty if the engine does not support a flat body",
      [](const EngineWithBall& of) {
        Json settings = Json::array();
        for (const Contact& setting : of.settings) settings.push_back(members_of(setting_fields, setting));
        return settings;
      },
      "", 0, " [...]"},
-    {"remarks", "", "known faults", [](const EngineWithBall& of) { return list_of_texts(of.engine->remarks); }, ""},
-    {"sources", "", "sources of these statements",
+    {"remarks", "", "known faults of the engine",
+     [](const EngineWithBall& of) { return list_of_texts(of.engine->remarks); }, ""},
+    {"sources", "", "sources of the statements on the engine",
      [](const EngineWithBall& of) { return list_of_texts(of.engine->sources); }, ""},
 };
 
@@ -137,27 +146,29 @@ Json members_of_engine(const EngineWithBall& engine) {
 constexpr Field<Report> report_fields[]{
     {"law", "", "name of the law of friction", [](const Report& r) -> Json { return r.law.name(); }},
     {"ball", "", "name of the ball", [](const Report& r) -> Json { return r.experiment.ball.name; }, ""},
-    {"body", "", "ball, hollow-ball, disc, puck or ring",
+    {"body", "", "kind of body: ball, hollow-ball, disc, puck or ring",
      [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},
     {"radius", "m", "radius of the ball", [](const Report& r) -> Json { return r.contact.radius; }, ""},
     {"mass", "kg", "mass of the ball", [](const Report& r) -> Json { return r.experiment.ball.mass; }, ""},
     {"load", "N", "normal force on the plane", [](const Report& r) -> Json { return load_of(r.experiment); }, ""},
     {"friction", "", "coefficient of friction f", [](const Report& r) -> Json { return r.contact.friction; }, ""},
-    {"patch_radius", "m", "radius a of the patch", [](const Report& r) -> Json { return r.contact.patch_radius; }, ""},
-    {"pivoting_moment", "", "Psi(0) of the law", [](const Report& r) -> Json { return r.contact.pivoting_moment; }, ""},
-    {"moment_arm", "m", "f a Psi(0), moment of spinning divided by the load",
+    {"patch_radius", "m", "patch radius a", [](const Report& r) -> Json { return r.contact.patch_radius; }, ""},
+    {"pivoting_moment", "",
+     "Psi(0): moment of friction while the ball spins without sliding, divided by f, load and patch radius",
+     [](const Report& r) -> Json { return r.contact.pivoting_moment; }, ""},
+    {"moment_arm", "m", "f a Psi(0): moment of friction while the ball spins without sliding, divided by the load",
      [](const Report& r) -> Json { return r.own.moment_arm; }, ""},
     {"slip", "m/s", "slip at the start", [](const Report& r) -> Json { return si::slip_at_start(r.experiment); }, ""},
     {"spin", "1/s", "spin at the start", [](const Report& r) -> Json { return si::spin_at_start(r.experiment); }, ""},
-    {"t_slip", "s", "time until 1e-3 of the slip is left under the law",
+    {"t_slip", "s", "time until 1e-3 of the slip is left, under the law",
      [](const Report& r) -> Json { return r.own.fade.slip; }, "law_t_slip"},
-    {"t_spin", "s", "time until 1e-3 of the spin is left under the law",
+    {"t_spin", "s", "time until 1e-3 of the spin is left, under the law",
      [](const Report& r) -> Json { return r.own.fade.spin; }, "law_t_spin"},
-    {"slip_length", "m", "total length that the contact slides",
+    {"slip_length", "m", "distance that the contact point slides, under the law",
      [](const Report& r) -> Json { return r.own.fade.slip_length; }, "law_slip_length"},
-    {"turns", "", "turns about the vertical under the law", [](const Report& r) -> Json { return r.own.fade.turns; },
-     "law_turns"},
-    {"engines", "", "a description of each engine, with the fields that follow",
+    {"turns", "", "number of turns about the vertical, under the law",
+     [](const Report& r) -> Json { return r.own.fade.turns; }, "law_turns"},
+    {"engines", "", "list of the engines, each with the fields from name to sources",
      [](const Report& r) {
        Json engines = Json::array();
        for (const EngineWithBall& engine : r.engines) engines.push_back(members_of_engine(engine));

@@ -16,12 +16,12 @@ using fit::Estimate;
 using fit::Parameter;
 
 constexpr Field<Estimate> estimate_fields[]{
-    {"value", "", "estimate; one of many if the data do not determine it",
+    {"value", "", "estimated value; one of many possible values if the data do not determine the number",
      [](const Estimate& of) -> Json { return of.value; }},
-    {"standard_error", "", "standard error; inf if the data do not determine the number",
+    {"standard_error", "", "standard error of the value; inf if the data do not determine the number",
      [](const Estimate& of) -> Json { return of.standard_error; }},
     {"low", "", "", [](const Estimate& of) -> Json { return of.interval.low; }},
-    {"high", "", "ends of the 95 % interval", [](const Estimate& of) -> Json { return of.interval.high; }},
+    {"high", "", "ends of the 95 % confidence interval", [](const Estimate& of) -> Json { return of.interval.high; }},
     {"determined", "", "true if the data determine the number",
      [](const Estimate& of) -> Json { return of.determined(); }},
 };
@@ -190,38 +190,44 @@ struct FitReport {
 };
 
 constexpr Field<FitReport> answer_fields[]{
-    {"law", "", "name of the best law of friction", [](const FitReport& r) -> Json { return r.best.law; }, ""},
+    {"law", "", "name of the law of friction that fits best", [](const FitReport& r) -> Json { return r.best.law; },
+     ""},
     {"friction", "1", "coefficient of friction",
      [](const FitReport& r) { return members_of_estimate(r.best.estimates[0]); }, "", 0, of_estimate},
     {"patch_radius", "m", "radius of the patch",
      [](const FitReport& r) { return members_of_estimate(r.best.estimates[1]); }, "", 0, of_estimate},
-    {"slip", "m/s", "slip at the start of the first track",
+    {"slip", "m/s", "slip at the start of the first film",
      [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::slip)); }, "", 0, of_estimate},
-    {"spin", "1/s", "spin at the start of the first track",
+    {"spin", "1/s", "spin at the start of the first film",
      [](const FitReport& r) { return members_of_estimate(r.best.estimate(Parameter::spin)); }, "", 0, of_estimate},
-    {"correlation", "", "correlation of friction and patch_radius",
+    {"correlation", "", "correlation between the errors of friction and patch_radius",
      [](const FitReport& r) -> Json { return r.best.correlation_of_contact(); }, ""},
-    {"reduced_chi2", "", "chi squared divided by the degrees of freedom; 1 if the noise is estimated",
+    {"reduced_chi2", "",
+     "chi squared (sum of squared residuals, each divided by its standard deviation) divided by degrees_of_freedom; 1 "
+     "if the noise is estimated",
      [](const FitReport& r) {
        const Json value = reduced_chi2(r.best, r.planned);
        return value.is_null() ? said_null : value;
      },
      ""},
-    {"degrees_of_freedom", "", "number of measured values minus that of estimates",
+    {"degrees_of_freedom", "", "number of measured values minus number of estimated values",
      [](const FitReport& r) -> Json { return r.best.degrees_of_freedom; }, ""},
-    {"profiled", "", "true if the intervals are profile likelihood intervals",
+    {"profiled", "", "true if the intervals come from the profile likelihood",
      [](const FitReport& r) -> Json { return r.best.profiled; }, ""},
-    {"fits", "", "true if the data may show this motion", [](const FitReport& r) -> Json { return r.best.fits(); }, ""},
-    {"misfits", "", "reasons why the data cannot show it (status 1)",
+    {"fits", "", "true if this motion can explain the data", [](const FitReport& r) -> Json { return r.best.fits(); },
+     ""},
+    {"misfits", "", "reasons why this motion cannot explain the data; exit status 1",
      [](const FitReport& r) -> Json { return r.best.misfits; }, ""},
-    {"remarks", "", "further remarks",
+    {"remarks", "", "further remarks, such as outliers",
      [](const FitReport& r) -> Json { return remarks_on(r.best, r.tracks, r.planned); }, ""},
-    {"rolling_friction", "1", "coefficient of rolling friction, if the ball has one or it was searched",
+    {"rolling_friction", "1", "coefficient of rolling friction, if the ball has one or if --free names one",
      [](const FitReport& r) {
        return r.best.rolls_with_friction() ? members_of_estimate(r.best.estimate(Parameter::rolling_friction)) : Json();
      },
      "", 0, of_estimate},
-    {"only", "", "best known combination of friction and patch radius, if the data determine no more",
+    {"only", "",
+     "combination of friction and patch radius that the data determine, if they do not determine both. The combination "
+     "is a product of powers",
      [](const FitReport& r) -> Json {
        if (!r.best.only) return {};
        const auto& [friction_power, patch_power, value, error, interval] = *r.best.only;
@@ -235,9 +241,9 @@ constexpr Field<FitReport> answer_fields[]{
      },
      "", 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
     {"tracks", "rad/s",
-     "start of each track, also `direction`, `vx`, `vy`, `x`, `y`, `angle`; with rolling friction `rolling` in place "
-     "of `vx`, `vy`; `half_turn_spin`: spin above which the turns of an angle are found by trial; `other_spins`: "
-     "spins that fit as well, with other turns or another motion",
+     "start of the motion in each film: estimates of `slip`, `spin`, `direction`, `vx`, `vy`, `x`, `y`, `angle`, or "
+     "`rolling` instead of `vx`, `vy` with rolling friction. `half_turn_spin`: spin above which a mark turns more than "
+     "half a turn between two pictures. `other_spins`: other spins that fit the data equally well",
      [](const FitReport& r) {
        Json list = Json::array();
        for (std::size_t i = 0; i < r.tracks.size(); ++i) {
@@ -255,7 +261,9 @@ constexpr Field<FitReport> answer_fields[]{
        return list;
      },
      "", 0, " [{`file`, `start`, `slip`, ...}]"},
-    {"noise", "", "noise of each column; `outliers_at` [{`file`, `t`}] lists the outliers (s)",
+    {"noise", "",
+     "noise of each column: number of values, root mean square of the residuals, standard deviation. `outliers_at` "
+     "[{`file`, `t`}] lists the outliers (s)",
      [](const FitReport& r) {
        Json noise = Json::object();
        for (const auto& [observable, values, rms, sd, estimated, outliers] : r.best.noise) {
@@ -268,7 +276,7 @@ constexpr Field<FitReport> answer_fields[]{
        return noise;
      },
      "", 0, " {NAME {`values`, `rms`, `sd`, `estimated`, `outliers`, `outliers_at`}}"},
-    {"laws", "", "laws, the best first",
+    {"laws", "", "laws of --law, the best first. aic: Akaike information criterion, small for a good law",
      [](const FitReport& r) {
        Json laws = Json::array();
        for (const fit::Fit& fit : r.fits) {
@@ -329,14 +337,14 @@ std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::
 }
 
 std::vector<FieldText> fit_fields() {
-  return joined({{{"in: `t`", "s", "time"},
-                  {"in: `slip`", "m/s", "sliding speed"},
-                  {"in: `x`, `y`", "m", "place of the centre"},
-                  {"in: `vx`, `vy`", "m/s", "velocity of the centre"},
+  return joined({{{"in: `t`", "s", "time of the row"},
+                  {"in: `slip`", "m/s", "sliding speed of the contact point"},
+                  {"in: `x`, `y`", "m", "place of the centre of the ball"},
+                  {"in: `vx`, `vy`", "m/s", "velocity of the centre of the ball"},
                   {"in: `spin`", "rad/s", "spin about the vertical"},
-                  {"in: `angle`", "rad", "angle about the vertical"},
-                  {"in: NAME`_sd`", "as NAME", "standard deviation of the column NAME; other columns are not read"},
-                  {"CSV `law`, `track`, `parameter`", "", "name of the law, of the track and of the estimate"}},
+                  {"in: `angle`", "rad", "angle by which the ball has turned about the vertical"},
+                  {"in: NAME`_sd`", "as NAME", "standard deviation of the column NAME. All other columns are ignored"},
+                  {"CSV `law`, `track`, `parameter`", "", "name of the law, of the film and of the estimated number"}},
                  texts_of(estimate_fields),
                  texts_of(answer_fields)});
 }

@@ -61,28 +61,32 @@ End end_of(const TerminalRatios& ratios, const TerminalRatio& end) {
 
 constexpr Field<ReducedSystem> system_fields[]{
     {"law", "", "name of the law of friction", [](const ReducedSystem& system) -> Json { return system.law().name(); }},
-    {"r", "", "gamma mu^2/chi", [](const ReducedSystem& system) -> Json { return system.r(); }},
-    {"drive", "",
-     "constant force along the slip divided by friction f times load N; with it r_high is the limit of (Phi - drive)/(k Psi)",
+    {"r", "", "number gamma mu^2/chi, which decides the limit of k",
+     [](const ReducedSystem& system) -> Json { return system.r(); }},
+    {"drive", "", "force of --drive. With a drive, r_high is the value of (Phi - drive)/(k Psi) at k = infinity",
      [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
 };
 constexpr Field<TerminalRatios> regime_fields[]{
-    {"r_low", "", "value of r up to which k tends to 0: Phi/(k Psi) at k = 0",
+    {"r_low", "", "value of Phi/(k Psi) at k = 0. If r is at most r_low, k tends to 0",
      [](const TerminalRatios& ratios) -> Json { return ratios.low; }},
-    {"r_high", "", "value of r from which on k tends to infinity: Phi/(k Psi) at k = infinity",
+    {"r_high", "", "value of Phi/(k Psi) at k = infinity. If r is at least r_high, k tends to infinity",
      [](const TerminalRatios& ratios) -> Json { return ratios.high; }},
 };
 constexpr Field<End> end_fields[]{
-    {"limit", "", "limit of k for most starts: zero, ray or infinity; CSV has a row for each end",
+    {"limit", "",
+     "limit of k for most starts: zero, infinity, or ray for a number between them. CSV has a row for each limit",
      [](const End& end) -> Json { return text_of(limits, end.ratio.regime); }},
-    {"k_star", "", "limit of k", [](const End& end) -> Json { return end.ratio.k; }},
+    {"k_star", "", "limit of k as a number", [](const End& end) -> Json { return end.ratio.k; }},
     {"k_star_accuracy", "", "relative error of k_star", [](const End& end) -> Json { return end.accuracy; }, nullptr,
      1},
-    {"k_from", "", "smallest k of the starts with this limit", [](const End& end) -> Json { return end.ratio.from; }},
-    {"k_to", "", "largest k of these starts", [](const End& end) -> Json { return end.ratio.to; }},
+    {"k_from", "", "", [](const End& end) -> Json { return end.ratio.from; }},
+    {"k_to", "", "smallest and largest k of the starts with this limit",
+     [](const End& end) -> Json { return end.ratio.to; }},
 };
 constexpr Field<TerminalRatios> list_fields[]{
-    {"rays", "", "invariant rays: all k at which a half-line is an orbit",
+    {"rays", "",
+     "values of k at which a half-line v = k mu |u| is the curve of a motion. attracts: true if neighbouring motions "
+     "approach this half-line. accuracy: relative error of k",
      [](const TerminalRatios& ratios) {
        Json rays = Json::array();
        for (const InvariantRay& ray : ratios.rays) {
@@ -91,7 +95,7 @@ constexpr Field<TerminalRatios> list_fields[]{
        return rays;
      },
      "", 0, " [{`k`, `attracts`, `accuracy`}]"},
-    {"ends", "", "limits of k, each with its range of starts",
+    {"ends", "", "all limits of k, each with the range k_from to k_to of its starts",
      [](const TerminalRatios& ratios) {
        Json ends = Json::array();
        for (const TerminalRatio& end : ratios.ends) ends.push_back(members_of(end_fields, end_of(ratios, end)));
@@ -115,46 +119,49 @@ Json tangent_of(const PhasePlane& plane, std::size_t end) {
 }
 
 constexpr Field<SingularPoint> point_fields[]{
-    {"half_line", "", "u = 0, v = 0 or the ray",
+    {"half_line", "", "half-line of the point: u = 0, v = 0, or a ray v = k mu |u|",
      [](const SingularPoint& point) -> Json { return name(point.direction); }},
-    {"place", "", "origin or infinity", [](const SingularPoint& point) -> Json { return name(point.place); }},
+    {"place", "", "end of the half-line at which the point lies: origin or infinity",
+     [](const SingularPoint& point) -> Json { return name(point.place); }},
     {"k", "", "ratio k on the half-line", [](const SingularPoint& point) -> Json { return point.k; }},
-    {"q", "", "v/abs(u)", [](const SingularPoint& point) -> Json { return point.q; }},
-    {"eigenvalues", "", "eigenvalues of (2.7), along the half-line and across",
+    {"q", "", "ratio v/|u| on the half-line", [](const SingularPoint& point) -> Json { return point.q; }},
+    {"eigenvalues", "", "eigenvalues of (2.7) at the point, along the half-line and across it",
      [](const SingularPoint& point) -> Json {
        return {{"radial", point.radial}, {"angular", point.angular}};
      },
      nullptr, 0, " {`radial`, `angular`}"},
-    {"kind", "", "stable node, saddle, ...", [](const SingularPoint& point) -> Json { return point.kind; }},
-    {"separatrix", "", "true if the half-line is a separatrix",
+    {"kind", "", "type of the point, such as stable node or saddle",
+     [](const SingularPoint& point) -> Json { return point.kind; }},
+    {"separatrix", "", "true if the half-line is a separatrix, the curve of a motion that leads to a saddle or from it",
      [](const SingularPoint& point) -> Json { return point.kind == "saddle"; }},
 };
 constexpr Field<ReducedSystem> body_fields[]{
     {"mu", "", "radius of the patch divided by the radius R of the body",
      [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
-    {"body", "", "inertia: chi = 1 + m R^2/J, gamma = m R^2/J_z",
+    {"body", "", "inertia of the body: chi = 1 + m R^2/J, gamma = m R^2/J_z",
      [](const ReducedSystem& system) -> Json {
        return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};
      },
      "", 0, " {`chi`, `gamma`}"},
 };
 constexpr Field<PhasePlane> plane_fields[]{
-    {"mu_low", "", "mu at which r of this body is r_low; not with --drive",
+    {"mu_low", "", "mu at which the number r of this body is r_low; not with --drive",
      [](const PhasePlane& plane) -> Json { return plane.points.front().k == 0 ? Json(plane.mu_low) : Json(); }, ""},
-    {"mu_high", "", "mu at which r of this body is r_high",
+    {"mu_high", "", "mu at which the number r of this body is r_high",
      [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
-    {"tangent", "", "half-line along which most orbits enter the origin",
+    {"tangent", "", "half-line along which most motions enter the origin",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
-    {"contact_order", "", "power of the speed by which the orbits leave the half-line",
+    {"contact_order", "", "power of the speed with which motions leave this half-line",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["contact_order"]; }, ""},
-    {"tangents", "", "half-line and contact order at each end",
+    {"tangents", "", "half-line and power for each limit of k",
      [](const PhasePlane& plane) {
        Json tangents = Json::array();
        for (std::size_t i = 0; i < plane.tangents.size(); ++i) tangents.push_back(tangent_of(plane, i));
        return tangents;
      },
      "", 0, " [{`half_line`, `k`, `contact_order`}]"},
-    {"singular_points", "", "singular points of the regularised plane, one row of CSV each",
+    {"singular_points", "",
+     "singular points of (2.7), with the origin and infinity drawn as curves; one row of CSV each",
      [](const PhasePlane& plane) {
        Json points = Json::array();
        for (const SingularPoint& point : plane.points) points.push_back(members_of(point_fields, point));

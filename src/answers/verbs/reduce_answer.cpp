@@ -537,49 +537,92 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   return finished(answer, found, true);
 }
 
-std::vector<FieldText> reduce_fields() {
+namespace {
+
+std::vector<FieldText> texts_of_symmetry() {
   return {
-      {"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "", "law of friction, patch ratio and inertia; not with --system"},
-      {"`system`", "", "the system as typed, with --system"},
-      {"`u0`, `v0`, `drive`", "speed, speed, 1", "the start; drive divided by f N, with --drive"},
-      {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; "
-       "CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, `b2`",
+      {"JSON `generators` [{`time` c, `matrix` A, `shift` b, `within`}]; CSV `time`, `a11`, `a12`, `a21`, `a22`, `b1`, "
+       "`b2`",
        "",
-       "c t d/dt + (A x + b) d/dx with x = (u, v); the first one reduces the system; within: the part of the plane where it holds"},
-      {"JSON `singular_values`", "", "relative singular values of the equations for the symmetry"},
-      {"`level`, `gap`", "", "values below level count as 0; the others are larger by the factor gap"},
-      {"`form`, `factor`", "",
-       "scaling, form of the integrating factor V, or null; V as a formula, up to a constant factor, or in words"},
-      {"`integral`", "", "first integral H as a formula, if it is recognised"},
-      {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
-       "forms of V in the order of the search; cleared: V was multiplied by the denominator of the field"},
-      {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
-       "canonical coordinates of the start: v/u and ln v; with --system angle, ln of distance to centre"},
-      {"`first_integral`", "", "p minus p of one orbit at this q; constant along a motion"},
-      {"JSON `rays` [{`k` or `angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
-       "invariant rays; radial, angular: eigenvalues along and across; order: 2 for a double ray"},
-      {"`kind`, `undecided`", "", "type of the point at the centre, or null; undecided: the reason"},
-      {"every `kind`", "",
-       fmt::format("{}; center: imaginary eigenvalues on the axis of a reversor, or V not 0",
-                   fmt::join(reduction::planar_kinds, ", "))},
-      {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
-       "isolated zeros of the field where |u| and |v| are at most 2.5 max(|u0|, |v0|); eigenvalues [[re, im], "
-       "[re, im]] of its derivatives"},
-      {"JSON `reversors`", "", "images of (u, v) under the maps that turn motions back, such as (u, -v)"},
-      {"JSON `turn` {`factor`, `sigma`}", "", "distance ratio of a turn; sigma: its scaled time"},
-      {"JSON `strip` [{`ln_k` or `q`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
-       "orbit of the start, forward and backward in time; one turn if it is a spiral"},
-      {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
-       "images of the start under the symmetry; their orbits are the orbit of strip, shifted in p by ln(factor)"},
-      {"`tau_stop`, `accuracy`", "speed, 1",
-       "stop time (inf if the centre is not reached, null before a border or if not decided) and relative error"},
-      {"`end`", "", "end of the motion, with --system"},
-      {"every `end`", "", fmt::format("{}; null if not decided", fmt::join(named_ends(), ", "))},
-      {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
-       "stop time by each method; section: the method for --system"},
-      {"`period`", "", "time after which the motion returns"},
-      {"JSON `by_steps` {`difference`, `time`}", "", "relative difference from integration in time steps, at time"},
+       "generator of the symmetry: c t d/dt + (A x + b) d/dx, with time t and x = (u, v). The solution uses the first "
+       "one. within: part of the plane in which a generator holds, if not everywhere"},
+      {"JSON `singular_values`", "",
+       "singular values of the linear equations for c, A and b, divided by the largest one"},
+      {"`level`, `gap`", "",
+       "level: limit below which a singular value counts as 0 and gives a generator. gap: smallest of the larger "
+       "values divided by level"},
   };
+}
+
+}  // namespace
+
+std::vector<FieldText> reduce_fields() {
+  return joined(
+      {{{"`law`, `mu`; JSON `body` {`chi`, `gamma`}", "", "law of friction, ratio mu, and inertia of the body"},
+        {"`u0`, `v0`, `drive`", "speed, speed, 1", "u and v at the start, and force of --drive"}},
+       texts_of_symmetry(),
+       {{"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
+         "coordinates q = v/u and p = ln v of the start, in which the symmetry only shifts p; slope dp/dq of its "
+         "orbit"},
+        {"`first_integral`", "",
+         "number that stays constant along a motion: ln |u| - ln w(k), with a function w that the law determines"},
+        {"JSON `rays` [{`k`, `attracts`}]", "",
+         "rays v = k mu |u|; attracts: true if neighbouring orbits approach the ray"},
+        {"`kind`", "", "type of the centre, such as stable node; bordered if v = 0 is not an orbit, as with a drive"},
+        {"JSON `strip` [{`ln_k`, `p`, `u`, `v`, `tau_left`}]", "1, 1, speed, speed, speed",
+         "states on the orbit of the start, before and after it; tau_left: time that is left until the stop"},
+        {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "1, speed, speed, speed",
+         "starts that the symmetry makes of this one: u and v times factor. Their p is larger by ln(factor)"},
+        {"`tau_stop`", "speed", "time tau when slip and spin end"},
+        {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
+         "tau_stop by each numerical method. section: method that treats (2.6) like --system. failure: reason why a "
+         "method gives no number"}}});
+}
+
+std::vector<FieldText> reduce_system_fields() {
+  return joined(
+      {{{"`system`", "", "equations as typed"}, {"`u0`, `v0`", "", "u and v at the start"}},
+       texts_of_symmetry(),
+       {{"`form`, `factor`", "",
+         "type of the solution: scaling, or the form of the inverse integrating factor V, or null without a solution. "
+         "factor: V as a formula, up to a constant factor, or in words"},
+        {"`integral`", "", "constant of the motion H as a formula, if a formula is found"},
+        {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
+         "forms of V in the order of the search, each with the smallest singular value of its equations and its gap. "
+         "cleared: true if V was multiplied by the denominator of the equations"},
+        {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
+         "coordinates of the start about the centre: angle q and logarithm p of the distance, scaled by the symmetry; "
+         "slope dp/dq of its orbit"},
+        {"`first_integral`", "", "number that stays constant along a motion: p minus the p of one orbit at the same q"},
+        {"JSON `rays` [{`angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
+         "half-lines from the centre that are orbits. attracts: true if neighbouring orbits approach the ray. "
+         "to_centre: true if the motion on it goes to the centre. radial, angular: eigenvalues along and across the "
+         "ray. order: 2 for a double ray"},
+        {"`kind`, `undecided`", "",
+         "type of the centre, or null; undecided: reason why a type or an end was not found"},
+        {"every `kind`", "",
+         fmt::format("{}; a center has imaginary eigenvalues, proved by a reversor or by V not 0",
+                     fmt::join(reduction::planar_kinds, ", "))},
+        {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
+         "isolated points at which u and v do not change, with |u| and |v| at most 2.5 max(|u0|, |v0|); eigenvalues "
+         "[[re, im], [re, im]] of the equations linearised there"},
+        {"JSON `reversors`", "",
+         "reversors: maps of the plane that turn each motion into a motion backward in time, such as (u, -v)"},
+        {"JSON `turn` {`factor`, `sigma`}", "",
+         "for a spiral: distance from the centre after one turn divided by that before, and scaled time of the turn"},
+        {"JSON `strip` [{`q`, `p`, `u`, `v`, `tau_left`}]", "",
+         "states on the orbit of the start, before and after it, or on one turn of a spiral; tau_left: time that is "
+         "left until the centre"},
+        {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "",
+         "starts that the symmetry makes of this one. Their p is larger by ln(factor)"},
+        {"`tau_stop`, `accuracy`", "",
+         "time at which the motion reaches the centre, and its relative error. inf: the motion does not reach the "
+         "centre. null: the motion comes to a border before, or its end was not found"},
+        {"`end`", "", "end of the motion"},
+        {"every `end`", "", fmt::format("{}; null if the end was not found", fmt::join(named_ends(), ", "))},
+        {"`period`", "", "time after which the motion returns to its start"},
+        {"JSON `by_steps` {`difference`, `time`}", "",
+         "relative difference between this solution and an integration in time steps, at this time"}}});
 }
 
 }  // namespace contensou::answers

@@ -33,4 +33,7 @@ std::vector<std::string_view> named_ends();
 /// Returns the fields of these answers.
 std::vector<FieldText> reduce_fields();
 
+/// Fields of the answer for another system.
+std::vector<FieldText> reduce_system_fields();
+
 }  // namespace contensou::answers

@@ -19,33 +19,33 @@ namespace {
 
 using Motion = si::MotionColumns;
 constexpr ColumnField<Motion> motion_columns[]{
-    {"t", "s", "time", [](const Motion& rows) { return &rows.t; }},
+    {"t", "s", "time since the start", [](const Motion& rows) { return &rows.t; }},
     {"x", "m", "", [](const Motion& rows) { return &rows.x; }},
-    {"y", "m", "place of the centre, 0 at the start", [](const Motion& rows) { return &rows.y; }},
+    {"y", "m", "place of the centre; x = y = 0 at the start", [](const Motion& rows) { return &rows.y; }},
     {"vx", "m/s", "", [](const Motion& rows) { return &rows.vx; }},
     {"vy", "m/s", "velocity of the centre", [](const Motion& rows) { return &rows.vy; }},
     {"wx", "1/s", "", [](const Motion& rows) { return &rows.wx; }},
     {"wy", "1/s", "", [](const Motion& rows) { return &rows.wy; }},
-    {"wz", "1/s", "angular velocity, z up", [](const Motion& rows) { return &rows.wz; }},
-    {"slip", "m/s", "speed of the contact point", [](const Motion& rows) { return &rows.slip; }},
+    {"wz", "1/s", "angular velocity; z points up", [](const Motion& rows) { return &rows.wz; }},
+    {"slip", "m/s", "slip, the sliding speed of the contact point", [](const Motion& rows) { return &rows.slip; }},
     {"energy", "J", "kinetic energy, if the mass is known",
      [](const Motion& rows) { return rows.energy.hasNaN() ? nullptr : &rows.energy; }},
 };
 
 constexpr Field<Roll> start_fields[]{
     {"law", "", "name of the law of friction", [](const Roll& roll) -> Json { return roll.law.name(); }},
-    {"route", "", "name of the route",
+    {"route", "", "name of the method of --route",
      [](const Roll& roll) -> Json { return roll.integrated || !roll.whole.is_reduced() ? "integrated" : "reduced"; }},
     {"mu", "", "radius of the patch divided by the radius R of the body",
      [](const Roll& roll) -> Json { return si::patch_ratio(roll.experiment, roll.law); }},
     {"ball", "", "values of the body and of its patch",
      [](const Roll& roll) { return members_of_ball(roll.experiment, roll.law); }},
-    {"velocity", "m/s", "velocity at the start",
+    {"velocity", "m/s", "velocity of the centre at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).velocity); }},
     {"angular_velocity", "1/s", "angular velocity at the start",
      [](const Roll& roll) { return list_of(si::velocities_of(roll.experiment.start).angular_velocity); }},
     {"t_stop", "s", "time when slip and spin end", [](const Roll& roll) -> Json { return roll.whole.stop_time(); }},
-    {"load", "s, N", "columns `t` and `load` of the table that --load names",
+    {"load", "s, N", "columns `t` and `load` of the file that --load names",
      [](const Roll& roll) { return roll.load ? members_of(*roll.load) : Json(); }, nullptr, 0,
      " {`t` [...], `load` [...]}"},
 };
@@ -66,32 +66,36 @@ constexpr Field<RollEvents> event_fields[]{
        return members;
      },
      nullptr, 0, " {`t`, `x`, `y`, `threshold`}"},
-    {"spin_ends", "s, m, m", "time and place at which the spin ends; 0 without spin",
+    {"spin_ends", "s, m, m", "time and place at which the spin ends; 0 if there was none",
      [](const RollEvents& events) { return members_of(events.of.spin_ends); }, nullptr, 0, " {`t`, `x`, `y`}"},
     {"rest", "s, m, m",
-     "time and place at which the centre rests: the turning has ended and the slip is below 0.0001 m/s; with rolling "
-     "friction, on a slope, or for a puck, which has no rolls_after",
+     "time and place at which the centre comes to rest: turning has ended and the slip is below 0.0001 m/s. For a "
+     "puck, which has no rolls_after, and for a ball with rolling friction or on a slope",
      [](const RollEvents& events) {
        if (events.lies_flat) return members_of(events.of.rolls);
        return events.of.rest ? members_of(*events.of.rest) : Json();
      },
      nullptr, 0, " {`t`, `x`, `y`}"},
-    {"slip_length", "m", "length that the contact point slides",
+    {"slip_length", "m", "distance that the contact point slides",
      [](const RollEvents& events) -> Json { return events.of.slip_length; }},
-    {"turns", "", "turns about the vertical", [](const RollEvents& events) -> Json { return events.of.turns; }},
-    {"path", "m", "path of the centre until it rolls or rests",
+    {"turns", "", "number of turns about the vertical",
+     [](const RollEvents& events) -> Json { return events.of.turns; }},
+    {"path", "m", "length of the path of the centre until the ball rolls or the puck rests",
      [](const RollEvents& events) -> Json { return events.of.path; }},
 };
 
 constexpr Field<Roll> rest_of_roll_fields[]{
-    {"creeps", "", "limit of v/(patch radius abs(wz)) while the ball spins, with --rolling-friction or --slope",
+    {"creeps", "",
+     "limit of the slip divided by the patch radius and by |wz| while the ball spins, with --rolling-friction or "
+     "--slope",
      [](const Roll& roll) -> Json {
        const auto k = roll.whole.creep_ratio();
        return k ? Json{{"k", *k}} : Json();
      },
      nullptr, 0, " {`k`}"},
     {"integrated", "s; m; 1; 1",
-     "results of --route integrated, which also gives the rows; other events are those of the reduced route",
+     "results of --route integrated, by which the rows are computed. All other events are computed by the route "
+     "reduced",
      [](const Roll& roll) -> Json {
        if (!roll.in_steps) return {};
        const si::Motion& motion = *roll.in_steps;
@@ -102,8 +106,9 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      },
      nullptr, 0, " {`t_stop`, `slip_length`, `turns`, `steps`}"},
     {"energy_balance", "J",
-     "energies, if the mass is known; kept: energy of rolling; `lost_rolling` with --rolling-friction; "
-     "`gained_on_slope` with --slope. If the ball rolls down for ever: energies until slip and spin end",
+     "energies at the start, lost and kept at the end, if the mass is known. kept: energy of rolling. `lost_rolling` "
+     "only with --rolling-friction, `gained_on_slope` only with --slope. If the ball rolls down for ever, the end is "
+     "the time when slip and spin end",
      [](const Roll& roll) -> Json {
        if (!si::mass_is_known(roll.experiment.ball)) return {};
        const auto [start, sliding, pivoting, rolling, gained, kept] = roll.whole.energy_balance();
@@ -113,17 +118,18 @@ constexpr Field<Roll> rest_of_roll_fields[]{
        return members;
      },
      nullptr, 0, " {`start`, `lost_sliding`, `lost_spinning`, `kept`}"},
-    {"textbook", "", "events under the uncoupled model of textbooks, with the same threshold",
+    {"textbook", "",
+     "events under the uncoupled model, in which friction brakes slip and spin separately; with the threshold of the "
+     "ball",
      [](const Roll& roll) {
        return members_of(event_fields, RollEvents{roll.theirs(), roll.lies_flat()});
      }},
     {"gradient", "SI",
-     "partial derivatives of the numbers of each event by the numbers of the ball and its start, with --gradient; "
-     "those that do not exist are left out",
+     "partial derivatives of the numbers of each event with respect to the numbers of the ball and its start, with "
+     "--gradient. A derivative that does not exist is left out",
      [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
-    {"uncertainty", "as the event",
-     "uncertainty of each number of an event, with --uncertainty, as in stop; `t_stop`, `samples`, `outside`",
+    {"uncertainty", "as the event", "uncertainty of each number of an event, with --uncertainty; members as in stop",
      [](const Roll& roll) { return roll.uncertainty ? members_of(*roll.uncertainty) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {`standard`, `quantiles` [...], `shares`, ...}, ...}, ...}"},
 };

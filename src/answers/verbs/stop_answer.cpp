@@ -140,25 +140,24 @@ constexpr auto of_ball = [](const StopReport& report, auto value) {
 };
 
 constexpr Field<StopReport> fields[]{
-    {"law", "", "name of the law of friction", [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
-    {"route", "", "name of the route", [](const StopReport& r) -> Json { return name(r.route); }},
-    {"mu", "", "radius of the patch divided by the radius R of the body",
-     [](const StopReport& r) -> Json { return r.start.system.mu(); }},
-    {"body", "", "inertia: chi = 1 + m R^2/J, gamma = m R^2/J_z",
+    {"law", "", "", [](const StopReport& r) -> Json { return r.start.system.law().name(); }},
+    {"route", "", "names of the law of friction and of the method",
+     [](const StopReport& r) -> Json { return name(r.route); }},
+    {"mu", "", "", [](const StopReport& r) -> Json { return r.start.system.mu(); }},
+    {"body", "", "ratio mu, and inertia of the body",
      [](const StopReport& r) -> Json {
        const auto [chi, gamma] = r.start.system.inertia();
        return {{"chi", chi}, {"gamma", gamma}};
      },
      nullptr, 1, " {`chi`, `gamma`}"},
-    {"drive", "",
-     "constant force along the slip divided by friction f times load N, with --drive, rolling friction or a slope",
+    {"drive", "", "force of --drive, or that of rolling friction and slope",
      [](const StopReport& r) -> Json {
        const double drive = r.start.system.drive();
        return drive > 0 ? Json(drive) : Json();
      },
      nullptr, 4},
-    {"pieces", "speed, 1",
-     "parts of a motion, if rolling friction stops or starts turning: their first tau; true if the ball turns",
+    {"pieces", "speed, 1, 1",
+     "parts of a motion in which the ball turns only for a time: begin, true if it turns, drive",
      [](const StopReport& r) -> Json {
        const auto pieces = r.start.pieces();
        if (pieces.size() < 2) return {};
@@ -168,38 +167,39 @@ constexpr Field<StopReport> fields[]{
        return list;
      },
      "", 0, " [{`tau`, `turns`, `drive`}]"},
-    {"u0", "speed", "R omega_z at the start", [](const StopReport& r) -> Json { return r.start.state.u; }},
-    {"v0", "speed", "sliding speed at the start", [](const StopReport& r) -> Json { return r.start.state.v; }},
-    {"tau_stop", "speed", "time when slip and spin end", [](const StopReport& r) -> Json { return r.stop.tau; }},
-    {"accuracy", "", "relative error of tau_stop", [](const StopReport& r) -> Json { return r.stop.accuracy; }, nullptr,
-     3},
+    {"u0", "speed", "", [](const StopReport& r) -> Json { return r.start.state.u; }},
+    {"v0", "speed", "u and v at the start", [](const StopReport& r) -> Json { return r.start.state.v; }},
+    {"tau_stop", "speed", "", [](const StopReport& r) -> Json { return r.stop.tau; }},
+    {"accuracy", "speed, 1", "tau when slip and spin end; its relative error",
+     [](const StopReport& r) -> Json { return r.stop.accuracy; }, nullptr, 3},
     // the time f g t without the factor 3 pi/2 of tau
-    {"T_stop", "speed", "f g t_stop = 2 tau_stop/(3 pi)",
+    {"T_stop", "speed", "stop time as f g t_stop = 2 tau_stop/(3 pi)",
      [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
-    {"bounds", "speed", "proved bounds of tau_stop; not for a motion in pieces",
+    {"bounds", "speed", "proved bounds of tau_stop; not with pieces",
      [](const StopReport& r) {
        return r.start.is_in_pieces() ? Json() : Json::array({r.stop.bounds.lower, r.stop.bounds.upper});
      },
      "lower,upper", 0, " [lower, upper]"},
-    {"limits", "speed", "tau_stop without spin (u0 = 0), and without slip (v0 = 0)",
+    {"limits", "speed", "tau_stop if u0 were 0, and if v0 were 0",
      [](const StopReport& r) -> Json {
        return {{"sliding_only", r.sliding_only}, {"pivoting_only", r.pivoting_only}};
      },
      nullptr, 0, " {`sliding_only`, `pivoting_only`}"},
-    {"other_law", "speed", "stop time under pade if the law is exact, under exact if it is pade",
+    {"other_law", "speed", "stop time under the law pade if --law is exact, and under the law exact if --law is pade",
      [](const StopReport& r) -> Json {
        if (!r.other) return {};
        return {{"law", r.other->law}, {"tau_stop", r.other->tau}};
      },
      "other_law,other_tau", 4, " {`law`, `tau_stop`}"},
     {"coarser_table", "1; speed",
-     "stop time with every other row of the pressure table left out, which shows the interpolation error",
+     "tau_stop without every second row of the table of --law; the change shows the interpolation error",
      [](const StopReport& r) -> Json {
        if (!r.coarser) return {};
        return {{"rows", r.coarser->rows}, {"tau_stop", r.coarser->tau}};
      },
      ",coarser_tau", 4, " {`rows`, `tau_stop`}"},
-    {"estimates", "speed", "asymptotic estimates, with --estimate; * is a name such as E1",
+    {"estimates", "speed",
+     "estimates for small mu and their errors, with --estimate; * is the name of an estimate, such as E1",
      [](const StopReport& r) {
        Json estimates;
        for (const reduction::StopEstimate& of : r.estimates) {
@@ -208,7 +208,7 @@ constexpr Field<StopReport> fields[]{
        return estimates;
      },
      "tau_*,error_*", 4, " [{`name`, `tau_stop`, `error`}]"},
-    {"gradient", "1; speed", "partial derivatives of tau_stop, with --gradient",
+    {"gradient", "1; speed", "derivatives of tau_stop with respect to u0, v0 and the others, with --gradient",
      [](const StopReport& r) -> Json {
        if (!r.gradient) return {};
        Json gradient;
@@ -217,8 +217,9 @@ constexpr Field<StopReport> fields[]{
      },
      "by_u,by_v,by_mu,by_chi,by_gamma,by_drive", 5, " {`u`, `v`, `mu`, `chi`, `gamma`, `drive`}"},
     {"uncertainty", "s or speed",
-     "standard deviation of t_stop (without --ball of tau_stop) to first order; {probability, value} of samples; "
-     "first_order_holds: true if the two agree; outside: share of samples with impossible values",
+     "uncertainty of t_stop, without --ball of tau_stop. standard: standard deviation to first order. shares: part of "
+     "standard from each input. quantiles [{probability, value}]: results of random samples. first_order_holds: true "
+     "if the samples confirm standard. outside: share of impossible samples",
      [](const StopReport& r) -> Json {
        if (!r.uncertainty) return {};
        Json members = members_of(r.uncertainty->parts.front().known);
@@ -226,18 +227,17 @@ constexpr Field<StopReport> fields[]{
        return members;
      },
      "", 0, " {`standard`, `quantiles` [...], `shares`, `samples`, ...}"},
-    {"ball", "m; kg; 1; m/s^2; m", "values of the body, and the source of its patch as in run files",
+    {"ball", "m; kg; 1; m/s^2; m", "values of the body and of its patch",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& ball) { return members_of_ball(ball, r.start.system.law()); });
      },
      "", 0, " {`name`, `body`, `radius`, `mass`, `friction`, `gravity`, `patch_radius`, ...}"},
-    {"load", "s, N", "columns t and load of the table that --load names",
+    {"load", "s, N", "table in the file that --load names",
      [](const StopReport& r) { return r.load ? members_of(*r.load) : Json(); }, "", 0, " {`t` [...], `load` [...]}"},
-    {"slip", "m/s", "slip at the start, with --ball", [](const StopReport& r) { return of_ball(r, si::slip_at_start); },
-     ""},
-    {"spin", "1/s", "spin at the start, with --ball", [](const StopReport& r) { return of_ball(r, si::spin_at_start); },
-     ""},
-    {"slip_length", "m", "length that the contact point slides, with --ball",
+    {"slip", "m/s", "", [](const StopReport& r) { return of_ball(r, si::slip_at_start); }, ""},
+    {"spin", "m/s, 1/s", "slip and spin at the start, with --ball",
+     [](const StopReport& r) { return of_ball(r, si::spin_at_start); }, ""},
+    {"slip_length", "m", "distance that the contact point slides, with --ball",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& /*ball*/) { return r.start.motion->slip_length(); });
      },
@@ -245,7 +245,7 @@ constexpr Field<StopReport> fields[]{
     {"t_stop", "s", "time when slip and spin end, with --ball",
      [](const StopReport& r) { return of_ball(r, [&](const auto& /*ball*/) { return r.seconds(r.stop.tau); }); },
      nullptr, 4},
-    {"final", "m/s, 1/s", "rolling motion after that, with --ball",
+    {"final", "m/s, 1/s", "rolling motion after the stop time, with --ball",
      [](const StopReport& r) {
        return of_ball(r, [&](const auto& /*ball*/) -> Json {
          const auto [velocity, angular_velocity] = r.start.motion->final_motion();
@@ -253,7 +253,8 @@ constexpr Field<StopReport> fields[]{
        });
      },
      "", 0, " {`velocity` [x, y], `angular_velocity` [x, y, z]}"},
-    {"rest", "s, m, m", "time and place at which the centre rests, with rolling friction or on a slope",
+    {"rest", "s, m, m",
+     "time and place at which the centre of the ball comes to rest, with rolling friction or on a slope",
      [](const StopReport& r) -> Json {
        const auto rest = rest_of(r.start);
        return rest ? members_of(*rest) : Json();

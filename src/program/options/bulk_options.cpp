@@ -16,10 +16,10 @@ constexpr long max_threads = 1024;
 
 void BulkOptions::add(CLI::App& app) {
   app.option_defaults()->group(usual_group());
-  threads_.add(app, "--threads", "N", "number of threads (default: all cores); the result does not depend on it",
+  threads_.add(app, "--threads", "N", "number of threads (default: all cores); results do not depend on this number",
                whole_number(1, max_threads));
   progress_.add(app, "--progress", "WHEN",
-                "progress on standard error: always, never, or auto (default): only for long work and on a terminal",
+                "progress on standard error: always, never, or auto (default), which means for long work on a terminal",
                 one_of<std::optional<ShowProgress>>(
                     {{"auto", std::nullopt}, {"always", ShowProgress::always}, {"never", ShowProgress::never}}));
 }

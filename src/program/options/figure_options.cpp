@@ -52,15 +52,14 @@ std::string figure_group() { return shared_group("Size and font of the picture",
 
 void FigureOptions::add(CLI::App& app, bool several) {
   app.option_defaults()->group(figure_group());
-  size_.add(
-      app, "--size", "WxH",
-      fmt::format("width and height in millimetres, each {} to {}; or single or double, the widths of a journal's "
-                  "column ({} mm) and page ({} mm)",
-                  min_side, max_side, single_column, double_column),
-      parse_size);
+  size_.add(app, "--size", "WxH",
+            fmt::format("width and height in millimetres, each {} to {}; or the word single or double, the width of a "
+                        "column ({} mm) or a page ({} mm) of a journal",
+                        min_side, max_side, single_column, double_column),
+            parse_size);
   font_.add(app, "--font", "NAME", "font of svg, pdf, png, eps and gif (default sans-serif)", parse_font);
   if (several) return;
-  title_.add(app, "--title", "TEXT", "title of the figure; none removes title and subtitle");
+  title_.add(app, "--title", "TEXT", "title of the figure; the word none removes title and subtitle");
   dpi_.add(app, "--dpi", "N", "resolution of a png in dots per inch, 50 to 1200 (default 300)", whole_number(50, 1200));
 }
 

@@ -37,14 +37,14 @@ CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const s
   const auto read = [=](const std::string& typed) { return read_times(typed, time, unit); };
   CLI::Option* at =
       at_.add(app, "--at", "T1,T2,...|FILE",
-              fmt::format("values of {0} >= 0{1}, in any order; FILE has a column {0}, or one number a line", time,
-                          unit.empty() ? ", or with --ball times such as '1,2 s'"
+              fmt::format("list of times {0} >= 0{1}, in any order. FILE has a column {0}, or one number a line", time,
+                          unit.empty() ? ", or with --ball in seconds, such as '1,2 s'"
                                        : ", in " + std::string(si::find_dimension(unit)->words)),
               read);
   samples_
       .add(app, "--samples", "N",
-           fmt::format("number of instants{}, 2 or more, in place of --at; "
-                       "half of them while the body slides (default {})",
+           fmt::format("number of instants{}, 2 or more, instead of --at (default {}). Half of them lie in the time in "
+                       "which the body slides",
                        extent, standard_samples),
            whole_number(2, max_samples))
       ->excludes(at);

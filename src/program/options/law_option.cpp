@@ -27,7 +27,8 @@ void LawOption::add(CLI::App& app, const std::string& note) {
   app.option_defaults()->group("Law of friction");
   law_.add(
       app, "--law", "LAW",
-      "a name, formulas or FILE.csv (default: the law of the body); 'contensou help laws' lists all of them" + note);
+      "law of friction: name, formulas or FILE.csv (default: law of the body); 'contensou help laws' explains them" +
+          note);
   parameters_.add(app);
 }
 

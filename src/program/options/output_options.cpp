@@ -85,13 +85,13 @@ void OutputOptions::add(CLI::App& app) {
   std::string endings, formats;
   bool has_text = false;
   for (const OutputKind& kind : kinds_) {
-    const std::string which = &kind == &usual ? "" : fmt::format("; {}: ", kind.noun);
+    const std::string which = &kind == &usual ? "" : fmt::format("; for {}: ", kind.noun);
     endings += which + endings_of(kind);
     formats += fmt::format("{}{} (default {})", which, fmt::join(kind.formats, ", "), kind.standard);
     has_text = has_text || is_one_of(kind.formats, "text");
   }
   file_.add(app, "-o,--output", "FILE",
-            fmt::format("output file (default {}); its ending is one of {}",
+            fmt::format("output file (default {}); allowed endings: {}",
                         usual.path == "-" ? "-, standard output" : usual.path, endings));
   app.option_defaults()->group(usual_group());
   format_.add(app, "--format", "FORMAT", "format of an output without an ending: " + formats);

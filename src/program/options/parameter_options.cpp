@@ -17,8 +17,8 @@ std::pair<std::string, double> parse_parameter(const std::string& typed) {
 }  // namespace
 
 void ParameterOptions::add(CLI::App& app) {
-  parameters_.add(app, "--param", "NAME=VALUE", "value of a parameter in formulas; may be repeated", parse_parameter,
-                  true);
+  parameters_.add(app, "--param", "NAME=VALUE", "value of a parameter in typed formulas; may be repeated",
+                  parse_parameter, true);
 }
 
 std::map<std::string, double> ParameterOptions::read() const {

@@ -69,8 +69,11 @@ const std::vector<Route>& RouteOption::every_route() {
 void RouteOption::add(CLI::App& app, const std::vector<Route>& offered) {
   Choices<Route> choices;
   for (Route route : every_route()) choices.emplace_back(name(route), route);
+  std::vector<std::string> methods = names_of(offered);
+  for (std::string& method : methods)
+    method += method == "closed" ? " (formulas)" : method == "quadrature" ? " (integrals)" : "";
   route_.add(app, "--route", "ROUTE",
-             fmt::format("method: {} (default: the first that the law has)", fmt::join(names_of(offered), ", ")),
+             fmt::format("method: {} (time steps); default: first possible", fmt::join(methods, ", ")),
              one_of(choices, "route"));
 }
 

@@ -48,19 +48,21 @@ void BodyOptions::add_mu(CLI::App& app) {
     return parse_number(parts.front());
   };
   mu_.add(app, "--mu", takes_several_mu_ ? "M,..." : "M",
-          std::string("patch radius divided by body radius, 0 < M <= 1 (disc, ring: 1)") +
-              (takes_several_mu_ ? "; several values give portraits side by side" : ""),
+          std::string("value of mu, 0 < M <= 1; a disc or ring has mu = 1") +
+              (takes_several_mu_ ? ". Several values give as many portraits, side by side" : ""),
           read);
 }
 
 void BodyOptions::add_body(CLI::App& app) {
   body_.add(app, "--body", "BODY",
-            "ball (default), hollow-ball, disc (or puck), ring, or CHI,GAMMA ('contensou help ball')", parse_body);
+            "kind of body: ball (default), hollow-ball, disc, puck, ring, or its inertia as CHI,GAMMA ('contensou help "
+            "ball')",
+            parse_body);
 }
 
 void BodyOptions::add_drive(CLI::App& app) {
   app.option_defaults()->group("Start");
-  drive_.add(app, "--drive", "RHO", "drive: force along the slip divided by friction times load, 0 <= RHO < 1",
+  drive_.add(app, "--drive", "RHO", "constant force along the slip divided by f N, 0 <= RHO < 1",
              [](const std::string& typed) {
                const double drive = parse_number(typed);
                if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
@@ -93,8 +95,8 @@ std::string ball_group() { return shared_group("Values that replace those of --b
 void StartOptions::add(CLI::App& app) {
   app.option_defaults()->group("Start");
   body_.add_mu(app);
-  u0_.add(app, "--u0", "U", "spin R omega_z, of either sign, in any unit of speed", number);
-  v0_.add(app, "--v0", "V", "sliding speed, >= 0, in the unit of --u0", number);
+  u0_.add(app, "--u0", "U", "u at the start, of either sign, in any unit of speed", number);
+  v0_.add(app, "--v0", "V", "v at the start, 0 or more, in the unit of --u0", number);
   body_.add_body(app);
   add_ball(app);
 }
@@ -127,7 +129,7 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
     const std::string value_name(quantity.count() > 1 ? quantity.components : dimension ? dimension->name : "X");
     values_[i].add(app, option_of(quantity), may_be_table ? value_name + "|FILE.csv" : value_name,
                    fmt::format("{}{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : "",
-                               may_be_table ? "; FILE.csv with columns t and load is a load that changes" : ""),
+                               may_be_table ? ". FILE.csv has columns t and load, for a load that changes" : ""),
                    read);
   }
 }

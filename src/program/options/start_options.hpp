@@ -74,7 +74,7 @@ class StartOptions {
 
   /// Adds --ball and the options for its values, for a verb in SI units.
   /// @param offer  selects the values that have an option
-  void add_ball(CLI::App& app, const std::string& help = "body in SI units, built-in or from a run file",
+  void add_ball(CLI::App& app, const std::string& help = "real body in SI units: built-in, or from a run file",
                 Offer offer = all);
 
   /// Accepts --radius alone as a ball, for a verb that determines the other values.

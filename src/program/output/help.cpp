@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +14,38 @@ namespace {
 constexpr std::size_t margin = 22;  ///< column in which meanings begin
 constexpr const char* shared = " ('contensou help ";
 constexpr long most_lines = 110;  ///< largest number of lines in the help of a verb
+
+/// Symbols and terms that the help of several verbs uses.
+constexpr std::pair<std::string_view, std::string_view> glossary[]{
+    {"u", "spin omega_z about the vertical times body radius R"},
+    {"v", "slip: sliding speed of the contact point, 0 or more"},
+    {"mu", "radius of the contact patch divided by R. It is not the coefficient of friction, which is f"},
+    {"k", "slip divided by the rim speed of the patch: v/(mu |u|)"},
+    {"f, N", "coefficient of friction, and load (normal force)"},
+    {"Phi, Psi",
+     "force of friction divided by f N, and moment of friction divided by f N and patch radius: functions of k"},
+    {"tau", "reduced time (3 pi/2) f g t, in the unit of u and v, with time t and acceleration of gravity g"},
+    {"beta",
+     "regularised time, which grows from 0 at the start to infinity at the stop: (2.8) in 'contensou help theory'"},
+    {"chi, gamma",
+     "1 + m R^2/J and m R^2/J_z, with mass m and moments of inertia J about a horizontal axis, J_z about the vertical"},
+    {"(2.6), (2.7)", "equations for u and v, printed by 'contensou help theory'"},
+    {"orbit", "curve that a motion draws in the plane of u and v"},
+    {"symmetry", "change of time, u and v that turns motions into motions"},
+    {"centre", "point that the symmetry leaves fixed; u = v = 0 for (2.6)"},
+    {"ray", "half-line from the centre u = v = 0 that is an orbit"},
+    {"slip", "sliding speed of the contact point"},
+    {"spin", "angular velocity about the vertical"},
+    {"patch", "small circle in which body and plane touch"},
+    {"law", "law of friction: force and moment of friction in the patch"},
+    {"event", "begin of rolling, end of the spin, or rest"},
+    {"uncoupled model", "model in which friction brakes slip and spin separately"},
+    {"run file", "file with the values of a body ('contensou help files')"},
+    {"the paper",
+     "V. F. Zhuravlev, On a model of dry friction in the problem of rolling of rigid bodies, Prikl. Mat. Mekh. 62 "
+     "(1998)"},
+    {"(speed)", "unit of a field: the unit in which --u0 and --v0 are given"},
+};
 
 /// @param column  column in which the first line begins
 /// @param indent  column in which the other lines begin
@@ -55,6 +88,14 @@ std::string help_on_group(const CLI::App& app, const std::string& group) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group() == group) text += HelpFormatter().make_option(option, false);
+  }
+  return text;
+}
+
+std::string help_on_words(const std::vector<std::string_view>& names) {
+  std::string text = "\nSymbols and words:\n";
+  for (const auto& [name, meaning] : glossary) {
+    if (names.empty() || std::ranges::find(names, name) != names.end()) text += help_entry(name, meaning);
   }
   return text;
 }
@@ -108,6 +149,12 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
   const std::string fields = help_on_fields(*verb, false);
   const auto lines = std::ranges::count(text, '\n') + std::ranges::count(fields, '\n');
   return text + (lines <= most_lines ? fields : names_of_fields(*verb));
+}
+
+std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const {
+  const std::string usage = CLI::Formatter::make_usage(app, std::move(name));
+  const auto verb = std::ranges::find(verbs(), app->get_name(), &VerbEntry::name);
+  return verb == verbs().end() || verb->words.empty() ? usage : usage + help_on_words(verb->words);
 }
 
 std::string HelpFormatter::make_group(std::string group, bool is_positional,

@@ -33,11 +33,15 @@ std::string help_on_group(const CLI::App& app, const std::string& group);
 /// @param all  true: also fields with an option such as --batch; false: only the names of these options
 std::string help_on_fields(const VerbEntry& verb, bool all);
 
+/// Returns the entries of the glossary with these names, under a heading; all entries without names.
+std::string help_on_words(const std::vector<std::string_view>& names = {});
+
 /// The format in which CLI11 writes help.
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter();
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+  std::string make_usage(const CLI::App* app, std::string name) const override;
   std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override;
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_subcommand(const CLI::App* verb) const override;

@@ -27,21 +27,26 @@ class AimCommand final : public Verb {
   void add_options(CLI::App& app) override {
     distance_.add(
         app, "--distance", "LENGTH",
-        "distance of the centre from its start when slip and spin end, or with rolling friction when the ball rests",
+        "distance from the start to the place where slip and spin end; with rolling friction, to the place of rest",
         at_least_0("m"));
-    turns_.add(app, "--turns", "N", "number of turns about the vertical until slip and spin end; either sign", number);
-    time_.add(app, "--time", "TIME", "time when slip and spin end. Give two of --distance, --turns, --time",
+    turns_.add(app, "--turns", "N", "number of turns about the vertical until slip and spin end, of either sign",
+               number);
+    time_.add(app, "--time", "TIME",
+              "time when slip and spin end; with rolling friction, time of rest. Two of --distance, --turns and --time "
+              "must be given",
               at_least_0("s"));
     rolls_at_.add(app, "--rolls-at", "LENGTH",
-                  "distance at which a ball begins to roll (slip below 1 mm/s). It replaces --distance, --turns, "
-                  "--time. Only starts with forward slip are found",
+                  "distance from the start to the place where a ball begins to roll (slip below 1 mm/s), instead of "
+                  "--distance, --turns, --time. Only starts with forward slip are found",
                   at_least_0("m", true));
-    rolling_speed_.add(app, "--rolling-speed", "SPEED",
-                       "speed of rolling once the spin is 0, for --rolls-at; 0: the ball stops there",
-                       at_least_0("m/s"));
+    rolling_speed_.add(
+        app, "--rolling-speed", "SPEED",
+        "speed of rolling after the spin has ended, for --rolls-at; with 0 the ball stops where it would begin to roll",
+        at_least_0("m/s"));
     spin_.add(app, "--spin", "ROTATION",
-              "spin about the vertical at the start, for --rolls-at; either sign (default 0)", quantity("rad/s"));
-    start_.add_ball(app, "body in SI units, whose start is not used", StartOptions::no_start);
+              "spin about the vertical at the start, for --rolls-at, of either sign (default 0)", quantity("rad/s"));
+    start_.add_ball(app, "real body in SI units, built-in or from a run file; its start is not used",
+                    StartOptions::no_start);
     law_.add(app);
     figure_.add(app);
     output_.add(app);
@@ -89,7 +94,8 @@ class AimCommand final : public Verb {
 
 const RegisteredVerb<AimCommand> aim_verb(Purpose::compute, "aim",
                                           "Find the start that reaches a given distance, number of turns or time",
-                                          "contensou aim --ball puck --distance 20m --turns 3", {{"", aim_fields}});
+                                          "contensou aim --ball puck --distance 20m --turns 3", {{"", aim_fields}},
+                                          {"slip", "spin"});
 
 }  // namespace
 

@@ -22,22 +22,25 @@ using si::CatalogueEntry;
 reduction::Law own_law(const CatalogueEntry& entry) { return *reduction::find_law(si::law_of(entry.experiment)); }
 
 constexpr Field<CatalogueEntry> ball_fields[]{
-    {"name", "", "name for --ball", [](const CatalogueEntry& of) -> Json { return of.name; }},
-    {"description", "", "ball and plane", [](const CatalogueEntry& of) -> Json { return of.experiment.ball.name; }},
-    {"body", "", "ball, hollow-ball, disc or ring",
+    {"name", "", "name of the ball for the option --ball of other verbs",
+     [](const CatalogueEntry& of) -> Json { return of.name; }},
+    {"description", "", "ball and plane in words",
+     [](const CatalogueEntry& of) -> Json { return of.experiment.ball.name; }},
+    {"body", "", "kind of body: ball, hollow-ball, disc or ring",
      [](const CatalogueEntry& of) -> Json { return of.experiment.ball.body.name; }},
-    {"law", "", "name of its own law of friction", [](const CatalogueEntry& of) -> Json { return own_law(of).name(); }},
+    {"law", "", "law of friction that the ball uses by default",
+     [](const CatalogueEntry& of) -> Json { return own_law(of).name(); }},
     {"radius", "m", "radius of the ball", [](const CatalogueEntry& of) -> Json { return of.experiment.ball.radius; }},
     {"mass", "kg", "mass of the ball", [](const CatalogueEntry& of) -> Json { return of.experiment.ball.mass; }},
     {"friction", "", "coefficient of friction",
      [](const CatalogueEntry& of) -> Json { return of.experiment.contact.friction; }},
     {"patch_radius", "m", "radius of the patch",
      [](const CatalogueEntry& of) -> Json { return si::patch_radius_of(of.experiment, own_law(of)); }},
-    {"mu", "", "radius of the patch divided by the radius R of the body",
+    {"mu", "", "radius of the patch divided by radius of the ball",
      [](const CatalogueEntry& of) -> Json { return si::patch_ratio(of.experiment, own_law(of)); }},
-    {"slip", "m/s", "slip of the typical start",
+    {"slip", "m/s", "slip at a typical start",
      [](const CatalogueEntry& of) -> Json { return si::slip_at_start(of.experiment); }},
-    {"spin", "1/s", "spin of the typical start",
+    {"spin", "1/s", "spin at a typical start",
      [](const CatalogueEntry& of) -> Json { return si::spin_at_start(of.experiment); }},
     {"gravity", "m/s^2", "acceleration of gravity",
      [](const CatalogueEntry& of) -> Json { return of.experiment.environment.gravity; }},
@@ -71,7 +74,7 @@ std::vector<FieldText> balls_texts() { return texts_of_rows("balls", ball_fields
 class BallsCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    ball_.add(app, "NAME", "", "ball to print as a run file, for --ball (default: a list of all)", find);
+    ball_.add(app, "NAME", "", "ball that is printed as a run file (default: list of all balls)", find);
     output_.add(app);
   }
 
@@ -102,7 +105,8 @@ class BallsCommand final : public Verb {
 
 const RegisteredVerb<BallsCommand> balls_verb(Purpose::bodies, "balls",
                                               "List the built-in balls, or print one as a run file",
-                                              "contensou balls pool -o pool.toml", {{"", balls_texts}});
+                                              "contensou balls pool -o pool.toml", {{"", balls_texts}},
+                                              {"slip", "spin", "patch", "run file"});
 
 }  // namespace
 

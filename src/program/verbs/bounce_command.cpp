@@ -14,13 +14,13 @@ namespace {
 class BounceCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    start_.add_ball(app, "ball in SI units", [](const si::Quantity& of) {
+    start_.add_ball(app, "real ball in SI units: built-in, or from a run file", [](const si::Quantity& of) {
       return &of != &si::slip && &of != &si::velocity && &of != &si::load && &of != &si::slope &&
              &of != &si::rolling_friction;
     });
     app.option_defaults()->group("Impact");
     speed_.add(app, "--speed", "SPEED",
-               "velocity of the centre along x, in metres per second (default: that of the ball)", quantity("m/s"));
+               "velocity of the centre along x, in metres per second (default: velocity of --ball)", quantity("m/s"));
     CLI::Option* const normal =
         normal_speed_.add(app, "--normal-speed", "SPEED", "speed towards the plane, in metres per second, above 0",
                           [](const std::string& typed) {
@@ -29,7 +29,8 @@ class BounceCommand final : public Verb {
                             return speed;
                           });
     drop_
-        .add(app, "--drop", "LENGTH", "height of the drop, in place of --normal-speed, in metres, above 0",
+        .add(app, "--drop", "LENGTH",
+             "height from which the ball is dropped, in metres, above 0; replaces --normal-speed",
              [](const std::string& typed) {
                const double height = parse_quantity(typed, "m");
                if (!(height > 0)) throw NotAllowed("a height above 0 is needed");
@@ -37,7 +38,7 @@ class BounceCommand final : public Verb {
              })
         ->excludes(normal);
     restitution_.add(app, "--restitution", "E",
-                     "coefficient of restitution: normal speed after the impact divided by that before, 0 to 1",
+                     "coefficient of restitution, 0 to 1: normal speed after the impact divided by normal speed before",
                      [](const std::string& typed) {
                        const double part = parse_number(typed);
                        if (!(part >= 0 && part <= 1)) throw NotAllowed("0 to 1 is needed");
@@ -45,7 +46,7 @@ class BounceCommand final : public Verb {
                      });
     rolling_below_.add(
         app, "--rolling-below", "SPEED",
-        fmt::format("slip below which the ball rolls, in metres per second (default {})", si::rolling_slip),
+        fmt::format("slip below which the ball counts as rolling, in metres per second (default {})", si::rolling_slip),
         [](const std::string& typed) {
           const double speed = parse_quantity(typed, "m/s");
           if (speed < 0) throw NotAllowed("0 or more is needed");
@@ -91,7 +92,7 @@ class BounceCommand final : public Verb {
 const RegisteredVerb<BounceCommand> bounce_verb(Purpose::compute, "bounce",
                                                 "Compute how a spinning ball bounces off the plane",
                                                 "contensou bounce --ball rubber --spin 200 --drop 1 --restitution 0.8",
-                                                {{"", bounce_fields}});
+                                                {{"", bounce_fields}}, {"slip", "spin", "patch", "uncoupled model"});
 
 }  // namespace
 

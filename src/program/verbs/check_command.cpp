@@ -27,11 +27,11 @@ class CheckCommand final : public Verb {
     law_.add(app);
     app.option_defaults()->group("Against a table");
     against_.add(app, "--against", "FILE",
-                 "CSV of a motion by an engine or a camera, to compare with the law of --ball; "
-                 "- is standard input. Columns: t, and slip,spin or vx,vy,wx,wy,wz, in SI units or as 'wz [rpm]'. "
-                 "The start is the first row, or --slip and --spin");
+                 "table of a motion from an engine or a camera, - for standard input. The motion of --ball under --law "
+                 "is compared with this table. Columns: t, and slip,spin or vx,vy,wx,wy,wz, in SI units or as 'wz "
+                 "[rpm]'. The first row is the start, unless --slip and --spin are given");
     tolerance_.add(app, "--tolerance", "SHARE",
-                   fmt::format("largest error that passes, as a share of slip and spin at the start (default {})",
+                   fmt::format("largest difference that passes, divided by slip and spin at the start (default {})",
                                standard_tolerance),
                    [](const std::string& typed) {
                      const double share = parse_number(typed);
@@ -102,8 +102,9 @@ class CheckCommand final : public Verb {
 };
 
 const RegisteredVerb<CheckCommand> check_verb(Purpose::check, "check",
-                                              "Check every statement of the theory, or a table of a motion",
-                                              "contensou check --mu 0.1 --u0 1 --v0 1", {{"", check_fields}});
+                                              "Check every statement of the theory, or compare a table of a motion",
+                                              "contensou check --mu 0.1 --u0 1 --v0 1", {{"", check_fields}},
+                                              {"u", "v", "mu", "f, N"});
 
 }  // namespace
 

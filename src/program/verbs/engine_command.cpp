@@ -17,7 +17,7 @@ using si::Engine;
 class EngineCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    engine_.add(app, "NAME", "", "engine to describe in full (default: one line for each engine)", find);
+    engine_.add(app, "NAME", "", "engine that is described in full (default: one line for each engine)", find);
     start_.add_ball(app);
     law_.add(app);
     output_.add(app);
@@ -56,8 +56,9 @@ class EngineCommand final : public Verb {
 };
 
 const RegisteredVerb<EngineCommand> engine_verb(Purpose::bodies, "engine",
-                                                "Print the torsional friction settings of physics engines",
-                                                "contensou engine mujoco --ball pool", {{"", engine_fields}});
+                                                "Print the settings of physics engines for the moment of friction",
+                                                "contensou engine mujoco --ball pool", {{"", engine_fields}},
+                                                {"slip", "spin", "patch", "law"});
 
 }  // namespace
 

@@ -27,8 +27,8 @@ class ExploreCommand final : public Verb {
 };
 
 const RegisteredVerb<ExploreCommand> explore_verb(Purpose::draw, "explore",
-                                                  "Write a page to explore the phase plane: one HTML file",
-                                                  "contensou explore -o page.html");
+                                                  "Write an HTML page to explore motions in the plane of spin and slip",
+                                                  "contensou explore -o page.html", {}, {"u", "v"});
 
 }  // namespace
 

@@ -89,33 +89,39 @@ class FitCommand final : public Verb {
     files_
         .add(
             app, "FILE", "",
-            "CSV, or text with tabs; - is standard input. Columns: t, or frame with --fps; and any of slip, spin (wz), "
-            "x, y, vx, vy, angle (theta), in SI units or as 'spin [rpm]'. NAME_sd is the standard deviation of NAME. "
-            "Several files are films of one ball",
+            "table measured on a film, as CSV or text with tabs; - is standard input. Columns: t, or frame with --fps; "
+            "and any of slip, spin (or wz), x, y, vx, vy, angle (or theta), in SI units or as 'spin [rpm]'. A column "
+            "NAME_sd contains the standard deviation of NAME. Several files are films of one ball",
             [](const std::string& typed) { return typed; }, true)
         ->expected(1, -1)
         ->allow_extra_args();
     app.option_defaults()->group("Data");
-    from_.add(app, "--from", "TIME", "first instant of the motion, in seconds (default: the first row)", quantity("s"));
-    until_.add(app, "--until", "TIME", "last instant, in seconds (default: the last row, or with --plan the stop)",
-               quantity("s"));
+    from_.add(app, "--from", "TIME", "first instant that is used, in seconds (default: the first row)", quantity("s"));
+    until_.add(app, "--until", "TIME",
+               "last instant that is used, in seconds (default: the last row, or with --plan the stop)", quantity("s"));
     noise_.add(app, "--noise", "NAME=SD,...",
-               "standard deviations of columns and of stop (default: estimated from the residuals)", parse_noise);
-    stop_time_.add(app, "--stop-time", "TIME", "measured stop time, in seconds from the start; needs --noise stop=SD",
+               "standard deviations of columns; stop=SD belongs to --stop-time (default: estimated from the deviations "
+               "between data and motion)",
+               parse_noise);
+    stop_time_.add(app, "--stop-time", "TIME",
+                   "measured time of the stop, in seconds after the start; needs --noise stop=SD",
                    positive("time", "s"));
-    pixel_.add(app, "--pixel", "LENGTH", "size of a pixel, for columns such as 'x [px]'", positive("length", "m"));
-    start_.add_ball(app, "ball with the values that are not fitted; --radius can replace it");
+    pixel_.add(app, "--pixel", "LENGTH", "length that one pixel shows, for columns such as 'x [px]'",
+               positive("length", "m"));
+    start_.add_ball(app, "real ball with the values that are not fitted; with --radius no ball is needed");
     start_.take_radius_for_ball();
-    law_.add_several(app, "LAW,...",
-                     "law, or several to rank (default exact); 'contensou help laws' lists all of them");
+    law_.add_several(
+        app, "LAW,...",
+        "law of friction, or several laws to compare (default exact); 'contensou help laws' lists all laws");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES",
-              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has; "
-              "never the patch of a disc or ring)",
+              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has, "
+              "except the patch of a disc or ring)",
               parse_free);
-    app.add_flag("--robust", robust_, "give outliers less weight (Huber's loss)");
-    app.add_flag("--plan", plan_, "predict the error bars of a film with --fps and --noise; takes no FILE");
-    fps_.add(app, "--fps", "N", "pictures per second, for --plan and for a column frame", parse_rate);
+    app.add_flag("--robust", robust_, "give outliers less weight, by Huber's loss");
+    app.add_flag("--plan", plan_,
+                 "predict the standard errors that a film with --fps and --noise would give; without FILE");
+    fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame", parse_rate);
     figure_.add(app);
     output_.add(app);
   }
@@ -273,7 +279,7 @@ class FitCommand final : public Verb {
 
 const RegisteredVerb<FitCommand> fit_verb(Purpose::bodies, "fit", "Fit friction and patch radius to a film of a ball",
                                           "contensou fit --plan --ball pool --fps 240 --noise slip=0.01,spin=1",
-                                          {{"", fit_fields}});
+                                          {{"", fit_fields}}, {"slip", "spin", "patch", "law"});
 
 }  // namespace
 

@@ -26,20 +26,23 @@ namespace {
 
 std::string laws() {
   std::string text = help_paragraph(
-      "Laws of friction, for --law. A law is given by its pressure at rho, the distance from the centre of the patch "
-      "divided by the patch radius, or by its limit surface:");
+      "Laws of friction, for --law. A law consists of two functions of k = v/(mu |u|), the slip divided by the rim "
+      "speed of the patch. Phi is the force of friction divided by f N, with coefficient of friction f and load N. Psi "
+      "is the moment of friction divided by f N and by the patch radius. Most laws follow from a pressure in the "
+      "patch. It depends on rho, the distance from the centre divided by the patch radius. Other laws follow from a "
+      "limit surface, the curve of Psi against Phi:");
   for (const auto& [name, meaning] : law_forms()) text += help_entry(name, meaning);
   return text + "\n" +
          help_paragraph(
-             "The pressure of FILE.csv is linear in rho^2 between two rows; two rows of one rho make a step. The laws "
-             "annulus and soft are such tables. stop also prints the result of every other row, which shows the error "
-             "of interpolation.");
+             "The pressure of FILE.csv is linear in rho^2 between two rows. Two rows with one value of rho make a "
+             "step. The laws annulus and soft are such tables. 'contensou stop' also prints the result without every "
+             "second row, which shows the error of interpolation.");
 }
 
 std::string views() {
   std::string text = help_paragraph(
-      "Views of a portrait, for --view. u = R omega_z is the spin as a speed, v the sliding speed, mu the patch radius "
-      "divided by R, and k = v/(mu |u|):");
+      "Views of a portrait, for --view. u is the spin omega_z times the radius R of the body, v the sliding speed, mu "
+      "the patch radius divided by R, and k = v/(mu |u|). 'contensou help theory' prints the equations (2.7):");
   for (portraits::View view : portraits::views()) text += help_entry(name(view), axes(view));
   return text;
 }
@@ -47,18 +50,21 @@ std::string views() {
 std::string units() {
   std::string text = help_paragraph(
       "An option in SI units takes a unit after its number, as in --slip \"2 m/s\", --spin 300rpm or --radius \"2.25 "
-      "in\". A number without a unit has the first unit of its kind. A unit after a list applies to all its numbers. "
-      "In a range the unit stands before the count: --spin \"0:60 rpm:3\". In run files such values stand in quotes.");
+      "in\". A number without a unit has the first unit of its line in this list. A unit after a list of numbers "
+      "applies to all of them. In a range the unit stands before the count, as in --spin \"0:60 rpm:3\". In run files "
+      "a value with a unit stands in quotes.");
   for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
   return text + "\n" +
          help_paragraph(
-             "mu, u0 and v0 take no unit. mu is the patch radius divided by the radius of the body. u0 and v0 are "
-             "in any common unit of speed, and times are then tau = (3 pi/2) f g t of the paper in that unit.");
+             "mu, u0 and v0 take no unit. mu is the patch radius divided by the radius of the body. u0 (spin times "
+             "radius) and v0 (slip) are in any common unit of speed. Times are then tau = (3 pi/2) f g t in that unit, "
+             "with coefficient of friction f, gravity g and time t.");
 }
 
 std::string files() {
-  std::string text =
-      help_paragraph("Run files, for --ball FILE.toml. 'contensou balls pool' prints one. Sections and keys:");
+  std::string text = help_paragraph(
+      "A run file, for --ball FILE.toml, contains the values of a body, its contact and its start. 'contensou balls "
+      "pool' prints one. Sections and keys:");
   std::string_view section;
   for (const si::Quantity* quantity : si::quantities()) {
     if (quantity->section != section) {
@@ -69,8 +75,8 @@ std::string files() {
                 help_entry("body", "text in quotes: ball (default), hollow-ball, disc, puck or ring");
       }
       if (quantity == &si::friction) {
-        text += help_entry("law", "text in quotes: default of --law, a name or formulas") +
-                help_entry("param", "default of --param: parameters of the formulas, as in param = {a = 2}");
+        text += help_entry("law", "text in quotes: name or formulas of the law, used without --law") +
+                help_entry("param", "parameters of the formulas, used without --param, as in param = {a = 2}");
       }
     }
     const std::string vector = quantity->components.empty() ? "" : fmt::format(", as [{}]", quantity->components);
@@ -91,7 +97,7 @@ std::string files() {
         "Give {}{}.", fmt::join(names, ", or "),
         ways.front().front() == &si::patch_radius ? "; a disc or ring touches with its whole face by default" : ""));
   }
-  text += help_paragraph("mass is optional. Energies, a load, moduli, a stroke and the verb engine need it.");
+  text += help_paragraph("mass is optional. It is needed for energies, a load, moduli, a stroke and the verb engine.");
   return text + "\n" +
          help_paragraph(
              "Tables (--batch, --at, --against, --law FILE.csv) are CSV with one header line. # begins a comment; - is "
@@ -100,9 +106,11 @@ std::string files() {
 
 std::string all_fields() {
   std::string text = help_paragraph(
-      "Names of columns in CSV and of members in JSON. JSON also has schema, which is 1, and version. Lines of CSV "
-      "that begin with # are comments. The members of an object are columns of their own. in: marks a column of the "
-      "input, out: one of the output. u, v and tau are in one unit of speed, which is m/s for a ball.");
+      "Names of columns in CSV and of members in JSON. An entry without CSV or JSON belongs to both. JSON also has "
+      "schema, which is 1, and version. Lines of CSV that begin with # are comments. In CSV the members of an object "
+      "are columns of their own. in: marks a column of the input, out: a column of the output. The unit stands in "
+      "brackets at the end. u, v and tau are in one unit of speed, which is m/s for a ball.");
+  text += help_on_words();
   for (const VerbEntry& entry : verbs()) text += help_on_fields(entry, true);
   return text;
 }
@@ -179,11 +187,13 @@ std::string ball() {
   StartOptions start;
   start.take_load_history();
   return options(
-      "--body CHI,GAMMA gives the inertia of any body: chi = 1 + m R^2/J about a horizontal axis, 1 for a body that "
-      "cannot roll, and gamma = m R^2/J_z about the vertical. --drive RHO is u_r/f for rolling resistance u_r, and "
-      "tan(angle)/(chi f) on a slope straight down. Each of the following options replaces a value of the body that "
-      "--ball names. A verb offers those that it uses. 'contensou balls' lists the built-in bodies, 'contensou help "
-      "files' describes run files, 'contensou help units' lists the units.",
+      "--body CHI,GAMMA gives the inertia of a body of mass m and radius R. chi is 1 + m R^2/J, with the moment of "
+      "inertia J about a horizontal axis; chi is 1 for a body that cannot roll. gamma is m R^2/J_z, with the moment of "
+      "inertia J_z about the vertical. --drive RHO is a constant force along the slip, divided by the coefficient of "
+      "friction f and the load. Rolling resistance with the coefficient u_r has RHO = u_r/f. A body that slides "
+      "straight down a slope has RHO = tan(angle)/(chi f). Each of the following options replaces a value of the body "
+      "that --ball names. A verb offers the options that it uses. 'contensou balls' lists the built-in bodies, "
+      "'contensou help files' describes run files, 'contensou help units' lists the units.",
       ball_group(), [&](CLI::App& app) { start.add_ball(app); });
 }
 
@@ -199,9 +209,9 @@ std::string output() {
   OutputOptions output{{{"an answer", answer_formats("text")}}};
   BulkOptions bulk;
   std::string text = options(
-      "-o FILE names the output file, which is written whole or not at all; - is standard output. "
-      "Its ending decides the format; --format decides if there is no ending. csv and json have all digits; "
-      "npy is an array of NumPy. Messages and progress go to standard error.",
+      "-o FILE names the output file, which is written whole or not at all; - is standard output. The ending of FILE "
+      "decides the format; without an ending --format decides. csv and json contain all digits. npy is an array of "
+      "NumPy. Messages and progress go to standard error.",
       usual_group(), [&](CLI::App& app) {
         output.add(app);
         bulk.add(app);

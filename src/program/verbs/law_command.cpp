@@ -25,10 +25,9 @@ constexpr Field<LawReport> law_fields[]{
     {"law", "", "name of the law of friction", [](const LawReport& r) -> Json { return r.law.name(); }},
 };
 constexpr ColumnField<LawReport> law_columns[]{
-    {"k", "", "ratio of slip v to the speed mu abs(u) at the rim of the patch",
-     [](const LawReport& r) { return &r.k; }},
-    {"phi", "", "force divided by friction f times load N", [](const LawReport& r) { return &r.phi; }},
-    {"psi", "", "moment divided by (f N times patch radius)", [](const LawReport& r) { return &r.psi; }},
+    {"k", "", "ratio k", [](const LawReport& r) { return &r.k; }},
+    {"phi", "", "force of friction divided by f N", [](const LawReport& r) { return &r.phi; }},
+    {"psi", "", "moment of friction divided by f N and by the patch radius", [](const LawReport& r) { return &r.psi; }},
 };
 
 std::vector<FieldText> law_texts() { return joined({texts_of(law_fields), texts_of(law_columns)}); }
@@ -38,10 +37,10 @@ class LawCommand final : public Verb {
   void add_options(CLI::App& app) override {
     law_.add(app);
     app.option_defaults()->group("Ratios");
-    CLI::Option* k = k_.add(app, "--k", "K1,K2,...",
-                            "ratios k of slip v to the speed mu |u| at the rim of the patch, 0 to inf", parse_ratios);
-    batch_.add(app, "--batch", "FILE", "CSV with a column k, in place of --k; - is standard input")->excludes(k);
-    app.add_flag("--surface", surface_, "draw the limit surface: force against moment, for several laws");
+    CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
+    batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input")->excludes(k);
+    app.add_flag("--surface", surface_,
+                 "draw the limit surface, force against moment, of --law beside exact, pade, uniform and ring");
     figure_.add(app);
     output_.add(app);
   }
@@ -102,9 +101,9 @@ class LawCommand final : public Verb {
   OutputOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
 };
 
-const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law",
-                                          "Compute or draw the force and moment of friction against k",
-                                          "contensou law --law exact --k 0,0.5,1,2,inf", {{"", law_texts}});
+const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law", "Compute or draw the force and moment of friction",
+                                          "contensou law --law exact --k 0,0.5,1,2,inf", {{"", law_texts}},
+                                          {"u", "v", "mu", "k", "f, N"});
 
 }  // namespace
 

@@ -18,15 +18,17 @@ using answers::TextTable;
 std::string verdict(const Published& number) { return number.agrees() ? "agrees" : "differs"; }
 
 constexpr Field<Published> number_fields[]{
-    {"name", "", "the number's name", [](const Published& n) -> Json { return n.name; }},
-    {"source", "", "authors, journal and year", [](const Published& n) -> Json { return n.source; }},
-    {"link", "", "DOI or repository", [](const Published& n) -> Json { return n.link; }},
-    {"read", "", "part of the source that was read: abstract, code, textbooks, or a citation",
+    {"name", "", "name of the number", [](const Published& n) -> Json { return n.name; }},
+    {"source", "", "source of the number: authors, journal and year",
+     [](const Published& n) -> Json { return n.source; }},
+    {"link", "", "DOI or repository of the source", [](const Published& n) -> Json { return n.link; }},
+    {"read", "", "part of the source that was read for this table: abstract, code, textbooks, or a citation",
      [](const Published& n) -> Json { return n.read; }},
-    {"published", "", "the number as published", [](const Published& n) -> Json { return n.published; }},
-    {"computed", "", "the number as computed here", [](const Published& n) -> Json { return n.computed; }},
-    {"verdict", "", "agrees or differs", [](const Published& n) -> Json { return verdict(n); }},
-    {"recorded", "", "expected verdict; if verdict differs, the status is 1",
+    {"published", "", "value that the source prints", [](const Published& n) -> Json { return n.published; }},
+    {"computed", "", "value that this program computes", [](const Published& n) -> Json { return n.computed; }},
+    {"verdict", "", "result of the comparison: agrees or differs",
+     [](const Published& n) -> Json { return verdict(n); }},
+    {"recorded", "", "verdict that the program expects; any other verdict gives exit status 1",
      [](const Published& n) -> Json { return n.confirmed ? "agrees" : "differs"; }},
 };
 

@@ -34,18 +34,18 @@ struct OrbitReport {
 };
 
 constexpr Field<OrbitReport> orbit_fields[]{
-    {"law", "", "name of the law of friction",
-     [](const OrbitReport& r) -> Json { return r.start.system.law().name(); }},
-    {"route", "", "name of the route", [](const OrbitReport& r) -> Json { return name(r.route); }},
-    {"mu", "", "radius of the patch divided by the radius R of the body",
-     [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
-    {"u0", "speed", "R omega_z at the start", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
-    {"v0", "speed", "sliding speed at the start", [](const OrbitReport& r) -> Json { return r.start.state.v; }},
-    {"ball", "", "values of the body and of its patch",
+    {"law", "", "", [](const OrbitReport& r) -> Json { return r.start.system.law().name(); }},
+    {"route", "", "names of the law of friction and of the method",
+     [](const OrbitReport& r) -> Json { return name(r.route); }},
+    {"mu", "", "", [](const OrbitReport& r) -> Json { return r.start.system.mu(); }},
+    {"u0", "speed", "", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
+    {"v0", "1, speed, speed", "ratio mu, and u and v at the start",
+     [](const OrbitReport& r) -> Json { return r.start.state.v; }},
+    {"ball", "", "values of the body of --ball and of its patch",
      [](const OrbitReport& r) {
        return r.start.experiment ? members_of_ball(*r.start.experiment, r.start.system.law()) : Json();
      }},
-    {"load", "s, N", "columns t and load of the table that --load names",
+    {"load", "s, N", "table in the file that --load names",
      [](const OrbitReport& r) { return r.load ? members_of(*r.load) : Json(); }, nullptr, 0,
      " {`t` [...], `load` [...]}"},
 };
@@ -54,25 +54,27 @@ constexpr Field<OrbitReport> orbit_fields[]{
 const Eigen::ArrayXd* unless_empty(const Eigen::ArrayXd& values) { return values.size() > 0 ? &values : nullptr; }
 
 constexpr ColumnField<OrbitReport> orbit_columns[]{
-    {"tau", "speed", "time (3 pi/2) f g t", [](const OrbitReport& r) { return &r.motion.tau; }},
-    {"u", "speed", "R omega_z", [](const OrbitReport& r) { return &r.motion.u; }},
-    {"v", "speed", "sliding speed", [](const OrbitReport& r) { return &r.motion.v; }},
-    {"ln_v", "", "logarithm of v, which does not underflow", [](const OrbitReport& r) { return &r.motion.ln_v; }},
-    {"k", "", "v/(mu abs(u))", [](const OrbitReport& r) { return &r.motion.k; }},
-    {"beta", "1/speed", "regularised time beta ('contensou help theory'), 0 at the start",
-     [](const OrbitReport& r) { return &r.motion.beta; }},
+    {"tau", "speed", "time tau since the start", [](const OrbitReport& r) { return &r.motion.tau; }},
+    {"u", "speed", "", [](const OrbitReport& r) { return &r.motion.u; }},
+    {"v", "speed", "u and v at this time", [](const OrbitReport& r) { return &r.motion.v; }},
+    {"ln_v", "", "natural logarithm of v; a normal number even where v is so small that it is printed as 0",
+     [](const OrbitReport& r) { return &r.motion.ln_v; }},
+    {"k", "", "ratio k = v/(mu |u|)", [](const OrbitReport& r) { return &r.motion.k; }},
+    {"beta", "1/speed", "time beta since the start", [](const OrbitReport& r) { return &r.motion.beta; }},
     {"u_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.u_estimate); }},
     {"v_estimate", "speed", "", [](const OrbitReport& r) { return unless_empty(r.v_estimate); }},
     {"ln_v_estimate", "speed",
-     "asymptotic solution for small mu at the same tau, with --estimate; u and v are 0 after its stop time E1",
+     "approximate solution for small mu at this tau, with --estimate. It has a stop time of its own, after which u and "
+     "v are 0",
      [](const OrbitReport& r) { return unless_empty(r.ln_v_estimate); }},
-    {"tau_left", "speed", "time until the stop, with --time-left",
+    {"tau_left", "speed", "tau from this time until the stop, with --time-left",
      [](const OrbitReport& r) { return unless_empty(r.tau_left); }},
-    {"t", "s", "time in seconds, with --ball", [](const OrbitReport& r) { return unless_empty(r.t); }},
-    {"q", "", "v/u, with --reduction", [](const OrbitReport& r) { return unless_empty(r.q); }},
-    {"p", "", "ln v, with --reduction", [](const OrbitReport& r) { return unless_empty(r.p); }},
+    {"t", "s", "time since the start in seconds, with --ball", [](const OrbitReport& r) { return unless_empty(r.t); }},
+    {"q", "", "ratio v/u, with --reduction", [](const OrbitReport& r) { return unless_empty(r.q); }},
+    {"p", "", "logarithm ln v, with --reduction", [](const OrbitReport& r) { return unless_empty(r.p); }},
     {"integral", "",
-     "first integral ln abs(u) - ln w(k), with --reduction, the same on every row; inf where it has no value",
+     "constant of the motion, with --reduction: ln |u| - ln w(k), with a function w that the law determines; inf where "
+     "it has no value",
      [](const OrbitReport& r) { return unless_empty(r.integral); }},
 };
 
@@ -89,13 +91,12 @@ class OrbitCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
     time_left_
         .add(app, "--time-left", "T1,T2,...|FILE",
-             "times before the stop, in place of --at; with --ball also '1,2 s'; FILE has a column tau_left. Adds "
-             "the column tau_left",
+             "times that are left until the stop, instead of --at; with --ball also in seconds, such as '1,2 s'. FILE "
+             "has a column tau_left. The output adds the column tau_left",
              [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
         ->excludes(at);
     beta_
-        .add(app, "--beta", "B1,B2,...|FILE",
-             "regularised times beta >= 0 of (2.8), in place of --at; FILE has a column beta",
+        .add(app, "--beta", "B1,B2,...|FILE", "times beta >= 0, instead of --at. FILE has a column beta",
              [](const std::string& typed) {
                auto betas = InstantsOption::read_times(typed, "beta");
                if (betas.in_seconds) throw NotAllowed("beta has no unit: plain numbers are needed");
@@ -103,11 +104,11 @@ class OrbitCommand final : public Verb {
              })
         ->excludes(at);
     app.add_flag("--estimate", estimate_,
-                 "add the asymptotic solution for small mu: u_estimate (relative error of the order mu^4), v_estimate "
-                 "and ln_v_estimate (mu^2)");
+                 "add an approximate solution for small mu: columns u_estimate (relative error of order mu^4), "
+                 "v_estimate and ln_v_estimate (order mu^2)");
     app.add_flag("--reduction", reduction_,
-                 "add the canonical coordinates q = v/u and p = ln v, "
-                 "and integral, the first integral ln |u| - ln w(k)");
+                 "add the coordinates q = v/u and p = ln v in which the equations are solved, and integral, a constant "
+                 "of the motion");
     output_.add(app);
   }
 
@@ -236,9 +237,11 @@ class OrbitCommand final : public Verb {
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 
-const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit", "Compute u and v at instants of the motion",
+const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit",
+                                              "Compute spin and slip at instants of a motion",
                                               "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50",
-                                              {{"", orbit_texts}});
+                                              {{"", orbit_texts}},
+                                              {"u", "v", "mu", "k", "f, N", "tau", "beta", "(speed)"});
 
 }  // namespace
 

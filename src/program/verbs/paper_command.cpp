@@ -51,17 +51,19 @@ struct StatementRow {
 constexpr Field<StatementRow> statement_fields[]{
     {"equation", "", "number of the equation in the paper",
      [](const StatementRow& row) -> Json { return row.statement.equation; }},
-    {"statement", "", "the statement in words", [](const StatementRow& row) -> Json { return row.statement.says; }},
-    {"printed", "", "value of the statement as printed",
+    {"statement", "", "statement of the paper in words",
+     [](const StatementRow& row) -> Json { return row.statement.says; }},
+    {"printed", "", "value by the formula that the paper prints",
      [](const StatementRow& row) -> Json { return or_infinity(row.found.printed); }},
-    {"computed", "", "value computed independently of the statement",
+    {"computed", "", "value that this program computes in another way",
      [](const StatementRow& row) -> Json { return or_infinity(row.found.computed); }},
-    {"verdict", "", "result of the comparison in words, such as holds",
+    {"verdict", "", "result of the comparison, such as holds or erratum",
      [](const StatementRow& row) -> Json { return word(row.found.verdict); }},
-    {"recorded", "", "expected verdict; if verdict differs, the status is 1",
+    {"recorded", "", "verdict that the program expects; any other verdict gives exit status 1",
      [](const StatementRow& row) -> Json { return word(row.statement.recorded); }},
-    {"correction", "", "correction of an erratum", [](const StatementRow& row) -> Json { return row.correction; }},
-    {"at", "", "argument of the comparison, such as a ratio k",
+    {"correction", "", "correct form of a statement that is an erratum",
+     [](const StatementRow& row) -> Json { return row.correction; }},
+    {"at", "", "values at which printed and computed were compared",
      [](const StatementRow& row) -> Json { return row.where; }},
 };
 
@@ -172,7 +174,7 @@ class PaperCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     app.option_defaults()->group("Figures");
-    out_.add(app, "--out", "DIR", "folder for fig1 to fig4 as svg and pdf (default: only the table)");
+    out_.add(app, "--out", "DIR", "folder for the figures fig1 to fig4, as svg and pdf (default: no figures)");
     figure_.add(app, true);
     output_.add(app);
   }
@@ -200,7 +202,7 @@ class PaperCommand final : public Verb {
 
 const RegisteredVerb<PaperCommand> paper_verb(Purpose::check, "paper",
                                               "Recompute every equation of Zhuravlev's paper, and draw its figures",
-                                              "contensou paper --out figures", {{"", paper_texts}});
+                                              "contensou paper --out figures", {{"", paper_texts}}, {"the paper"});
 
 }  // namespace
 

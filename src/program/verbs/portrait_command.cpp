@@ -83,43 +83,50 @@ auto at_most(int highest) {
 /// Returns the fields of the data of a portrait. The library portraits writes these data.
 std::vector<FieldText> portrait_fields() {
   return {
-      {"CSV `kind`, `index`", "", "orbit, highlight, through, isochrone, ...; number of the line of that kind"},
-      {"CSV `u`, `v`, `tau`", "speed", "states on the line, and the time left until the stop"},
-      {"CSV `ln_v`, `k`", "", "logarithm of v, and v/(mu abs(u))"},
-      {"CSV `beta`", "1/speed", "regularised time (2.8) since the first state of an orbit, with --view regularised"},
-      {"CSV `t`", "s", "time left until the stop, with --ball"},
+      {"CSV `kind`, `index`", "",
+       "type of the line: orbit, highlight, through, isochrone and others; number of the line within its type"},
+      {"CSV `u`, `v`, `tau`", "speed", "states on the line; tau: time that is left until the stop"},
+      {"CSV `ln_v`, `k`", "", "natural logarithm of v, and ratio k = v/(mu |u|)"},
+      {"CSV `beta`", "1/speed", "time beta since the first state of an orbit, with --view regularised"},
+      {"CSV `t`", "s", "time that is left until the stop, with --ball"},
       {"JSON `portraits` [{`version`, ...}]", "",
-       "a portrait for each of several --mu or --law, with the members below"},
-      {"`law`, `mu`", "", "law of friction, patch radius divided by R; columns with several --mu or --law"},
-      {"JSON `body` {`chi`, `gamma`}, `view`", "", "inertia, as in stop; name of the view"},
-      {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane that is shown"},
-      {"JSON `drive`", "",
-       "constant force along the slip divided by friction f times load N, with --drive, rolling friction or a slope"},
-      {"JSON `ball`, `seconds_per_tau`", "; s/speed", "name of the ball; seconds in one unit of tau"},
-      {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV", "lists of the states of each orbit"},
-      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "states with the same stop time"},
-      {"JSON `highlight`, `through` [...]", "", "orbit of the start, and those of --through, in the form of orbits"},
-      {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "lines under the law of --against"},
+       "list of portraits with the members below, if --mu or --law has several values"},
+      {"`law`, `mu`", "", "law of friction and ratio mu; columns of CSV only if --mu or --law has several values"},
+      {"JSON `body` {`chi`, `gamma`}, `view`", "", "inertia of the body; name of the view"},
+      {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane of u and v that is drawn"},
+      {"JSON `drive`", "", "constant force along the slip divided by f N, from --drive, rolling friction or a slope"},
+      {"JSON `ball`, `seconds_per_tau`", "s/speed", "name of the ball; number of seconds in one unit of tau"},
+      {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV",
+       "list of orbits, each with lists of its states and of the times left until the stop"},
+      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "lines of states with one stop time each"},
+      {"JSON `highlight`, `through` [...]", "",
+       "orbit of the start; orbits through the points of --through. Their form is that of an entry of orbits"},
+      {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "orbits and isochrones under the law of --against"},
   };
 }
 
 /// Returns the fields of the data of a portrait of --system.
 std::vector<FieldText> system_portrait_fields() {
   return {
-      {"CSV `kind`, `index`", "", "orbit, highlight, through, separatrix, isochrone; number of the line of that kind"},
-      {"CSV `u`, `v`, `tau`", "", "states on the line; time left until the centre, inf where it is not reached"},
-      {"JSON `system`", "", "the system as typed"},
-      {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "kind and rays, as in reduce"},
-      {"JSON `form`", "", "form as in reduce, if there is no scaling; null if time steps give the orbits"},
-      {"JSON `centre` [U, V]", "", "centre of the scaling; null without one"},
-      {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane that is shown"},
+      {"CSV `kind`, `index`", "",
+       "type of the line: orbit, highlight, through, separatrix, isochrone; number of the line within its type"},
+      {"CSV `u`, `v`, `tau`", "",
+       "states on the line; tau: time that is left until the centre, or inf if the motion does not reach the centre"},
+      {"JSON `system`", "", "equations as typed"},
+      {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "type of the centre, and rays, as in reduce"},
+      {"JSON `form`", "",
+       "type of the solution as in reduce, unless it is a scaling; null if the orbits are computed in time steps"},
+      {"JSON `centre` [U, V]", "", "centre of the scaling symmetry; null if there is none"},
+      {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane of u and v that is drawn"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues` [[re, im], [re, im]]}]", "",
-       "points at which the field is 0; only without a scaling"},
-      {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "", "lists of the states of each orbit"},
-      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "states with the same time left"},
+       "points at which u and v do not change; only without a scaling symmetry"},
+      {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "",
+       "list of orbits, each with lists of its states and of the times left until the stop"},
+      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "lines of states with one time left each"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
-       "orbits of the start, of --through and of saddles, in the form of orbits"},
-      {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor V is 0"},
+       "orbit of the start, orbits through the points of --through, and orbits that end in saddles. Their form is that "
+       "of an entry of orbits"},
+      {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor is 0"},
   };
 }
 
@@ -130,14 +137,14 @@ class PortraitCommand final : public Verb {
     start_.take_several_mu();
     start_.add(app);
     start_.add_drive(app);
-    law_.add(app, "; several names between commas give portraits side by side");
+    law_.add(app, ". Several names, between commas, give as many portraits");
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);
     figure_.add(app);
     app.option_defaults()->group("Output");
     app.add_flag("--facts", facts_,
-                 "print a table in place of the picture: "
-                 "the limit of k at the stop, the singular points and how orbits enter the origin");
+                 "print a table instead of a picture: the limit of k at the stop, the singular points, and the "
+                 "directions in which orbits enter the origin");
     output_.add(app);
   }
 
@@ -274,25 +281,25 @@ class PortraitCommand final : public Verb {
         into(request_.view, one_of(views, "view")));
     view_ = &looks_.back();
     add("--scale", "SCALE",
-        "scale of v in uv, patch and pair: linear, or bent, where the shaded part shows v^s and orbits are straight "
-        "(default for a ball with mu < 0.48)",
+        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). Bent shows a "
+        "power of v in a shaded part, in which orbits end as straight lines",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "part of the plane: |u| <= U and 0 <= v <= V (--system: "
-        "|v| <= V), or U1:U2,V1:V2 in uv, patch, pair and with --system",
+        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V). The form U1:U2,V1:V2 is for the "
+        "views uv, patch, pair and for --system",
         [this](const std::string& typed) { read_window(typed, request_); });
     window_ = &looks_.back();
     add("--orbits", "N",
-        fmt::format("number of orbits on each side of u = 0, or with --system of all orbits, 0 to {} (default 12)",
+        fmt::format("number of orbits on each side of u = 0, 0 to {} (default 12); with --system, number of all orbits",
                     max_orbits),
         into(request_.orbits, at_most(max_orbits)));
     add(
-        "--through", "U,V", "point of one more orbit; may be repeated",
+        "--through", "U,V", "point through which one more orbit is drawn; may be repeated",
         [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N|T1,T2,...",
-        fmt::format("number of lines of equal stop time, 0 to {} (about; default 7), or a list of stop times, with "
-                    "--ball in s; 'T,' is a list of one",
+        fmt::format("lines of equal stop time: about how many, 0 to {} (default 7), or a list of stop times, with "
+                    "--ball in seconds. A list of one time is 'T,'",
                     max_isochrones),
         [this, read = at_most(max_isochrones)](const std::string& typed) {
           if (typed.find(',') != std::string::npos) {
@@ -303,24 +310,29 @@ class PortraitCommand final : public Verb {
         })
         ->expected(0, 1);
     first_of_drawing_ = looks_.size();
-    add("--arrows", "WHERE", "arrows on orbits: time (default, at equal times), one (on each orbit), none",
+    add("--arrows", "WHERE",
+        "arrows on orbits: time (default; at equal steps of time), one (one arrow on each orbit), none",
         into(style_.arrows,
              one_of<Style::Arrows>(
                  {{"time", Style::Arrows::time}, {"one", Style::Arrows::one}, {"none", Style::Arrows::none}})));
     add("--field", "FIELD",
-        "direction field: motion (2.6), regularised (2.7), none (default); length of an arrow: log of the speed",
+        "arrows of the direction of motion on a grid: motion, by (2.6); regularised, by (2.7); none (default). Their "
+        "length grows with the logarithm of the speed",
         into(style_.field, one_of<Style::Field>({{"none", Style::Field::none},
                                                  {"motion", Style::Field::motion},
                                                  {"regularised", Style::Field::regularised},
                                                  {"", Style::Field::motion}})))
         ->expected(0, 1);
-    add("--axes", "on|off", "orbits that are straight lines: the axes and the invariant ray (default on)",
+    add("--axes", "on|off", "orbits that are straight lines: the axes, and a ray if there is one (default on)",
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
-    add("--colour,--color", "BY", "colour of orbits: time (default, the time left) or none (one colour)",
+    add("--colour,--color", "BY",
+        "colour of orbits: time (default; shows the time left until the stop) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
-    app.add_flag("--estimate", style_.estimate, "draw the asymptotic solution for small mu, dashed, in --view time");
-    against_.add_second(app, "--against", "LAW", "second law, whose orbits are dashed in the same figure");
-    add("--style", "STYLE", "print (default), or screen (light on dark, for a projector)",
+    app.add_flag("--estimate", style_.estimate,
+                 "add the approximate solution for small mu as dashed lines, in --view time");
+    against_.add_second(app, "--against", "LAW",
+                        "second law of friction, whose orbits are drawn as dashed lines in the same figure");
+    add("--style", "STYLE", "colours of the picture: print (default), or screen (light on dark, for a projector)",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
@@ -360,7 +372,8 @@ class PortraitCommand final : public Verb {
 
 const RegisteredVerb<PortraitCommand> portrait_verb(
     Purpose::draw, "portrait", "Draw a phase portrait", "contensou portrait --mu 0.3 -o portrait.svg",
-    {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}});
+    {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}},
+    {"u", "v", "mu", "k", "f, N", "tau", "(2.6), (2.7)", "orbit", "ray"});
 
 }  // namespace
 

@@ -66,7 +66,10 @@ class ReduceCommand final : public Verb {
 
 const RegisteredVerb<ReduceCommand> reduce_verb(Purpose::check, "reduce",
                                                 "Find the symmetry of a planar system and solve its motion",
-                                                "contensou reduce --mu 0.3 --u0 1 --v0 1", {{"", reduce_fields}});
+                                                "contensou reduce --mu 0.3 --u0 1 --v0 1",
+                                                {{"", reduce_fields}, {"--system", reduce_system_fields}},
+                                                {"u", "v", "mu", "k", "f, N", "tau", "chi, gamma", "(2.6), (2.7)",
+                                                 "orbit", "symmetry", "centre", "ray", "(speed)"});
 
 }  // namespace
 

@@ -82,15 +82,18 @@ double parse_end(const std::string& typed) {
 constexpr long max_frames = 1000;  ///< largest number of frames of a film: 40 s
 
 /// Columns of the tables that --batch reads.
-constexpr ColumnText straight_shots{"slip,spin", "m/s, 1/s", "start along x; all other columns pass through"};
-constexpr ColumnText general_shots{"vx,vy,wx,wy,wz", "m/s, 1/s", "start by velocities, in place of slip and spin"};
+constexpr ColumnText straight_shots{"slip,spin", "m/s, 1/s",
+                                    "start with the slip along x; other columns are copied from the input"};
+constexpr ColumnText general_shots{
+    "vx,vy,wx,wy,wz", "m/s, 1/s", "velocity of the centre and angular velocity at the start, instead of slip and spin"};
 constexpr std::initializer_list<ColumnText> shot_events{
     {"t_rolls,x_rolls,y_rolls", "s, m, m", "time and place at which the slip falls below --rolling-below"},
-    {"t_spin_ends,x_spin_ends,y_spin_ends", "s, m, m", "time and place at which the spin ends; 0 without spin"},
+    {"t_spin_ends,x_spin_ends,y_spin_ends", "s, m, m", "time and place at which the spin ends; 0 if there was none"},
     {"slip_length,turns,path", "m, 1, m",
-     "length slid by the contact point, turns about the vertical, path of the centre until it rolls or rests"},
+     "distance that the contact point slides, number of turns about the vertical, path of the centre until the body "
+     "rolls or rests"},
     {"t_rest,x_rest,y_rest", "s, m, m",
-     "time and place at which the centre rests, of a puck or with --rolling-friction"}};
+     "time and place at which the centre comes to rest, for a puck or with --rolling-friction"}};
 
 std::vector<FieldText> roll_batch_texts() {
   return joined({texts_of({straight_shots, general_shots}, "in: "), texts_of(shot_events, "out: ")});
@@ -101,14 +104,14 @@ class RollCommand final : public Verb {
   void add_options(CLI::App& app) override {
     start_.take_load_history();
     start_.add_ball(app);
-    app.option_defaults()->group("Stroke of a cue along x, in place of the start of the ball");
+    app.option_defaults()->group("Stroke of a cue along x, instead of the start of the ball");
     strike_.add(app, "--strike", "SPEED",
-                "speed of the cue, in metres per second. The impulse is elastic and along the cue; squirt, miscues, "
-                "throw and a bounce off the table are left out",
+                "speed of the cue, in metres per second. The impulse is elastic and along the cue. The model leaves "
+                "out squirt, miscues, throw and bounces off the table",
                 quantity("m/s"));
     tip_.add(app, "--tip", "A,B",
-             fmt::format("point of contact to the right of and above the centre, seen along the cue, in radii; at most "
-                         "{} from the centre (default 0,0)",
+             fmt::format("point that the cue hits, in radii of the ball: A to the right of the centre and B above it, "
+                         "seen along the cue; at most {} from the centre (default 0,0)",
                          si::largest_tip_offset),
              [](const std::string& typed) { return Eigen::Vector2d(numbers(typed, 2, "A,B").data()); });
     elevation_.add(app, "--elevation", "ANGLE",
@@ -116,29 +119,29 @@ class RollCommand final : public Verb {
     cue_mass_.add(app, "--cue-mass", "MASS",
                   fmt::format("mass of the cue, in kilograms (default {})", si::standard_cue_mass), quantity("kg"));
     law_.add(app);
-    integrated_.add(app, "--route", "ROUTE",
-                    "method: reduced (default, the similarity solution) or integrated (the five equations (2.5))",
-                    one_of<bool>({{"reduced", false}, {"integrated", true}}, "route"));
+    integrated_.add(
+        app, "--route", "ROUTE",
+        "numerical method: reduced (default, by integrals) or integrated (equations of motion in time steps)",
+        one_of<bool>({{"reduced", false}, {"integrated", true}}, "route"));
     app.option_defaults()->group("Rolling");
-    rolling_below_.add(
-        app, "--rolling-below", "SPEED",
-        fmt::format("slip below which the ball rolls, in metres per second (default {}); also for the uncoupled model",
-                    si::rolling_slip),
-        [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
+    rolling_below_.add(app, "--rolling-below", "SPEED",
+                       fmt::format("slip below which the ball counts as rolling, in metres per second (default {}). It "
+                                   "also applies to the uncoupled model",
+                                   si::rolling_slip),
+                       [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
     app.add_flag("--gradient", gradient_,
-                 "also print the derivatives of each event by each number of the ball and its start");
-    uncertainty_.add(
-        app, "--uncertainty", "NAME=SPREAD,...",
-        "standard deviations of the input, such as slip=1%,friction=5%, or of vx, vy, wx, wy, wz; or fit: those of "
-        "the run file. Prints those of the events");
+                 "also print the derivatives of each event with respect to each number of the ball and its start");
+    uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
+                     "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in "
+                     "the run file. Also prints the standard deviations of the events");
     CLI::Option* at = instants_.add(app, "t", "s", "");
-    until_.add(app, "--until", "TIME", "last instant, in seconds (default: a little past the stop)", parse_end)
+    until_.add(app, "--until", "TIME", "last instant, in seconds (default: a little after the stop)", parse_end)
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV of starts with columns slip,spin or vx,vy,wx,wy,wz in SI units; - is standard input. The output "
-               "adds columns for the events");
-    app.add_flag("--keep-going", keep_going_, "continue after a bad row, with empty results");
+               "table with one start a row, - for standard input. Columns: slip,spin or vx,vy,wx,wy,wz in SI units. "
+               "The output adds columns with the events");
+    app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its results empty");
     bulk_.add(app);
     figure_.add(app);
     output_.add(app);
@@ -340,7 +343,8 @@ class RollCommand final : public Verb {
 const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",
                                             "Compute the whole motion of a ball or a puck in SI units",
                                             "contensou roll --ball gel --slip 0.5 --spin 300 --format text",
-                                            {{"", answers::roll_fields}, {"--batch", roll_batch_texts}});
+                                            {{"", answers::roll_fields}, {"--batch", roll_batch_texts}},
+                                            {"slip", "spin", "event", "uncoupled model"});
 
 }  // namespace
 

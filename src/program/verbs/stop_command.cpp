@@ -21,16 +21,16 @@ namespace contensou::program {
 namespace {
 
 /// Columns of the tables that --batch reads, without and with --ball.
-constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed",
-                                    "radius of the patch divided by R, R omega_z and slip"};
-constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "start of a ball, with --ball"};
+constexpr ColumnText reduced_starts{"mu,u0,v0", "1, speed, speed", "mu, and u and v at the start"};
+constexpr ColumnText ball_starts{"spin,slip", "1/s, m/s", "spin and slip of the ball at the start, with --ball"};
 
 std::vector<FieldText> stop_batch_texts() {
-  return joined({texts_of({reduced_starts, ball_starts}, "in: "),
-                 texts_of({{"tau_stop", "speed", "stop time; all other columns pass through"},
-                           {"t_stop", "s", "stop time, with --ball"},
-                           {"tau_stop_LAW,t_stop_LAW", "", "stop time under each law, with several laws"}},
-                          "out: ")});
+  return joined(
+      {texts_of({reduced_starts, ball_starts}, "in: "),
+       texts_of({{"tau_stop", "speed", "time tau when slip and spin end; other columns are copied from the input"},
+                 {"t_stop", "s", "time when slip and spin end, with --ball"},
+                 {"tau_stop_LAW,t_stop_LAW", "", "these times under each law, if --law names several"}},
+                "out: ")});
 }
 
 class StopCommand final : public Verb {
@@ -39,19 +39,18 @@ class StopCommand final : public Verb {
     start_.take_load_history();
     start_.add(app);
     start_.add_drive(app);
-    law_.add(app, "; with --batch also several names between commas");
+    law_.add(app, ". With --batch also several names, between commas");
     route_.add(app);
-    app.add_flag("--estimate", estimate_, "also print the asymptotic estimates for small mu and their errors");
-    app.add_flag("--gradient", gradient_,
-                 "also print the exact derivatives of tau_stop by u0, v0, mu, chi, gamma and the drive");
+    app.add_flag("--estimate", estimate_, "also print estimates for small mu, with their errors");
+    app.add_flag("--gradient", gradient_, "also print the derivatives of the stop time (see gradient)");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of the input, such as slip=1%,friction=5%; or fit: those of the run file. "
-                     "Prints the standard deviation of the stop time");
+                     "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in "
+                     "the run file. Also prints the standard deviation of the stop time");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
-               "CSV of starts with columns mu,u0,v0, or with --ball slip,spin (m/s, rad/s); - is standard input. Adds "
-               "the column tau_stop or t_stop");
-    app.add_flag("--keep-going", keep_going_, "continue after a bad row, with an empty result");
+               "table with one start a row, - for standard input. Columns: mu,u0,v0, or with --ball slip,spin (m/s, "
+               "rad/s). The output adds the column tau_stop or t_stop");
+    app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its result empty");
     bulk_.add(app);
     output_.add(app);
   }
@@ -163,7 +162,8 @@ class StopCommand final : public Verb {
 
 const RegisteredVerb<StopCommand> stop_verb(Purpose::compute, "stop", "Compute when slip and spin end",
                                             "contensou stop --ball pool --slip 2",
-                                            {{"", stop_fields}, {"--batch", stop_batch_texts}});
+                                            {{"", stop_fields}, {"--batch", stop_batch_texts}},
+                                            {"u", "v", "mu", "f, N", "tau", "chi, gamma", "(speed)"});
 
 }  // namespace
 

@@ -73,10 +73,11 @@ enum class SweepFormat { npy, csv };
 
 /// Columns of a table, without and with --ball; npy contains only the last column.
 constexpr ColumnText system_columns{"mu,u0,v0,tau_stop", "1, speed, speed, speed",
-                                    "start, and stop time; an npy contains tau_stop alone, in the shape (N_v0, N_u0) "
-                                    "or (N_mu, N_v0, N_u0)"};
-constexpr ColumnText ball_columns{"spin,slip,t_stop", "1/s, m/s, s",
-                                  "starts and stop times, with --ball; shape of npy: (N_slip, N_spin)"};
+                                    "start, and time tau when slip and spin end. A file in npy contains tau_stop "
+                                    "alone, in the shape (N_v0, N_u0), or (N_mu, N_v0, N_u0) for several mu"};
+constexpr ColumnText ball_columns{
+    "spin,slip,t_stop", "1/s, m/s, s",
+    "start, and time when slip and spin end, with --ball. The shape in npy is (N_slip, N_spin)"};
 
 std::vector<FieldText> sweep_texts() { return texts_of({system_columns, ball_columns}); }
 
@@ -271,15 +272,15 @@ class SweepCommand final : public Verb {
       };
     };
     app.option_defaults()->group("Start");
-    mu_.add(app, "--mu", "M|MIN:MAX:N",
-            "radius of the patch divided by the radius R of the body, 0 < M <= 1, or N values", read(""));
-    u0_.add(app, "--u0", "MIN:MAX:N", "N values of the spin R omega_z, from MIN to MAX", read(""));
-    v0_.add(app, "--v0", "MIN:MAX:N", "N values of the sliding speed, MIN >= 0", read(""));
-    app.add_flag("--log", log_, "values at equal ratios, not at equal steps; MIN > 0");
+    mu_.add(app, "--mu", "M|MIN:MAX:N", "value of mu, 0 < M <= 1, or N values from MIN to MAX", read(""));
+    u0_.add(app, "--u0", "MIN:MAX:N", "N values of u at the start, from MIN to MAX", read(""));
+    v0_.add(app, "--v0", "MIN:MAX:N", "N values of v at the start, from MIN >= 0 to MAX", read(""));
+    app.add_flag("--log", log_, "neighbouring values have equal ratios, not equal steps (MIN must be above 0)");
     body_.add_body(app);
     body_.add_drive(app);
-    ball_.add_ball(app, "body in SI units, in place of the options above, with --spin and --slip; times are in seconds",
-                   StartOptions::no_start);
+    ball_.add_ball(
+        app, "real body in SI units, instead of the options above. It needs --spin and --slip; times are in seconds",
+        StartOptions::no_start);
     spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
               read(si::spin.unit));
     slip_.add(app, "--slip", "MIN:MAX:N", "N values of the sliding speed, in metres per second", read(si::slip.unit));
@@ -415,7 +416,7 @@ class SweepCommand final : public Verb {
 
 const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep", "Compute stop times on a grid of starts",
                                               "contensou sweep --mu 0.1 --u0 0:2:201 --v0 0:2:201 -o map.npy",
-                                              {{"", sweep_texts}});
+                                              {{"", sweep_texts}}, {"u", "v", "mu", "f, N", "tau", "(speed)"});
 
 }  // namespace
 

@@ -48,9 +48,10 @@ class TerminalCommand final : public Verb {
 };
 
 const RegisteredVerb<TerminalCommand> terminal_verb(Purpose::compute, "terminal",
-                                                    "Compute the limit of k = v/(mu |u|) at the stop",
+                                                    "Compute the ratio of slip to rim speed at the stop",
                                                     "contensou terminal --law uniform --body disc",
-                                                    {{"", terminal_fields}});
+                                                    {{"", terminal_fields}},
+                                                    {"u", "v", "mu", "k", "f, N", "Phi, Psi", "chi, gamma"});
 
 }  // namespace
 
