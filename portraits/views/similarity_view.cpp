@@ -1,4 +1,4 @@
-// Canonical coordinates. The symmetry (u, v) -> (c u, c v) shifts p = ln v alone, so orbits are translates.
+// Canonical coordinates: q or ln k, and p = ln v. (u, v) -> (c u, c v) shifts only p, so orbits are translates along p.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -28,7 +28,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Returns ln k for speeds whose ratio may not be a double; w = mu |u|.
+/// Returns ln k, even if k = v/w overflows or underflows; w = mu |u|. v_scaled, w_scaled are v, w times one factor.
 double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled) {
   const double k = v_scaled / w_scaled;
   return std::isnormal(k) && std::isnormal(w_scaled) ? std::log(k) : std::log(v) - std::log(mu) - std::log(u);

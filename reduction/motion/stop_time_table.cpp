@@ -1,4 +1,4 @@
-// Notation (README (R18)): tau* = P + m(k) S = (P/|u0|) |u0| + v0 M(k), M = (S/v0) m, k = v0/(mu |u0|)
+// README (R18): tau* = P + m(k) S = (P/|u0|) |u0| + v0 M(k), M = (S/v0) m. P/|u0| and S/v0 are constants of a system.
 #include "motion/stop_time_table.hpp"
 
 #include <algorithm>

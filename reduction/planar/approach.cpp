@@ -152,7 +152,7 @@ void Approach::find_slopes(const SectionField& field, double length, double nois
   const bool on_axis = n_[0] == 0 || n_[1] == 0;
   const std::array<std::pair<double, std::array<double, 3>>, 3> tries{{
       {1e-8, {1e-20, 1e-28, 1e-36}},
-      {1e-8, {1e-180, 1e-210, 1e-240}},  // orders that differ little separate slowly
+      {1e-8, {1e-180, 1e-210, 1e-240}},  // terms of nearly equal orders differ only at tiny angles
       {1e-3, {1e-4, 1e-5, 1e-6}},
   }};
   for (const auto& [allowed, distances] : tries) {

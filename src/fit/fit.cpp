@@ -143,7 +143,7 @@ Fit fit(const FitRequest& asked) {
   Search search(request);
   require_limits(search, false);
   VectorXd solution = search.solve();
-  constexpr int most = 10;  // largest number of better solutions that profiles may find
+  constexpr int most = 10;  // largest number of restarts from a better solution that a likelihood profile found
   for (int i = 0;; ++i) {
     Report report = report_on(search, with_signs(request, solution), false);
     if (report.better && i < most) {

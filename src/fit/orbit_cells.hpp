@@ -95,7 +95,7 @@ class OrbitCells {
   bool inverse_ = false;           ///< true: c = 1/k; false: c = k
   double end_ = 0, distance_ = 0;  ///< c* and c0 - c*
   std::array<double, 2> near_{};   ///< F slightly below and slightly above c*
-  std::vector<double> kinks_;      ///< s of the kinks that are still to come; the next one is last
+  std::vector<double> kinks_;      ///< s of the kinks still to come, decreasing: the last entry is the next kink
   double s_ = 0, width_;           ///< start and width of the next cell
   Integrals now_ = Integrals::Zero();
   std::vector<Cell> cells_;

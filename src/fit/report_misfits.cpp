@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// By chance, a normal distribution exceeds this many standard deviations in fewer than one of ten thousand films.
+/// A normal error exceeds this many standard deviations on one side by chance in about one of ten thousand films.
 constexpr double too_rare = 3.7;
 
 }  // namespace

@@ -53,7 +53,6 @@ class TrackModel {
 
   /// Limits of a parameter. eps is at most R, and so small that a ball has no invariant ray. Slip and R spin are at
   /// most max_speed.
-  /// most max_speed.
   struct Range {
     double low, high;
   };

@@ -281,7 +281,7 @@ class Plane {
       states.push_back({scale * direction.u, scale * direction.v});
     };
     add({.u = 1, .v = 0});
-    // Directions are equidistant as angles in coordinates in which both speeds take the same time to stop. Add small k.
+    // Add directions of small k, then equal angles, where each speed is measured by the time that it takes to stop.
     for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
     const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
     constexpr int pieces = 96;

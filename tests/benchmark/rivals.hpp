@@ -17,8 +17,8 @@ struct Rival {
   RivalResult (*stop_time)(double mu, double u0, double v0);
 };
 
-/// Steppers of the equations (2.6) as printed, with a tolerance of 1e-12 relative and 1e-14 of the start absolute.
-/// Steps that overshoot the stop are halved until |u| is 1e-8 of its start. Then the linear rest is added.
+/// Steppers of (2.6) of V. F. Zhuravlev, 1998, as printed; tolerances 1e-12 relative, 1e-14 of the speeds at the start.
+/// Steps beyond the stop are halved, until |u| is 1e-8 of its start. Then the time of a linear fall to 0 is added.
 std::vector<Rival> all();
 
 /// Versions of the libraries.

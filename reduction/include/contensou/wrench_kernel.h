@@ -146,7 +146,7 @@ struct Pade {
   }
 };
 
-/// Computes the friction of `wrench`; computes its slopes only if with_slopes is true.
+/// Computes the result of `wrench` (below), and its slopes only if with_slopes is true.
 template <bool with_slopes, class Law, class T>
 CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit, T radius, T creep, const Law& law) {
   WrenchSlopes<T> result{};

@@ -145,8 +145,8 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
 /// Solutions of one system for many mu. They are computed at equal steps of ln mu, with linear interpolation.
 class FlowsOfMu {
  public:
-  /// @param step  step of ln mu, >= 0; an eighth of its standard deviation leaves an error of 1e-3 standard deviations;
-  ///              0: mu does not vary
+  /// @param step  step of ln mu, >= 0; with an eighth of ln mu's standard deviation, interpolation leaves an error of
+  ///              1e-3 standard deviations of the result; 0: mu does not vary
   FlowsOfMu(const reduction::ReducedSystem& system, double step) : system_(system), step_(step) {}
 
   VectorXd operator()(double mu, const std::function<VectorXd(const reduction::Flow&)>& value) {

@@ -49,7 +49,7 @@ double over_angles(int n, int power, double k, double top) {
   const auto integrand = [&](double theta) {
     return std::pow(std::cos(theta), power) * patch().chord_moment(n, theta, k);
   };
-  // With theta = top sin(x) the integrand is smooth, although the chord's length has a root at the last angle.
+  // With theta = top sin(x) the integrand is smooth, although the chord's length has a square root at the last angle.
   return integral([&](double x) { return top * std::cos(x) * integrand(top * std::sin(x)); }, 0, pi / 2, 2);
 }
 

@@ -168,7 +168,7 @@ class Resisted : public Motion::Solution {
 
  protected:
   Given body_;
-  /// Times to the stop, s, increasing; between two of them the slip has at most one maximum.
+  /// Times up to the stop, s, increasing; between two successive ones the slip has at most one maximum.
   std::vector<double> knots_;
   double stop_ = 0, rest_ = 0;
 };

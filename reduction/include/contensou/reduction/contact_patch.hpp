@@ -23,9 +23,9 @@ class ContactPatch {
   /// @throws std::domain_error  for a slip that no law accepts (require_slip)
   Resistance over_disc(Slip slip) const;
 
-  /// Returns force and moment by (1.2), the integral over chords, in polar coordinates (q, theta) about the centre of
-  /// velocity, which lies at the distance k from the centre of the patch. The code corrects two errors of print: it
-  /// includes the factor cos(theta), and M = M^h - k F. For k <= 1, theta goes from 0 to pi.
+  /// Returns force F and moment M by (1.2), the integral over chords, in polar coordinates (q, theta) about the centre
+  /// of velocity, at k from the centre of the patch. Two errors of print are corrected: the factor cos(theta) is included,
+  /// and M = M^h - k F, with the moment M^h about the centre of velocity. For k <= 1, theta goes from 0 to pi.
   /// @param k  > 0, finite
   Resistance over_chords(double k) const;
 

@@ -29,7 +29,6 @@ std::string_view name(SingularPlace place);
 /// The angular coordinate is q = v/|u| for u > 0, and |u|/v at the axis u = 0. The radial coordinate at the origin is
 /// the speed |u| (at the axis u = 0 the speed v). At infinity it is the inverse of this speed. The field is divided by
 /// this speed at both ends. The half-plane u < 0 is the mirror image.
-/// this speed at both ends. The half-plane u < 0 is the mirror image.
 struct SingularPoint {
   InvariantDirection direction;
   SingularPlace place;

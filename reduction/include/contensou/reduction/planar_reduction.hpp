@@ -55,7 +55,7 @@ struct PlanarRay {
 
 /// The directions between two neighbours among rays and borders. No orbit crosses these two.
 struct PlanarSector {
-  double from, to;        ///< q at both ends in the direction of the motion, at most 2 pi apart; q grows if from < to
+  double from, to;        ///< q where motions begin and where they end, at most 2 pi apart; q grows if from < to
   bool from_ray, to_ray;  ///< true: the end is a ray; false: a border
 };
 

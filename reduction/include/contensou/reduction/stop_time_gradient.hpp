@@ -9,7 +9,7 @@ namespace contensou::reduction {
 struct StopTimeGradient {
   double tau;
   double by_u, by_v;        ///< derivatives by the speeds at the start
-  double by_mu;             ///< derivative by the patch radius divided by R
+  double by_mu;             ///< derivative by mu, which is (patch radius)/R
   double by_chi, by_gamma;  ///< derivatives by the two numbers of Inertia
   double by_drive;          ///< derivative by rho, the drive along the slip
 };

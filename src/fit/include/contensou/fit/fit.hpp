@@ -149,7 +149,7 @@ struct Fit {
   bool profiled = false;                 ///< true if the intervals are by profile likelihood
   std::vector<std::vector<Eigen::ArrayXd>> predicted;  ///< values of the fitted motion for each track and series
 
-  /// Reasons, in words, why the model does not describe the data; empty if it may.
+  /// Reasons, in words, why the model does not describe the data; empty if there are none.
   std::vector<std::string> misfits = {};
   std::vector<Turns> turns = {};                ///< one for each track
   std::vector<OtherMotion> other_motions = {};  ///< minima other than the estimate; the intervals contain them

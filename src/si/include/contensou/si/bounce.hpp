@@ -37,8 +37,8 @@ struct Rebound {
   double grip;            ///< share of the impulse after which the ball rolls; above 1 it leaves before it rolls
 };
 
-/// Returns the experiment in which (1 + e) v_n takes the place of the time. Its time in s is the impulse divided by the
-/// mass, in m/s. Its patch is constant: hertz_impact_patch_radius if Hertz's moduli are given, else the patch at rest.
+/// Returns the experiment whose time in s is the normal impulse so far, divided by the mass, in m/s; the impact ends at
+/// (1 + e) v_n. Its patch is constant: hertz_impact_patch_radius if Hertz's moduli are given, else the patch at rest.
 /// @throws std::domain_error  unless v_n > 0 and 0 <= e <= 1; as require_experiment and patch_radius_of
 Experiment pressed_in(const Impact& impact, const Experiment& experiment, const reduction::Law& law);
 
