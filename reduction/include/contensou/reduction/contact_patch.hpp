@@ -24,7 +24,7 @@ class ContactPatch {
   Resistance over_disc(Slip slip) const;
 
   /// Returns force F and moment M by (1.2), the integral over chords, in polar coordinates (q, theta) about the centre
-  /// of velocity, at k from the centre of the patch. Two errors of print are corrected: the factor cos(theta) is included,
+  /// of velocity, at k from the centre of the patch. Two errors of print are corrected: cos(theta) is included,
   /// and M = M^h - k F, with the moment M^h about the centre of velocity. For k <= 1, theta goes from 0 to pi.
   /// @param k  > 0, finite
   Resistance over_chords(double k) const;
