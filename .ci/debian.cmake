@@ -1,4 +1,4 @@
-# Adds what Debian asks of each package: a copyright, a changelog, and manual pages that are compressed. CPack runs this script
+# Adds a copyright and a changelog to each package, and compresses the manual pages, as Debian demands. CPack runs this script
 # between the installation and the packing.
 cmake_minimum_required(VERSION 3.25)
 

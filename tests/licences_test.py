@@ -1,7 +1,7 @@
 """The licences of other people's libraries, in .github/THIRD_PARTY.txt.
 
 python3 licences_test.py ROOT            every library that a source includes has an entry, and each licence its text
-python3 licences_test.py ROOT ARTEFACTS  each file of a release in this folder contains the licences of what is inside it
+python3 licences_test.py ROOT ARTEFACTS  each file of a release in this folder contains the licences of the libraries inside it
 """
 
 import io
@@ -24,7 +24,7 @@ LIBRARIES = {  # the beginning of an #include, and its entry
 OURS_OR_THE_SYSTEMS = re.compile(r"contensou/|sys/|[a-z0-9_]+(\.h)?$")
 # Licences whose only conditions for a page are satisfied by their address.
 ADDRESSES = {"Apache-2.0 WITH LLVM-exception": "apache.org/licenses/LICENSE-2.0", "MPL-2.0": "mozilla.org/MPL/2.0"}
-ARTEFACTS = {  # a file of a release, and what is inside it, in the words of THIRD_PARTY.txt
+ARTEFACTS = {  # a file of a release, and its kinds, in the words of "Inside" in THIRD_PARTY.txt
     "contensou_*.deb": {"program", "page"}, "libcontensou-dev_*.deb": {"program"}, "python3-contensou_*.deb": {"python"},
     "contensou-*.zip": {"program", "Windows", "page"}, "contensou-*.whl": {"python"}, "contensou-*.tgz": {"page"},
     "page.html": {"page"}, "contensou-*.tar.gz": set(),

@@ -12,7 +12,7 @@ foreach(part IN ITEMS STYLE BUNDLE)
   string(REPLACE "/*${part}*/" "${text}" html "${html}")
 endforeach()
 string(REPLACE "@VERSION@" "${VERSION}" html "${html}")
-# The licences as a comment. Two long ones, with no condition for a page but their address, are left out.
+# The licences, as a comment. The texts of Apache-2.0 and MPL-2.0 are left out: a page must only name their addresses.
 file(READ ${ROOT}/LICENSE licence)
 file(READ ${ROOT}/.github/THIRD_PARTY.txt others)
 string(REGEX REPLACE "=+\nBSD-3-Clause\n=.*" "" others "${others}")
