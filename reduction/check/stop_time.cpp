@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/regularised_motion.hpp"
 
 namespace contensou::reduction {
@@ -53,6 +54,8 @@ std::vector<Route> routes(const ReducedSystem& system) {
   found.push_back(Route::direct);
   return found;
 }
+
+StopTime stop_time(const ReducedSystem& system, State start) { return Flow(system).stop_time(start); }
 
 StopTime stop_time(const ReducedSystem& system, State start, Route route) {
   switch (route) {

@@ -1,5 +1,5 @@
 # One HTML file from the template, the style and the bundle of modules and compiled library; and that as a string of C++.
-#   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D VERSION= -D PAGE= -D EMBEDDED= -P assemble.cmake
+#   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D VERSION= -D ROOT= -D PAGE= -D EMBEDDED= -P assemble.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(READ ${TEMPLATE} html)
@@ -12,6 +12,11 @@ foreach(part IN ITEMS STYLE BUNDLE)
   string(REPLACE "/*${part}*/" "${text}" html "${html}")
 endforeach()
 string(REPLACE "@VERSION@" "${VERSION}" html "${html}")
+# The licences, as a comment. The texts of Apache-2.0 and MPL-2.0 are left out: a page must only name their addresses.
+file(READ ${ROOT}/LICENSE licence)
+file(READ ${ROOT}/.github/THIRD_PARTY.txt others)
+string(REGEX REPLACE "=+\nBSD-3-Clause\n=.*" "" others "${others}")
+string(APPEND html "<!--\n${licence}\n${others}-->\n")
 file(WRITE ${PAGE} "${html}")
 
 file(WRITE ${EMBEDDED} "#include \"embedded_page.hpp\"\n

@@ -52,7 +52,7 @@ try {
   write("package.json", '{"type": "module", "private": true}');
   run("npm", "install", "--offline", "--no-audit", "--no-fund", resolve(tarball));
   const installed = join(folder, "node_modules/contensou");
-  for (const file of ["LICENSE", "README.md", "index.d.ts", "contensou.wasm"]) assert.ok(existsSync(join(installed, file)), file);
+  for (const file of ["LICENSE", "THIRD_PARTY.txt", "README.md", "index.d.ts", "contensou.wasm"]) assert.ok(existsSync(join(installed, file)), file);
 
   const [, shown, printed] = /```js\n([^]*?)```\n\n```text\n([^]*?)```/.exec(readFileSync(join(installed, "README.md"), "utf8"));
   write("shown.js", shown);

@@ -3,6 +3,7 @@
 import ast
 import doctest
 import os
+import re
 import subprocess
 import sys
 from graphlib import TopologicalSorter
@@ -23,7 +24,7 @@ def test_what_is_shown(readme, examples, tmp_path, monkeypatch):
 
 
 def test_types(tmp_path):
-    """The package, strictly; and the tour, in which one argument is made a wrong one."""
+    """The package, strictly and for the oldest Python that setup.py allows; and the tour, with one argument made wrong."""
     code = doctest.script_from_examples(README.read_text()).replace('law="exat"', "law=1")
     (tmp_path / "tour.py").write_text(code)
     (tmp_path / "mypy.ini").write_text("""[mypy]
@@ -34,8 +35,9 @@ disallow_untyped_defs = False
 disallow_untyped_calls = False
 """)
     package = Path(contensou.__file__).parent
-    run = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "mypy.ini", str(package), "tour.py"], cwd=tmp_path,
-                         capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(package.parent)})
+    oldest = re.search(r'python_requires=">=(.*)"', (TOP / "src/python/setup.py").read_text())[1]
+    run = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "--python-version", oldest, str(package), "tour.py"],
+                         cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(package.parent)})
     told = [line for line in run.stdout.splitlines() if "error:" in line]
     assert len(told) == 1 and 'No overload variant of "stop_time" matches argument types "int", "int", "float", "int"' in told[0], run.stdout + run.stderr
 

@@ -18,6 +18,7 @@
 #include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"

@@ -9,6 +9,7 @@
 
 #include "constants.hpp"
 #include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"

@@ -137,6 +137,15 @@ TEST_CASE("the stop time grows with both speeds", "[stop_time][invariant]") {
   }
 }
 
+TEST_CASE("without a route the first of routes() gives the stop time", "[stop_time][route]") {
+  for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
+    const ReducedSystem system(law, 0.3);
+    const StopTime stop = stop_time(system, {-1, 2}), first = stop_time(system, {-1, 2}, routes(system).front());
+    CHECK(stop.tau == first.tau);
+    CHECK(stop.accuracy == first.accuracy);
+  }
+}
+
 TEST_CASE("routes have names and say what they do", "[stop_time]") {
   const ReducedSystem pade(PadeLaw{}, 0.1);
   const std::vector<Route> all{Route::closed, Route::quadrature, Route::regularised, Route::direct};

@@ -17,6 +17,7 @@
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/equilibria.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_kinds.hpp"

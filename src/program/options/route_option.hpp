@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "contensou/reduction/orbit_point.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "options/argument.hpp"
 

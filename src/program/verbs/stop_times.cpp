@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"

@@ -14,14 +14,6 @@ namespace contensou::reduction {
 
 class StopTimeTable;
 
-/// A stop time, its error and its cost.
-struct StopTime {
-  double tau;        ///< the time tau of ReducedSystem; infinity if it exceeds the largest double
-  double accuracy;   ///< bound of the relative error of tau
-  long evaluations;  ///< number of calls of the friction law; 0 for a closed form
-  Bounds bounds;     ///< ReducedSystem::stop_time_bounds
-};
-
 /// The motions of one body under one friction law, solved once for all initial states.
 ///
 /// A body slides at the speed v and pivots at the speed u = R omega_z on a circular contact patch of radius mu R. Dry

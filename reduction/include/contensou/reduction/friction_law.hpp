@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,14 @@ namespace contensou::reduction {
 template <class L>
 concept FrictionLaw = std::copy_constructible<L> && requires(const L& law, Slip slip) {
   { law(slip) } -> std::convertible_to<Resistance>;
+};
+
+/// A function or a type with a call operator: a candidate for a law.
+template <class L>
+concept Callable = std::is_function_v<std::remove_pointer_t<L>> || requires {
+  &L::operator();
+} || requires(const L& law, Slip slip) {
+  law(slip);
 };
 
 /// Bounds, over all starts, of the coefficient m in the stop time tau* = P + m S (reduction/README.md (R6)). P and S
@@ -84,6 +93,15 @@ class Law {
     }
     function->read_limits();
     function_ = std::move(function);
+  }
+
+  /// Refuses a callable type that is no law; the message of the compiler describes a law.
+  template <class L>
+  requires(!std::same_as<L, Law> && Callable<L> && !FrictionLaw<L>)
+      Law(const L&) {  // NOLINT(google-explicit-constructor): as the constructor above
+    static_assert(
+        FrictionLaw<L>,
+        "a law is a copyable type with `Resistance operator()(Slip) const`: see FrictionLaw in friction_law.hpp");
   }
 
   // No move operations: a moved-from Law would be null.

@@ -23,6 +23,14 @@ struct Bounds {
   double upper;
 };
 
+/// A stop time, its error and its cost.
+struct StopTime {
+  double tau;        ///< the time tau of ReducedSystem; infinity if it exceeds the largest double
+  double accuracy;   ///< bound of the relative error of tau
+  long evaluations;  ///< number of calls of the friction law; 0 for a closed form
+  Bounds bounds;     ///< ReducedSystem::stop_time_bounds
+};
+
 /// The two equations of motion (2.6) of V. F. Zhuravlev, 1998 (Zh98), for any friction law and any axisymmetric body:
 ///   dv/dtau = -(2 chi/(3 pi)) (Phi(k) - rho),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
 /// v is the sliding speed, u = R omega_z the pivoting speed, mu the patch radius divided by R. rho is a constant drive

@@ -1,5 +1,9 @@
 #pragma once
 
+#if __cplusplus < 202002L
+#error "C++20 is needed: compile contensou with -std=c++20"
+#endif
+
 #include <limits>
 
 #ifdef __FAST_MATH__
