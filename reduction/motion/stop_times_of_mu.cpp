@@ -141,7 +141,7 @@ class FunctionsOfR {
   /// Returns the functions; nothing if an error is not allowed.
   std::optional<Values> operator()(double r, const Place& place) const {
     const auto above = std::ranges::upper_bound(intervals_, r, {}, [](const auto& each) { return each->low; });
-    if (above == intervals_.begin()) return {};
+    if (above == intervals_.begin() || r > intervals_.back()->high) return {};
     const Interval* interval = std::prev(above)->get();
     const Solved* solved = &interval->solved.made([&] { return this->solved(*interval); });
     while (solved->lower) {
@@ -303,15 +303,18 @@ struct Derivatives {
   }
 };
 
-/// Returns the edges of the intervals. With a pole at r = 0 an interval must not be long, or the error of its far end
-/// would be felt at the near one.
-std::vector<double> edges(const Law& law, bool pole) {
+/// Returns r from which on a law has a ray without a drive.
+double first_ray(const Law& law) { return law.force_slope() / law.pivoting_moment(); }
+
+/// Returns the edges of the intervals, up to max_r. With a pole at r = 0 an interval must not be long, or the error of
+/// its far end would be felt at the near one.
+std::vector<double> edges(const Law& law, bool pole, double max_r) {
   constexpr double ratio = 16, least = 1e-20;
-  // A ray exists from r = Phi'(0)/Psi(0) on. Beside this r the functions are smooth, but their series converge slowly.
-  const double low = law.force_slope() / law.pivoting_moment();
+  // Beside the first ray the functions are smooth, but their series converge slowly.
+  const double low = first_ray(law);
   std::vector<double> edges;
-  for (double r = low / 2; r < StopTimesOfMu::max_r; r += low / 4) edges.push_back(r);
-  edges.push_back(StopTimesOfMu::max_r);
+  for (double r = low / 2; r < max_r; r += low / 4) edges.push_back(r);
+  edges.push_back(max_r);
   if (!pole) edges.insert(edges.begin(), 0);
   while (pole && edges.front() > least) edges.insert(edges.begin(), edges.front() / ratio);
   return edges;
@@ -326,13 +329,19 @@ struct StopTimesOfMu::Tables {
       : unit(law, 1, body, drive),
         closed(closed_solution(law, max_r, drive)),
         shared(remembered(law)),
-        stop_times({{shared, drive}}, edges(law, drive > 0)),
-        derivatives({{shared, drive}, creeps(law, drive), tangent_error(law)}, edges(law, creeps(law, drive))) {}
+        stop_times({{shared, drive}}, edges(law, drive > 0, max_r)),
+        derivatives({{shared, drive}, creeps(law, drive), tangent_error(law)},
+                    edges(law, creeps(law, drive), max_r_of_derivatives(law, drive))) {}
 
   /// Returns true if by_drive has a pole at r = 0: with a drive, and for Psi'(0) != 0.
   static bool creeps(const Law& law, double drive) {
     constexpr double slow = 1e-6;
     return drive > 0 || law.moment_deficit({slow, 1}) > 1e-3 * slow;
+  }
+
+  /// Beside a ray, slopes by differences have too few digits.
+  static double max_r_of_derivatives(const Law& law, double drive) {
+    return tangent_error(law) > 0 && drive == 0 ? std::min(max_r, 0.875 * first_ray(law)) : max_r;
   }
 
   ReducedSystem at(double mu) const { return {unit.law(), mu, unit.inertia(), unit.drive()}; }

@@ -10,8 +10,8 @@ namespace contensou::reduction {
 /// The stop times of one law, one body and one drive for starts that each have their own mu (patch radius divided by R).
 ///
 /// At a fixed k the stop time and its gradient are smooth in r = gamma mu^2/chi. The systems at Chebyshev's points of an
-/// interval of r are solved when the first start needs the interval; all others are interpolated (README, "A mu of its
-/// own"). A start is solved alone, by a Flow of its mu, if r > max_r, if the last terms of its Chebyshev series in r are
+/// interval of r are solved when the first start needs the interval; all others are interpolated (numerics.md, "A mu of
+/// its own"). A start is solved alone, by a Flow of its mu, if r > max_r, if the last terms of its Chebyshev series in r are
 /// too large, or if its speeds are beyond 2^+-300. A stop time in closed form is computed at once.
 ///
 /// Threads may share the object. Copies share the solutions.
