@@ -7,18 +7,20 @@
 
 namespace contensou::reduction {
 
-/// The stop times of one law, one body and one drive for starts that each have their own mu (patch radius divided by R).
+/// Stop times under one law, of one body with one drive, for starts that each have their own mu (patch radius divided
+/// by R).
 ///
-/// At a fixed k the stop time and its gradient are smooth in r = gamma mu^2/chi. The systems at Chebyshev's points of an
-/// interval of r are solved when the first start needs the interval; all others are interpolated (numerics.md, "A mu of
-/// its own"). A start is solved alone, by a Flow of its mu, if r > max_r, if the last terms of its Chebyshev series in r are
-/// too large, or if its speeds are beyond 2^+-300. A stop time in closed form is computed at once.
+/// At a fixed k the stop time and its gradient are smooth in r = gamma mu^2/chi. The first start in an interval of r
+/// solves the systems at Chebyshev's points of the interval. All starts are then interpolated between them
+/// (numerics.md, "A mu of its own"). A Flow solves a start alone in three cases: r exceeds max_r, the last terms of the
+/// Chebyshev series of the start are too large, or its speeds lie beyond 2^+-300. A stop time in closed form needs no
+/// interval.
 ///
 /// Threads may share the object. Copies share the solutions.
 ///
 /// Accuracy  stop times 6 eps relative, with a drive 8 eps/(1 - drive), plus the error of the law's curve; derivatives
 ///           as Flow::stop_time_gradient
-/// Cost      of an interval 17 solutions of a Flow, 5 ms for the exact law; then 1 us a start, with gradient 4 us
+/// Cost      8 ms for an interval of the exact law; then 1.2 us a start, with the gradient 7 us
 /// Bits      depend on the start and mu alone
 /// Source    README (R18), (R19), (R58); barycentric interpolation
 class StopTimesOfMu {
