@@ -6,6 +6,7 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
+#include "laws/remembered_law.hpp"
 
 namespace contensou::reduction {
 
@@ -29,12 +30,13 @@ kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& s
           force_slope, moment_slope};
 }
 
-SlopedLaw with_slopes(const Law& law) {
+SlopedLaw with_slopes(const Law& given) {
+  const Law& law = original(given);
   if (law.as<HertzLaw>() != nullptr) return kernel::Exact{};
   if (const auto* pressure = law.as<PressureLaw>(); pressure != nullptr && pressure->p() == 0) return kernel::Uniform{};
   if (const auto* elliptic = law.as<EllipticLaw>()) return kernel::Elliptic{elliptic->moment()};
   if (law.as<PadeLaw>() != nullptr) return kernel::Pade{};
-  return ByDifferences{law};
+  return ByDifferences{given};
 }
 
 std::function<kernel::Friction<double>(Slip)> tangent_of(const Law& law) {

@@ -134,38 +134,13 @@ StopTime Flow::stop_time(State start) const {
 
 StopTimeGradient Flow::stop_time_gradient(State start) const {
   require_state("Flow::stop_time_gradient", start);
-  if (start.u == 0 && start.v == 0) {
-    throw std::domain_error("Flow::stop_time_gradient: at rest there is none: the stop time has a corner there");
-  }
-  // Derivatives by speeds have degree 0 in the speeds, all others degree 1.
-  const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
-  const double u = std::ldexp(std::abs(start.u), -exponent), v = std::ldexp(start.v, -exponent);
-  const auto [chi, gamma] = system().inertia();
-  const double mu = system().mu(), r = system().r(), drive = system().drive(), w = mu * u;
-  const double pivoting = r * system().law().pivoting_moment();
-  const double tau = stop_time(start).tau;
-
-  SlidingDerivatives::Values s{};  // derivatives of the scaled stop time
-  if (u == 0) {
-    s = {.by_w = 0, .by_v = 1 / (1 - drive), .by_r = 0, .by_drive = 1 / ((1 - drive) * (1 - drive))};
-  } else if (v == 0 && drive == 0) {
-    s = {.by_w = 1 / pivoting, .by_v = 0, .by_r = 0, .by_drive = 0};
-  } else {
-    const double ln_k = std::log(v) - std::log(w);
+  return reduction::stop_time_gradient(system(), start, stop_time(start).tau, [this](double k) {
+    const double ln_k = std::log(k);
     const auto& curve = *solution().through(ln_k);
     std::optional<double> closed;
     if (!is_by_quadrature()) closed = curve.sliding_coefficient(curve.chart().coordinate(ln_k));
-    s = solved_->derivatives(ln_k).at(std::exp(ln_k), closed);
-  }
-  const double by_r = (w + v) * s.by_r - w / (r * pivoting);
-  const double tau_of = std::ldexp(1 / system().scaled_time_rate(), exponent);
-  return {.tau = tau,
-          .by_u = std::copysign(mu * s.by_w, start.u) / system().scaled_time_rate(),
-          .by_v = s.by_v / system().scaled_time_rate(),
-          .by_mu = tau_of * (u * s.by_w + 2 * r / mu * by_r),
-          .by_chi = -(tau / chi + tau_of * by_r * r / chi),
-          .by_gamma = tau_of * by_r * r / gamma,
-          .by_drive = tau_of * (w + v) * s.by_drive};
+    return solved_->derivatives(ln_k).at(SlidingDerivatives::Place::at(system().law(), k), closed);
+  });
 }
 
 double Flow::log_first_integral(double u, double ln_v) const {

@@ -24,6 +24,12 @@ bool usable(double tau, double v0) {
   return ((std::bit_cast<std::uint64_t>(tau) - min_ordinary) & not_ordinary) == 0 && !std::signbit(v0);
 }
 
+/// The panel of a start, and its distance in y + lowest from the panel's left edge.
+struct PlaceInPanels {
+  std::size_t panel;
+  double t;
+};
+
 PlaceInPanels place(double u, double v_mu) {
   const double smaller = v_mu < u ? v_mu : u;
   const double distance = std::abs(v_mu - u);
@@ -48,8 +54,6 @@ double one(const Panels& table, double u0, double v0) {
 std::size_t panel_of(const Panels& table, double u0, double v0) {
   return place(std::abs(u0), table.inverse_mu * v0).panel;
 }
-
-PlaceInPanels place_in_panels(double w, double v0) { return place(w, v0); }
 
 double from_panels(const Panels& table, double u0, double v0) {
   const double tau = one(table, u0, v0);

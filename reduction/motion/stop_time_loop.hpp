@@ -51,16 +51,6 @@ StopTimeLoop& run_fastest();
 /// Returns the stop time of one start by the polynomials; NaN if the value is not usable.
 double from_panels(const StopTimePanels& table, double u0, double v0);
 
-/// The panel of a start, and the distance of the start's y + lowest from the panel's left edge.
-struct PlaceInPanels {
-  std::size_t panel;
-  double t;
-};
-
-/// Finds the panel of a start and the place in it.
-/// @param w  mu |u0|, in the unit of v0; w and v0 are not both 0
-PlaceInPanels place_in_panels(double w, double v0);
-
 /// Returns the number of the panel of a start.
 std::size_t panel_of(const StopTimePanels& table, double u0, double v0);
 

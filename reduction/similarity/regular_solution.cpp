@@ -22,7 +22,6 @@
 
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/tangent.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/linear_ode.hpp"
 #include "system/balance.hpp"
 
@@ -115,6 +114,16 @@ class ForcesOnTheWay {
 
 double lowest_ln_k(const Law& law, double r, double drive) {
   return drive > 0 ? std::min(min_ln_k, least_log_ratio(law, r, drive)) : min_ln_k;
+}
+
+std::vector<TerminalChart> charts_of(const TerminalRatios& ratios) {
+  std::vector<TerminalChart> charts;
+  for (const TerminalRatio& end : ratios.ends) {
+    for (double far : {end.from, end.to}) {
+      if (far != end.k) charts.push_back(TerminalChart::between(std::log(end.k), std::log(far)));
+    }
+  }
+  return charts;
 }
 
 bool reaches_rest(const TerminalChart& chart, double drive) { return drive > 0 && chart.log_far_ratio() == -infinity; }

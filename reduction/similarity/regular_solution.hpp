@@ -7,6 +7,7 @@
 
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/terminal_chart.hpp"
+#include "contensou/reduction/terminal_ratio.hpp"
 #include "numerics/legendre_series.hpp"
 
 namespace contensou::reduction {
@@ -78,6 +79,9 @@ class RegularSolution {
   double truncation_ = 0;
   long evaluations_ = 0;
 };
+
+/// Returns the charts of all curves of a system.
+std::vector<TerminalChart> charts_of(const TerminalRatios& ratios);
 
 /// Returns true if a curve with a drive reaches k = 0, where m, n and o grow like 1/k. The functions below then return
 /// the products of m, n and o with k/(1 + k).

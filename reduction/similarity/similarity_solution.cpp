@@ -1,6 +1,5 @@
 #include "contensou/reduction/similarity_solution.hpp"
 
-#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -9,7 +8,7 @@
 #include "contensou/reduction/pade_curve.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/quadrature_curve.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
 
@@ -22,16 +21,12 @@ const SimilaritySolution::Curve& SimilaritySolution::through(double ln_k) const 
 
 SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive) {
   std::vector<SimilaritySolution::Curve> curves;
-  for (const TerminalRatio& end : ratios.ends) {
-    for (double far : {end.from, end.to}) {
-      if (far == end.k) continue;
-      try {
-        curves.push_back(
-            std::make_shared<QuadratureCurve>(law, r, TerminalChart::between(std::log(end.k), std::log(far)), drive));
-      } catch (const std::domain_error& unexpected) {
-        // The arguments of the caller are correct; Phi/(k Psi) changes too fast for terminal_ratios.
-        throw std::runtime_error(unexpected.what());
-      }
+  for (const TerminalChart& chart : charts_of(ratios)) {
+    try {
+      curves.push_back(std::make_shared<QuadratureCurve>(law, r, chart, drive));
+    } catch (const std::domain_error& unexpected) {
+      // Phi/(k Psi) changes too fast for terminal_ratios. The arguments of the caller are correct.
+      throw std::runtime_error(unexpected.what());
     }
   }
   return SimilaritySolution(std::move(curves));

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/stop_time_gradient.hpp"
 #include "contensou/reduction/terminal_chart.hpp"
+#include "numerics/later.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
@@ -24,26 +29,57 @@ class SlidingDerivatives {
     double by_drive;    ///< (ds/drho)/(w + v)
   };
 
-  /// Returns the derivatives at k.
-  /// @param k  v/w on the chart, finite
-  /// @param m  m at this k in closed form, if the curve has one
-  Values at(double k, std::optional<double> m) const;
+  /// A k, and the law there. Systems with different r share it.
+  struct Place {
+    double k, ln_k;
+    Resistance friction;
+    double moment_deficit;  ///< 1 - Psi/Psi(0)
 
- private:
+    static Place at(const Law& law, double k);
+  };
+
+  /// Returns the derivatives at a place on the chart, of finite k.
+  /// @param m  the curve's m at this k in closed form, if it has one
+  Values at(const Place& place, std::optional<double> m) const;
+
+  /// k from which on 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
+  static constexpr double fast_slide = 1e3;
+
+  /// Returns true if D = Phi - r k Psi has digits enough for m' = (Delta - F m)/D.
+  static bool is_clear(double force, double drag);
+
   struct BySpeeds {
     double w, v;
   };
-  BySpeeds by_speeds(double k, double m) const;
+
+  /// Returns ds/dw and ds/dv without a drive, where D is clear.
+  /// @param moment  Psi(0)
+  static BySpeeds by_m(const Place& place, double r, double moment, double m);
+
+ private:
+  /// @param k_m  k m, for `w` alone
+  BySpeeds by_speeds(const Place& place, double m, double k_m) const;
 
   /// Returns m_ divided by m: k/(1 + k), or 1.
   double share(double k) const { return to_rest_ ? k / (1 + k) : 1; }
 
   Law law_;
   double r_, drive_;
+  TerminalChart chart_;
   bool to_rest_;
-  RegularSolution m_, by_v_, by_r_, by_drive_;
-  double solved_from_;  ///< by_w_ is used for this k and larger ones
+  RegularSolution m_;
+  std::unique_ptr<const Later<RegularSolution>> by_v_;  ///< solved at its first use
+  RegularSolution by_r_, by_drive_;
+  double solved_from_;  ///< by_w_ is used from this k on
   std::optional<RegularSolution> by_w_;
 };
+
+/// Returns the gradient of a stop time, README (R10).
+/// @param start     a state
+/// @param tau       its stop time
+/// @param off_axes  returns the derivatives of the scaled stop time at k; called only for starts off the axes
+/// @throws std::domain_error  at rest, where there is no gradient
+StopTimeGradient stop_time_gradient(const ReducedSystem& system, State start, double tau,
+                                    const std::function<SlidingDerivatives::Values(double k)>& off_axes);
 
 }  // namespace contensou::reduction

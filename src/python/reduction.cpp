@@ -106,9 +106,11 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
-/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, one row each. All are NaN for an invalid start;
-/// the derivatives are NaN at rest.
-py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, const Numbers& v) {
+/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, a row each: NaN for an invalid start, derivatives
+/// at rest.
+/// @param gradient  computes them for the start with a number
+template <class Gradient>
+py::array_t<double> stop_time_gradients(const Numbers& u, const Numbers& v, Gradient gradient) {
   const py::ssize_t count = u.size();
   py::array_t<double> result({py::ssize_t{7}, count});
   double* const out = result.mutable_data();
@@ -120,7 +122,7 @@ py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, cons
     const reduction::State start{us[i], vs[i]};
     const bool at_rest = start.u == 0 && start.v == 0;
     const auto found = is_state(start) && !at_rest
-                           ? flow.stop_time_gradient(start)
+                           ? gradient(i, start)
                            : reduction::StopTimeGradient{at_rest ? 0 : none, none, none, none, none, none, none};
     const double row[]{found.tau, found.by_u, found.by_v, found.by_mu, found.by_chi, found.by_gamma, found.by_drive};
     for (py::ssize_t j = 0; j < 7; ++j) out[j * count + i] = row[j];
@@ -128,8 +130,8 @@ py::array_t<double> stop_time_gradients(const Flow& flow, const Numbers& u, cons
   return result;
 }
 
-/// Computes stop times like stop_times, with a mu for each start. Law and body are the flow's; its mu is not used.
-void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, const Numbers& v,
+/// Computes stop times like stop_times, with a mu for each start.
+void stop_times_of_mus(const reduction::StopTimesOfMu& stop_time, const Numbers& mu, const Numbers& u, const Numbers& v,
                        py::array_t<double>& out) {
   const auto count = static_cast<std::size_t>(out.size());
   const double* const mus = mu.data();
@@ -137,7 +139,6 @@ void stop_times_of_mus(const Flow& flow, const Numbers& mu, const Numbers& u, co
   const double* const vs = v.data();
   double* const taus = out.mutable_data();
   const py::gil_scoped_release released;
-  const reduction::StopTimesOfMu stop_time(flow.system().law(), flow.system().inertia());
   for (std::size_t i = 0; i < count; ++i) {
     const reduction::State start{us[i], vs[i]};
     taus[i] = is_state(start) ? stop_time(mus[i], start) : std::numeric_limits<double>::quiet_NaN();
@@ -191,6 +192,20 @@ void bind_reduction(py::module_& module) {
         return mapped<double>(k, [&](double ratio) { return law(reduction::slip_of_ratio(ratio)).moment; });
       });
 
+  py::class_<reduction::StopTimesOfMu>(module, "StopTimesOfMu")
+      .def(py::init([](const Flow& flow) {
+             const reduction::ReducedSystem& system = flow.system();
+             return reduction::StopTimesOfMu(system.law(), system.inertia(), system.drive());
+           }),
+           Released())
+      .def("stop_times", &stop_times_of_mus)
+      .def("gradients",
+           [](const reduction::StopTimesOfMu& stop_time, const Numbers& mu, const Numbers& u, const Numbers& v) {
+             return stop_time_gradients(u, v, [&, mus = mu.data()](py::ssize_t i, reduction::State start) {
+               return stop_time.gradient(mus[i], start);
+             });
+           });
+
   py::class_<Flow>(module, "Flow")
       .def(py::init(&flow_of), Released())
       .def_property_readonly("law", [](const Flow& flow) { return flow.system().law(); })
@@ -203,8 +218,11 @@ void bind_reduction(py::module_& module) {
           },
           Released())
       .def("stop_times", &stop_times)
-      .def("stop_times_of_mus", &stop_times_of_mus)
-      .def("stop_time_gradients", &stop_time_gradients)
+      .def("stop_time_gradients",
+           [](const Flow& flow, const Numbers& u, const Numbers& v) {
+             return stop_time_gradients(
+                 u, v, [&](py::ssize_t, reduction::State start) { return flow.stop_time_gradient(start); });
+           })
       .def(
           "orbit",
           [](const Flow& flow, double u, double v) {

@@ -22,6 +22,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/stop_times_of_mu.hpp"
@@ -225,29 +226,37 @@ int main() {
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });
   measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(HertzLaw{}, 0.1))); });
 
-  // Each start has its own mu, log-uniform in 1e-4 .. 1; v0/(mu u0) is log-uniform in 1e-3 .. 1e5.
-  constexpr std::size_t own = std::size_t{1} << 16;
-  const Array own_mu(own), own_v(own);
-  std::uniform_real_distribution<double> ln_mu(std::log(1e-4), 0), ln_k(std::log(1e-3), std::log(1e5));
-  for (std::size_t i = 0; i < own; ++i) {
-    own_mu.span()[i] = std::exp(ln_mu(generator));
-    own_v.span()[i] = own_mu.span()[i] * std::exp(ln_k(generator));
-  }
-  const StopTimesOfMu of_mu(PadeLaw{}, homogeneous_ball);
-  measure("own mu", [&] {
-    for (std::size_t i = 0; i < own; ++i) {
-      benchmark::DoNotOptimize(of_mu(own_mu.span()[i], {1, own_v.span()[i]}));
-    }
-  });
-  const Flow flow({PadeLaw{}, 0.1});
-  measure("one flow", [&] {
-    for (std::size_t i = 0; i < own; ++i) {
-      benchmark::DoNotOptimize(flow.stop_time({1, own_v.span()[i]}).tau);
-    }
-  });
-  measure("own mu, exact", [] {
-    benchmark::DoNotOptimize(stop_time(ReducedSystem(HertzLaw{}, 0.1), {1, 1}, Route::quadrature));
-  });
+  // A mu of its own for each start: what is solved for all of them is included.
+  constexpr std::size_t own = 10'000;
+  std::uniform_real_distribution<double> some_mu(0.05, 0.3), some_speed(0.1, 2);
+  std::vector<std::pair<double, State>> own_starts;
+  for (std::size_t i = 0; i < own; ++i)
+    own_starts.push_back({some_mu(generator), {some_speed(generator), some_speed(generator)}});
+  std::vector<std::string> own_rows;
+  const auto measure_own = [&](const Law& law, double drive, bool gradient) {
+    const std::string name =
+        fmt::format("{} law{}{}", law.name(), drive > 0 ? ", drive 0.1" : "", gradient ? ", gradient" : "");
+    own_rows.push_back(name);
+    measure(
+        name,
+        [&own_starts, law, drive, gradient] {
+          const StopTimesOfMu stop_time(law, homogeneous_ball, drive);
+          for (const auto& [mu, start] : own_starts) {
+            benchmark::DoNotOptimize(gradient ? stop_time.gradient(mu, start).by_mu : stop_time(mu, start));
+          }
+        },
+        0.01, 3);
+    measure(
+        name + " alone",
+        [law, drive, gradient] {
+          const Flow flow({law, 0.1, homogeneous_ball, drive});
+          benchmark::DoNotOptimize(gradient ? flow.stop_time_gradient({1, 1}).by_mu : flow.stop_time({1, 1}).tau);
+        },
+        0.01, 3);
+  };
+  for (const char* name : {"exact", "pade", "uniform", "ring"}) measure_own(*find_law(name), 0, false);
+  for (const char* name : {"exact", "ring"}) measure_own(*find_law(name), 0.1, false);
+  for (const char* name : {"exact", "ring"}) measure_own(*find_law(name), 0, true);
 
   // Small mu.
   const std::vector<double> small{0.3, 0.1, 0.03, 0.01};
@@ -297,11 +306,15 @@ int main() {
   }
   fmt::print("| table, as where there is no AVX2 | {:.2f} ns | {:.0f} % | | |\n", each("plain"),
              100 * each("loop") / each("plain"));
-  fmt::print(
-      "\nA table is built and proved in {} (Pade), {} (exact law). With a mu of its own a start takes {} (Pade), {} "
-      "(exact\nlaw).\n",
-      duration(times("build pade")), duration(times("build hertz")),
-      duration(times("own mu") / static_cast<double>(own)), duration(times("own mu, exact")));
+  fmt::print("\nA table is built and proved in {} (Pade), {} (exact law).\n", duration(times("build pade")),
+             duration(times("build hertz")));
+
+  fmt::print("\n{} starts with a mu of their own, 0.05 to 0.3:\n\n", own);
+  fmt::print("| law | a start, of all | solved alone | ratio |\n|---|---|---|---|\n");
+  for (const std::string& name : own_rows) {
+    const double together = times(name) / static_cast<double>(own), alone = times(name + " alone");
+    fmt::print("| {} | {} | {} | {:.2g} |\n", name, duration(together), duration(alone), alone / together);
+  }
 
   fmt::print("\n| u0 = v0 = 1, mu = |");
   for (double mu : small) fmt::print(" {} |", mu);

@@ -188,7 +188,8 @@ def test_a_drive():
     assert driven.stop_time(u=0, v=1) == pytest.approx(3 * np.pi / 7 / 0.8, rel=1e-14)
     mus = np.linspace(0.1, 0.4, 1001)
     many = ct.stop_time(u=1, v=1, mu=mus, drive=0.2)
-    assert many[0] == ct.Flow(0.1, drive=0.2).stop_time(u=1, v=1) and many[-1] == ct.Flow(0.4, drive=0.2).stop_time(u=1, v=1)
+    ends = [ct.Flow(mu, drive=0.2).stop_time(u=1, v=1) for mu in (0.1, 0.4)]
+    np.testing.assert_allclose(many[[0, -1]], ends, rtol=8 / 0.8 * np.finfo(float).eps)
     # What only spins creeps, to the ray, which is all that is left of v = 0.
     creeping = driven.orbit(u=1, v=0).sample(101)
     (ray,) = driven.terminal().rays
@@ -206,6 +207,25 @@ def test_a_drive():
 def test_mu_may_be_an_array():
     taus = ct.stop_time(u=1, v=[[1], [2]], mu=[0.1, 0.3, 0.1])
     assert taus.shape == (2, 3) and taus[1, 1] == ct.stop_time(u=1, v=2, mu=0.3) and (taus[:, 0] == taus[:, 2]).all()
+
+
+@pytest.mark.parametrize("law", ["exact", "pade", "ring"])
+@pytest.mark.parametrize("drive", [0, 0.1])
+def test_many_mus_share_their_flows(law, drive):
+    mus, u, v = np.linspace(0.05, 0.3, 40), np.linspace(-1, 2, 40), np.linspace(0.1, 3, 40)
+    tau, by = ct.stop_time(u=u, v=v, mu=mus, law=law, drive=drive, gradient=True)
+    np.testing.assert_array_equal(ct.stop_time(u=u, v=v, mu=mus, law=law, drive=drive), tau)
+    for i in (0, 13, 39):
+        wanted, slopes = ct.Flow(mus[i], law, drive=drive).stop_time(u=u[i], v=v[i], gradient=True)
+        assert tau[i] == pytest.approx(wanted, rel=10 / (1 - drive) * np.finfo(float).eps)
+        for name, slope in slopes.items():
+            assert by[name][i] == pytest.approx(slope, rel=1e-7 if law == "ring" and drive > 0 else 1e-12), name
+    unknown = ct.stop_time(u=[1] * 39 + [0], v=[-1] + [1] * 38 + [0], mu=mus, law=law, drive=drive, gradient=True)
+    assert np.isnan(unknown[0][0]) and unknown[0][39] == 0 and np.isnan(unknown[1]["mu"][[0, 39]]).all()
+    with pytest.raises(TypeError, match="neither out nor threads"):
+        ct.stop_time(u=u, v=v, mu=mus, law=law, drive=drive, gradient=True, threads=2)
+    with pytest.raises(ValueError, match="mu"):
+        ct.stop_time(u=1, v=1, mu=np.append(mus, -1), law=law, drive=drive)
 
 
 def test_other_threads_go_on():

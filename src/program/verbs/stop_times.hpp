@@ -48,9 +48,9 @@ class StopTimes {
   /// @throws  as RouteOption::read and the computation of the solution
   std::shared_ptr<const AtMu> at(double mu);
 
-  /// Returns the stop time of one row of a table, whose rows may all have different mu. After many rows, one solution
-  /// for every mu replaces the curves of single mu, unless there is a drive or a given route.
-  /// @param row  number of rows before this one; the bits of the result do not depend on the contents of those rows
+  /// Returns the stop time of one row of a table, whose rows may all have different mu. After many rows, a solution for
+  /// every mu replaces the curves of single mu, unless a route is given.
+  /// @param row  number of rows before this one; the bits of the result do not depend on their content
   /// @throws     as at and stop_time
   double operator()(double mu, reduction::State start, long row);
 

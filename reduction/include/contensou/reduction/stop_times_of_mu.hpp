@@ -3,39 +3,50 @@
 #include <memory>
 
 #include "contensou/reduction/reduced_system.hpp"
+#include "contensou/reduction/stop_time_gradient.hpp"
 
 namespace contensou::reduction {
 
-/// The stop times of one law and one body for starts that each have their own mu (patch radius divided by R).
+/// Stop times under one law, of one body with one drive, for starts that each have their own mu (patch radius divided
+/// by R).
 ///
-/// The stop time is tau* = P + m S (README (R18)), where m depends on k = v/(mu |u|) and on r = gamma mu^2/chi and is
-/// smooth in r. m is stored as the tables of sixteen systems, at Chebyshev's points of 0 < r < 5/7, and interpolated
-/// between them. A Flow computes the other starts: r > 5/7, speeds that are not normal numbers, and panels that fail
-/// their test.
+/// At a fixed k the stop time and its gradient are smooth in r = gamma mu^2/chi. The first start in an interval of r
+/// solves the systems at Chebyshev's points of the interval. All starts are then interpolated between them
+/// (numerics.md, "A mu of its own"). A Flow solves a start alone in three cases: r exceeds max_r, the last terms of the
+/// Chebyshev series of the start are too large, or its speeds lie beyond 2^+-300. A stop time in closed form needs no
+/// interval.
 ///
-/// Source    README (R18), (R20); barycentric interpolation in r.
-/// Accuracy  6 eps relative, plus the error of the law's curve; each panel is tested at three r between the points.
-/// Cost      about 0.1 s for the tables; then 0.1 us a start, compared with 150 us by a Flow.
-/// Bits      the result depends on the start and mu alone.
+/// Threads may share the object. Copies share the solutions.
+///
+/// Accuracy  stop times 6 eps relative, with a drive 8 eps/(1 - drive), plus the error of the law's curve; derivatives
+///           as Flow::stop_time_gradient
+/// Cost      8 ms for an interval of the exact law; then 1.2 us a start, with the gradient 7 us
+/// Bits      depend on the start and mu alone
+/// Source    README (R18), (R19), (R58); barycentric interpolation
 class StopTimesOfMu {
  public:
-  /// Largest r of the tables. Every homogeneous ball with mu <= 1 has a smaller or equal r.
+  /// Largest r of the intervals, which every homogeneous ball with mu <= 1 satisfies.
   static constexpr double max_r = 5.0 / 7;
 
-  /// Makes the tables.
-  /// @throws std::domain_error  if chi or gamma is not positive and finite
-  StopTimesOfMu(const Law& law, Inertia body);
+  /// @param drive  rho, as in ReducedSystem
+  /// @throws std::domain_error  if chi or gamma is not positive and finite, or drive is not allowed
+  StopTimesOfMu(const Law& law, Inertia body, double drive = 0);
 
   /// Returns the stop time of a start under the patch ratio mu.
   /// @throws std::domain_error  if mu is not positive and finite, or start is not a state (finite, v >= 0)
   double operator()(double mu, State start) const;
 
-  /// Returns the share of the panels that failed their test; half for ring and punch, whose m is too steep at r = 5/7.
-  double refused() const;
+  /// Returns the stop time and its gradient, as Flow::stop_time_gradient.
+  /// @throws std::domain_error  likewise, and at rest
+  StopTimeGradient gradient(double mu, State start) const;
+
+  /// Returns true if a start is solved alone.
+  /// @param gradient  true to ask for the gradient, false for the stop time
+  bool solves_alone(double mu, State start, bool gradient) const;
 
  private:
-  struct Stored;
-  std::shared_ptr<const Stored> stored_;
+  struct Tables;
+  std::shared_ptr<const Tables> tables_;
 };
 
 }  // namespace contensou::reduction
