@@ -60,7 +60,7 @@ setup(
     cmake_source_dir=str(top),
     cmake_args=[
         f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={(here / 'by_headers.cmake').resolve()}",
-        "-DCONTENSOU_PYTHON=ON", "-DCONTENSOU_PYTHON_DIR=.", f"-DCONTENSOU_PYTHON_EXECUTABLE={sys.executable}",
+        "-DCONTENSOU_PYTHON=ON", f"-DCONTENSOU_PYTHON_DIR={here}", f"-DCONTENSOU_PYTHON_EXECUTABLE={sys.executable}",
         "-DCONTENSOU_PROGRAM=OFF", "-DBUILD_TESTING=OFF", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16",
         "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON",
     ],
