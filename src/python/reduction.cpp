@@ -85,15 +85,15 @@ si::Body body_of(const std::variant<std::string, std::pair<double, double>>& giv
   return one_of("body", "bodies", named, std::get<0>(given), {"(chi, gamma)"});
 }
 
-Flow flow_of(const std::optional<Law>& law, std::optional<double> mu,
-             const std::variant<std::string, std::pair<double, double>>& given, double drive) {
+reduction::ReducedSystem system_of(const std::optional<Law>& law, std::optional<double> mu,
+                                   const std::variant<std::string, std::pair<double, double>>& given, double drive) {
   const si::Body body = body_of(given);
   if (!mu) mu = body.patch_ratio;
   if (!mu) throw std::domain_error("mu is missing: the radius of the contact patch over that of the body");
   if (const std::string complaint = body.complaint(*mu); !complaint.empty()) {
     throw std::domain_error(fmt::format("mu = {}: {}", *mu, complaint));
   }
-  return reduction::ReducedSystem(law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia, drive);
+  return {law ? *law : law_of_name(std::string(body.law)), *mu, body.inertia, drive};
 }
 
 /// Writes the stop times to `out`, a contiguous array with one entry for each start; NaN for an invalid start.
@@ -193,11 +193,16 @@ void bind_reduction(py::module_& module) {
       });
 
   py::class_<reduction::StopTimesOfMu>(module, "StopTimesOfMu")
-      .def(py::init([](const Flow& flow) {
-             const reduction::ReducedSystem& system = flow.system();
-             return reduction::StopTimesOfMu(system.law(), system.inertia(), system.drive());
+      .def(py::init([](const std::optional<Law>& law, const std::variant<std::string, std::pair<double, double>>& body,
+                       double drive) {
+             const reduction::ReducedSystem system = system_of(law, 1, body, drive);
+             return reduction::StopTimesOfMu(system.law(), system.inertia(), drive);
            }),
            Released())
+      .def_static("require",
+                  [](std::optional<double> mu, const std::variant<std::string, std::pair<double, double>>& body) {
+                    system_of({}, mu, body, 0);
+                  })
       .def("stop_times", &stop_times_of_mus)
       .def("gradients",
            [](const reduction::StopTimesOfMu& stop_time, const Numbers& mu, const Numbers& u, const Numbers& v) {
@@ -207,7 +212,10 @@ void bind_reduction(py::module_& module) {
            });
 
   py::class_<Flow>(module, "Flow")
-      .def(py::init(&flow_of), Released())
+      .def(py::init([](const std::optional<Law>& law, std::optional<double> mu,
+                       const std::variant<std::string, std::pair<double, double>>& body,
+                       double drive) { return Flow(system_of(law, mu, body, drive)); }),
+           Released())
       .def_property_readonly("law", [](const Flow& flow) { return flow.system().law(); })
       .def_property_readonly("mu", [](const Flow& flow) { return flow.system().mu(); })
       .def_property_readonly("drive", [](const Flow& flow) { return flow.system().drive(); })

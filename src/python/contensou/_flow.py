@@ -232,9 +232,9 @@ class FlowReduction(Reduction):
             return v / u, np.log(v)
 
 
-def _tables_of(law: Law, body: Body, drive: float) -> _core.StopTimesOfMu:
-    """Returns the stop times of all mu; the Flow gives law, body and drive."""
-    return _core.StopTimesOfMu(core_flow(1, law, body, drive))
+def _tables_of(law: Optional[LawLike], body: Body, drive: float) -> _core.StopTimesOfMu:
+    """Returns the stop times of all mu."""
+    return _core.StopTimesOfMu(None if law is None else law_of(law)._core, body_of(body), number("drive", drive))
 
 
 _kept_flow = lru_cache(maxsize=64)(Flow)
@@ -299,8 +299,9 @@ def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, t
     values, group = np.unique(mu, return_inverse=True)
     group = group.reshape(u.shape)
     if len(values) >= 32:
-        first, _ = (Flow(float(value), law, body, drive) for value in (values[0], values[-1]))  # they refuse what is no mu
-        tables: _core.StopTimesOfMu = _kept(_kept_tables, first.law, first.body, first.drive)
+        for value in (values[0], values[-1]):
+            _core.StopTimesOfMu.require(float(value), body_of(body))
+        tables: _core.StopTimesOfMu = _kept(_kept_tables, law, body, drive)
         mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
         if gradient:
             if out is not None or threads != 1:
