@@ -262,17 +262,31 @@ def stop_time(  # type: ignore[misc]
     threads: int = 1, gradient: Literal[False] = False) -> float: ...
 @overload
 def stop_time(
-    *,
-    u: ArrayLike,
-    v: ArrayLike,
-    mu: Optional[ArrayLike] = None,
-    law: Optional[LawLike] = None,
-    body: Body = "ball",
-    drive: float = 0,
-    out: Optional[NDArray[np.float64]] = None,
-    threads: int = 1,
-    gradient: bool = False,
-) -> Any:
+    *, u: Foreign, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: Any, v: Foreign, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: Any, v: Any, mu: Foreign, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, threads: int = 1,
+    gradient: bool = False, where: Any = True) -> Any: ...
+@overload
+def stop_time(
+    *, u: ArrayLike, v: ArrayLike, mu: Optional[ArrayLike] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    out: Optional[NDArray[Any]] = None, threads: int = 1, gradient: Literal[False] = False, where: ArrayLike = True) -> NDArray[Any]: ...
+@overload
+def stop_time(  # type: ignore[misc]
+    *, u: Number, v: Number, mu: NumberOrNone = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    gradient: Literal[True]) -> tuple[float, dict[str, float]]: ...
+@overload
+def stop_time(
+    *, u: ArrayLike, v: ArrayLike, mu: Optional[ArrayLike] = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0,
+    gradient: Literal[True], where: ArrayLike = True) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]: ...
+def stop_time(
+    *, u: Any, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, out: Any = None,
+    threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
     """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Up to 31 of its
     values cost a flow each (0.4 ms). From 32 values on all of them share some flows, which are cached, and the error may
     be 8 eps/(1 - drive) larger. The time is NaN where mu is NaN or masked."""
@@ -303,26 +317,30 @@ def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, t
             _core.StopTimesOfMu.require(float(value), body_of(body))
         tables: _core.StopTimesOfMu = _kept(_kept_tables, law, body, drive)
         mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
-        if gradient:
-            if out is not None or threads != 1:
-                raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
-            tau, *slopes = tables.gradients(mus, us, vs).reshape(7, *u.shape)
-            return tau[()], {name: each[()] for name, each in zip(_DERIVATIVES, slopes)}
-        every = np.empty(u.shape)
-        tables.stop_times(mus, us, vs, every)
-        taus[...] = every
-        return taus[()] if out is None else out
-    found = [Flow(float(value), law, body, drive).stop_time(u=u[group == i], v=v[group == i], out=out if gradient else None,
-                                                            threads=threads, gradient=gradient)
-             for i, value in enumerate(values)]
-    by = {name: np.empty(u.shape) for name in _DERIVATIVES if gradient}
-    for i, part in enumerate(found):
-        taus[group == i], derivatives = part if gradient else (part, {})
-        for name, each in derivatives.items():
-            by[name][group == i] = each
-    if gradient:
-        return taus[()], {name: each[()] for name, each in by.items()}
-    return taus[()] if out is None else out
+        if len(results) == 1:
+            every = np.empty(u.shape)
+            tables.stop_times(mus, us, vs, every)
+            results[0][...] = every
+            return
+        for result, found in zip(results, tables.gradients(mus, us, vs).reshape(7, *u.shape)):
+            result[...] = found
+        return
+    for i, value in enumerate(values):
+        rows = group == i
+        parts = [np.empty(np.count_nonzero(rows)) for _ in results]
+        _write_stop_times(Flow(float(value), law, body, drive), threads, u[rows], v[rows], *parts)
+        for result, part in zip(results, parts):
+            result[rows] = part
+
+
+def _array_stop_times(write: Callable[..., None], names: Sequence[str], given: Sequence[Any], out: Any, threads: int,
+                      gradient: bool, where: ArrayLike) -> Any:
+    """Returns the stop times of arrays, which `write` computes by a number of threads."""
+    if gradient and (out is not None or threads != 1):
+        raise TypeError("stop_time: gradient takes neither out nor threads: leave them out")
+    times = ArrayFunction("stop_time", names, partial(write, thread_count(threads)), gives=(0,) * (7 if gradient else 1))
+    found = times(*given, out=out, where=where)
+    return (found[0], dict(zip(_DERIVATIVES, found[1:]))) if gradient else found
 
 
 class Check(NamedTuple):
