@@ -97,7 +97,7 @@ inline const std::array view_layouts{
         "the curves depend on " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") alone"},
     ViewLayout{
         View::regularised, "regularised",
-        "curves of u, ln v and time tau against the time beta of equations (2.7), drawn as 1 + beta/beta_1; for a ball "
+        "curves of u, ln v and tau against 1 + beta/beta_1, with the time beta of (2.7) and a unit beta_1; for a ball "
         "under exact or pade 1/beta_1 is 40 mu^3 u0 + 105 pi v0",
         regularised_view, 3, 270, 105, nullptr,
         "(2.7) in " + math("β") + " has no denominator and never reaches rest; (2.8) gives the finite stop time"},

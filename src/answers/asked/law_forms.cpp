@@ -14,7 +14,7 @@ std::vector<std::pair<std::string, std::string>> law_forms() {
   const std::map<std::string_view, std::string_view> notes{
       {"exact", "default of a ball; also called hertz"},
       {"pade",
-       "which makes the slip length due to spin too long, by a factor of 5 (pool), 129 (steel) or 470 (bowling)"},
+       "which makes the sliding distance that spin adds 5 (ball pool), 129 (steel) or 470 (bowling) times too long"},
       {"uniform", "default of --body disc"},
       {"ring", "default of --body ring"},
   };

@@ -29,7 +29,7 @@ struct AimReport {
 
 constexpr Field<AimReport> aim_row[]{
     {"law", "", "name of the law of friction", [](const AimReport& r) -> Json { return r.law.name(); }},
-    {"ball", "", "values of the body of --ball and of its patch",
+    {"ball", "", "values of --ball and of its contact patch",
      [](const AimReport& r) { return members_of_ball(r.experiment, r.law); }, ""},
     {"slip", "m/s", "sliding speed of the contact point at the start, along x",
      [](const AimReport& r) -> Json { return r.slip; }},

@@ -77,8 +77,8 @@ constexpr Field<BounceReport> bounce_row[]{
      [](const BounceReport& r) { return motion(r.start(), -r.impact.normal_speed, si::slip_at_start(r.experiment)); },
      "", 0, " {`vx`, `vy`, `vz`, `wx`, `wy`, `wz`, `slip`, `angle`}"},
     {"after", "m/s, 1/s, degrees, 1",
-     "motion after the impact. change_*: value after minus value before. grip: part of the impulse after which the "
-     "ball rolls; above 1 if the ball still slips when it leaves the plane",
+     "motion after the impact. change_*: value after minus value before. grip: impulse until the ball rolls, "
+     "divided by the whole impulse; above 1 if it still slips when it leaves the plane",
      [](const BounceReport& r) { return rebound(r, r.ours); }, rebound_columns, 0,
      " {as `start`, `change_vx`, `change_vy`, `change_wz`, `grip`}"},
     {"textbook", "", "motion after the impact under the uncoupled model, with members as after",

@@ -62,7 +62,7 @@ constexpr Field<MotionsBeside> beside_fields[]{
      "", 0, " {`slip`, `spin`}"},
     {"models", "",
      "largest differences between the table and each model, divided by slip and spin at the start. The law is the "
-     "first model. elliptic: friction of an engine with a joint limit of force and moment. textbook: friction with two "
+     "first model. elliptic: friction of an engine with one limit for force and moment. textbook: friction with two "
      "separate limits",
      [](const MotionsBeside& motions) {
        Json models = Json::array();

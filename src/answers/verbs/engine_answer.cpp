@@ -74,7 +74,7 @@ constexpr Field<Contact> setting_fields[]{
     {"setting", "", "setting of the engine in words; the setting nearest to the law comes first",
      [](const Contact& of) -> Json { return of.label; }},
     {"cone", "",
-     "joint limit of force F and moment M, with limits F0 and M0 of each alone: elliptic (F/F0)^2 + (M/M0)^2 <= 1, box "
+     "rule that limits force F and moment M, with F0 and M0 the limits of each alone: elliptic (F/F0)^2 + (M/M0)^2 <= 1, box "
      "F <= F0 and M <= M0, pyramid F/F0 + M/M0 <= 1; or points (friction at a few points), none",
      [](const Contact& of) -> Json { return of.cone; }},
     {"moment_arm", "m", "largest moment of friction in the engine divided by the load",

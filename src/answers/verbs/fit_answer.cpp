@@ -343,7 +343,8 @@ std::vector<FieldText> fit_fields() {
                   {"in: `vx`, `vy`", "m/s", "velocity of the centre of the ball"},
                   {"in: `spin`", "rad/s", "spin about the vertical"},
                   {"in: `angle`", "rad", "angle by which the ball has turned about the vertical"},
-                  {"in: NAME`_sd`", "as NAME", "standard deviation of the column NAME. All other columns are ignored"},
+                  {"in: NAME`_sd`", "as NAME",
+                   "standard deviation of the column NAME, in its unit. All other columns are ignored"},
                   {"CSV `law`, `track`, `parameter`", "", "name of the law, of the film and of the estimated number"}},
                  texts_of(estimate_fields),
                  texts_of(answer_fields)});

@@ -151,7 +151,7 @@ constexpr Field<PhasePlane> plane_fields[]{
      [](const PhasePlane& plane) -> Json { return plane.mu_high; }, ""},
     {"tangent", "", "half-line along which most motions enter the origin",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["half_line"]; }, ""},
-    {"contact_order", "", "power of the speed with which motions leave this half-line",
+    {"contact_order", "", "exponent n: motions leave this half-line like speed^n",
      [](const PhasePlane& plane) { return tangent_of(plane, usual_end(plane.terminal))["contact_order"]; }, ""},
     {"tangents", "", "half-line and power for each limit of k",
      [](const PhasePlane& plane) {

@@ -563,7 +563,7 @@ std::vector<FieldText> reduce_fields() {
         {"`u0`, `v0`, `drive`", "speed, speed, 1", "u and v at the start, and force of --drive"}},
        texts_of_symmetry(),
        {{"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
-         "coordinates q = v/u and p = ln v of the start, in which the symmetry only shifts p; slope dp/dq of its "
+         "coordinates q = v/u and p = ln v of the start, in which the symmetry only shifts p; slope dp/dq of the "
          "orbit"},
         {"`first_integral`", "",
          "number that stays constant along a motion: ln |u| - ln w(k), with a function w that the law determines"},
@@ -576,7 +576,7 @@ std::vector<FieldText> reduce_fields() {
          "starts that the symmetry makes of this one: u and v times factor. Their p is larger by ln(factor)"},
         {"`tau_stop`", "speed", "time tau when slip and spin end"},
         {"JSON `routes` [{`name`, `tau_stop`, `failure`}]", "speed",
-         "tau_stop by each numerical method. section: method that treats (2.6) like --system. failure: reason why a "
+         "tau_stop by each numerical method; the one named section treats (2.6) like --system. failure: reason why a "
          "method gives no number"}}});
 }
 
@@ -593,8 +593,9 @@ std::vector<FieldText> reduce_system_fields() {
          "cleared: true if V was multiplied by the denominator of the equations"},
         {"JSON `canonical` {`q`, `p`, `dp_dq`}; CSV `q`, `p`, `dp_dq`", "",
          "coordinates of the start about the centre: angle q and logarithm p of the distance, scaled by the symmetry; "
-         "slope dp/dq of its orbit"},
-        {"`first_integral`", "", "number that stays constant along a motion: p minus the p of one orbit at the same q"},
+         "slope dp/dq of the orbit"},
+        {"`first_integral`", "",
+         "number that stays constant along a motion: p minus the p of a fixed orbit at the same q"},
         {"JSON `rays` [{`angle`, `attracts`, `to_centre`, `radial`, `angular`, `order`}]", "",
          "half-lines from the centre that are orbits. attracts: true if neighbouring orbits approach the ray. "
          "to_centre: true if the motion on it goes to the centre. radial, angular: eigenvalues along and across the "
@@ -602,7 +603,7 @@ std::vector<FieldText> reduce_system_fields() {
         {"`kind`, `undecided`", "",
          "type of the centre, or null; undecided: reason why a type or an end was not found"},
         {"every `kind`", "",
-         fmt::format("{}; a center has imaginary eigenvalues, proved by a reversor or by V not 0",
+         fmt::format("{}; a center has imaginary eigenvalues and a proof: a reversor, or V not 0",
                      fmt::join(reduction::planar_kinds, ", "))},
         {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
          "isolated points at which u and v do not change, with |u| and |v| at most 2.5 max(|u0|, |v0|); eigenvalues "

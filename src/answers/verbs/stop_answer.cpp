@@ -157,7 +157,7 @@ constexpr Field<StopReport> fields[]{
      },
      nullptr, 4},
     {"pieces", "speed, 1, 1",
-     "parts of a motion in which the ball turns only for a time: begin, true if it turns, drive",
+     "parts of the motion, if the ball turns only for a time. tau: begin; turns: true if it turns",
      [](const StopReport& r) -> Json {
        const auto pieces = r.start.pieces();
        if (pieces.size() < 2) return {};

@@ -27,7 +27,7 @@ void LawOption::add(CLI::App& app, const std::string& note) {
   app.option_defaults()->group("Law of friction");
   law_.add(
       app, "--law", "LAW",
-      "law of friction: name, formulas or FILE.csv (default: law of the body); 'contensou help laws' explains them" +
+      "law of friction: name, formulas or FILE.csv (default exact; a --body or --ball has its own); 'contensou help laws' explains them" +
           note);
   parameters_.add(app);
 }

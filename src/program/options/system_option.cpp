@@ -12,9 +12,10 @@ namespace contensou::program {
 
 void SystemOption::add(CLI::App& app) {
   app.option_defaults()->group("Another system");
-  system_.add(app, "--system", "\"u' = F; v' = G\"",
-              "equations to solve instead of (2.6), as formulas in u and v; also \"y' = F(x, y)\" or \"x'' = F(x, "
-              "x')\". --u0 and --v0 are the start, both of either sign");
+  system_.add(
+      app, "--system", "\"u' = F; v' = G\"",
+      "equations in u and v, instead of (2.6); in x and y: \"y' = F(x, y)\"; in x and x': \"x'' = F(x, x')\". --u0 and "
+      "--v0 are the start of both, of either sign");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions of u and v, for --system. Sums of them are tried as inverse integrating factor, a function V "
              "that gives a constant of the motion");

@@ -38,6 +38,7 @@ constexpr std::pair<std::string_view, std::string_view> glossary[]{
     {"spin", "angular velocity about the vertical"},
     {"patch", "small circle in which body and plane touch"},
     {"law", "law of friction: force and moment of friction in the patch"},
+    {"stop", "instant when slip and spin have ended"},
     {"event", "begin of rolling, end of the spin, or rest"},
     {"uncoupled model", "model in which friction brakes slip and spin separately"},
     {"run file", "file with the values of a body ('contensou help files')"},

@@ -98,13 +98,13 @@ class FitCommand final : public Verb {
     app.option_defaults()->group("Data");
     from_.add(app, "--from", "TIME", "first instant that is used, in seconds (default: the first row)", quantity("s"));
     until_.add(app, "--until", "TIME",
-               "last instant that is used, in seconds (default: the last row, or with --plan the stop)", quantity("s"));
+               "last instant that is used, in seconds (default: the last row; with --plan: the stop)", quantity("s"));
     noise_.add(app, "--noise", "NAME=SD,...",
                "standard deviations of columns; stop=SD belongs to --stop-time (default: estimated from the deviations "
                "between data and motion)",
                parse_noise);
     stop_time_.add(app, "--stop-time", "TIME",
-                   "measured time of the stop, in seconds after the start; needs --noise stop=SD",
+                   "measured end of slip and spin, in seconds after the start; needs --noise stop=SD",
                    positive("time", "s"));
     pixel_.add(app, "--pixel", "LENGTH", "length that one pixel shows, for columns such as 'x [px]'",
                positive("length", "m"));
@@ -279,7 +279,7 @@ class FitCommand final : public Verb {
 
 const RegisteredVerb<FitCommand> fit_verb(Purpose::bodies, "fit", "Fit friction and patch radius to a film of a ball",
                                           "contensou fit --plan --ball pool --fps 240 --noise slip=0.01,spin=1",
-                                          {{"", fit_fields}}, {"slip", "spin", "patch", "law"});
+                                          {{"", fit_fields}}, {"slip", "spin", "stop", "patch", "law"});
 
 }  // namespace
 

@@ -30,7 +30,7 @@ std::string laws() {
       "speed of the patch. Phi is the force of friction divided by f N, with coefficient of friction f and load N. Psi "
       "is the moment of friction divided by f N and by the patch radius. Most laws follow from a pressure in the "
       "patch. It depends on rho, the distance from the centre divided by the patch radius. Other laws follow from a "
-      "limit surface, the curve of Psi against Phi:");
+      "limit surface, the curve of Psi against Phi.");
   for (const auto& [name, meaning] : law_forms()) text += help_entry(name, meaning);
   return text + "\n" +
          help_paragraph(
@@ -42,7 +42,7 @@ std::string laws() {
 std::string views() {
   std::string text = help_paragraph(
       "Views of a portrait, for --view. u is the spin omega_z times the radius R of the body, v the sliding speed, mu "
-      "the patch radius divided by R, and k = v/(mu |u|). 'contensou help theory' prints the equations (2.7):");
+      "the patch radius divided by R, and k = v/(mu |u|). 'contensou help theory' prints the equations (2.7).");
   for (portraits::View view : portraits::views()) text += help_entry(name(view), axes(view));
   return text;
 }
@@ -97,7 +97,7 @@ std::string files() {
         "Give {}{}.", fmt::join(names, ", or "),
         ways.front().front() == &si::patch_radius ? "; a disc or ring touches with its whole face by default" : ""));
   }
-  text += help_paragraph("mass is optional. It is needed for energies, a load, moduli, a stroke and the verb engine.");
+  text += help_paragraph("mass is optional. It is needed for energies, a load, moduli, --strike and the verb engine.");
   return text + "\n" +
          help_paragraph(
              "Tables (--batch, --at, --against, --law FILE.csv) are CSV with one header line. # begins a comment; - is "

@@ -22,7 +22,7 @@ constexpr Field<Published> number_fields[]{
     {"source", "", "source of the number: authors, journal and year",
      [](const Published& n) -> Json { return n.source; }},
     {"link", "", "DOI or repository of the source", [](const Published& n) -> Json { return n.link; }},
-    {"read", "", "part of the source that was read for this table: abstract, code, textbooks, or a citation",
+    {"read", "", "material that was read for this number: abstract, code, textbooks, or only a citation",
      [](const Published& n) -> Json { return n.read; }},
     {"published", "", "value that the source prints", [](const Published& n) -> Json { return n.published; }},
     {"computed", "", "value that this program computes", [](const Published& n) -> Json { return n.computed; }},

@@ -41,7 +41,7 @@ constexpr Field<OrbitReport> orbit_fields[]{
     {"u0", "speed", "", [](const OrbitReport& r) -> Json { return r.start.state.u; }},
     {"v0", "1, speed, speed", "ratio mu, and u and v at the start",
      [](const OrbitReport& r) -> Json { return r.start.state.v; }},
-    {"ball", "", "values of the body of --ball and of its patch",
+    {"ball", "", "values of --ball and of its contact patch",
      [](const OrbitReport& r) {
        return r.start.experiment ? members_of_ball(*r.start.experiment, r.start.system.law()) : Json();
      }},
@@ -241,7 +241,7 @@ const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit",
                                               "Compute spin and slip at instants of a motion",
                                               "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50",
                                               {{"", orbit_texts}},
-                                              {"u", "v", "mu", "k", "f, N", "tau", "beta", "(speed)"});
+                                              {"u", "v", "mu", "k", "f, N", "tau", "beta", "stop", "(speed)"});
 
 }  // namespace
 

@@ -115,14 +115,14 @@ std::vector<FieldText> system_portrait_fields() {
       {"JSON `system`", "", "equations as typed"},
       {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "type of the centre, and rays, as in reduce"},
       {"JSON `form`", "",
-       "type of the solution as in reduce, unless it is a scaling; null if the orbits are computed in time steps"},
+       "type of the solution as in reduce; absent for a scaling; null if the orbits are computed in time steps"},
       {"JSON `centre` [U, V]", "", "centre of the scaling symmetry; null if there is none"},
       {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane of u and v that is drawn"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues` [[re, im], [re, im]]}]", "",
        "points at which u and v do not change; only without a scaling symmetry"},
       {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "",
        "list of orbits, each with lists of its states and of the times left until the stop"},
-      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "lines of states with one time left each"},
+      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "lines on which the time left is equal"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
        "orbit of the start, orbits through the points of --through, and orbits that end in saddles. Their form is that "
        "of an entry of orbits"},
@@ -281,8 +281,8 @@ class PortraitCommand final : public Verb {
         into(request_.view, one_of(views, "view")));
     view_ = &looks_.back();
     add("--scale", "SCALE",
-        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). Bent shows a "
-        "power of v in a shaded part, in which orbits end as straight lines",
+        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). With bent, "
+        "a shaded part shows a power of v, so that orbits end as straight lines",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
@@ -373,7 +373,7 @@ class PortraitCommand final : public Verb {
 const RegisteredVerb<PortraitCommand> portrait_verb(
     Purpose::draw, "portrait", "Draw a phase portrait", "contensou portrait --mu 0.3 -o portrait.svg",
     {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}},
-    {"u", "v", "mu", "k", "f, N", "tau", "(2.6), (2.7)", "orbit", "ray"});
+    {"u", "v", "mu", "k", "f, N", "tau", "stop", "(2.6), (2.7)", "orbit", "ray"});
 
 }  // namespace
 

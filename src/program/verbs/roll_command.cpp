@@ -107,7 +107,7 @@ class RollCommand final : public Verb {
     app.option_defaults()->group("Stroke of a cue along x, instead of the start of the ball");
     strike_.add(app, "--strike", "SPEED",
                 "speed of the cue, in metres per second. The impulse is elastic and along the cue. The model leaves "
-                "out squirt, miscues, throw and bounces off the table",
+                "out sideways deflection, miscues, other balls and jumps",
                 quantity("m/s"));
     tip_.add(app, "--tip", "A,B",
              fmt::format("point that the cue hits, in radii of the ball: A to the right of the centre and B above it, "
@@ -132,10 +132,12 @@ class RollCommand final : public Verb {
     app.add_flag("--gradient", gradient_,
                  "also print the derivatives of each event with respect to each number of the ball and its start");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of input values, such as slip=1%,friction=5%, or the word fit for those in "
-                     "the run file. Also prints the standard deviations of the events");
+                     "standard deviations of input values, such as slip=1%,friction=5%; fit takes those that "
+                     "'contensou fit' wrote into the run file. Also prints the standard deviations of the events");
     CLI::Option* at = instants_.add(app, "t", "s", "");
-    until_.add(app, "--until", "TIME", "last instant, in seconds (default: a little after the stop)", parse_end)
+    until_
+        .add(app, "--until", "TIME", "last instant, in seconds (default: 1.1 times the time of the last event)",
+             parse_end)
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
@@ -344,7 +346,7 @@ const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",
                                             "Compute the whole motion of a ball or a puck in SI units",
                                             "contensou roll --ball gel --slip 0.5 --spin 300 --format text",
                                             {{"", answers::roll_fields}, {"--batch", roll_batch_texts}},
-                                            {"slip", "spin", "event", "uncoupled model"});
+                                            {"slip", "spin", "stop", "event", "uncoupled model"});
 
 }  // namespace
 

@@ -51,7 +51,7 @@ const RegisteredVerb<TerminalCommand> terminal_verb(Purpose::compute, "terminal"
                                                     "Compute the ratio of slip to rim speed at the stop",
                                                     "contensou terminal --law uniform --body disc",
                                                     {{"", terminal_fields}},
-                                                    {"u", "v", "mu", "k", "f, N", "Phi, Psi", "chi, gamma"});
+                                                    {"u", "v", "mu", "k", "f, N", "Phi, Psi", "stop", "chi, gamma"});
 
 }  // namespace
 
