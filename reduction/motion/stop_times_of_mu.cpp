@@ -250,7 +250,7 @@ struct StopTimes {
   }
 };
 
-/// The numbers of SlidingDerivatives::Values, by_w times r. With a drive by_r grows like 1/r^2 as r -> 0, and by_drive
+/// The numbers of SlidingDerivatives::Values, by_w times r. Under a drive by_r grows like 1/r^2 as r -> 0, and by_drive
 /// like 1/r; so does by_drive without a drive unless Psi'(0) = 0.
 struct Derivatives {
   static constexpr std::size_t count = 4;
@@ -306,8 +306,8 @@ struct Derivatives {
 /// Returns r from which on a law has a ray without a drive.
 double first_ray(const Law& law) { return law.force_slope() / law.pivoting_moment(); }
 
-/// Returns the edges of the intervals, up to max_r. With a pole at r = 0 an interval must not be long, or the error of
-/// its far end would be felt at the near one.
+/// Returns the edges of the intervals, up to max_r. If there is a pole at r = 0, an interval must not be long, or the
+/// error of its far end would be felt at the near one.
 std::vector<double> edges(const Law& law, bool pole, double max_r) {
   constexpr double ratio = 16, least = 1e-20;
   // Beside the first ray the functions are smooth, but their series converge slowly.
