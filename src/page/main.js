@@ -6,6 +6,7 @@ import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
 import { makeFilm } from "./share/film.js";
 import { Hero } from "./hero/hero.js";
+import { lines } from "./hero/story.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
 import { makeOrbits } from "./controls/orbits.js";
@@ -36,10 +37,18 @@ function start(library) {
   makeChecks(store);
   const address = new Address(store);
   makeShare(store, { plane, hero, player, address, film: makeFilm(store, player) });
-  const go = (fragment, step = 0) => store.ask((state) => {
+  const go = (fragment, step = 0, done = () => player.begin()) => store.ask((state) => {
     const { theme, embed, lab } = state;
     Object.assign(state, fromFragment(fragment, library), { step, theme, embed, lab });
-  }, () => player.begin());
+  }, done);
+  // The question again, and the game: its tries begin at the puck of the opening.
+  const toLine = (line) => go(`ball=puck&orbits=2.286,0.5&line=${line}`, 0, () => {
+    player.toggle(false);
+    $("lanes").focus();
+  });
+  $("again").addEventListener("click", () => go("", 0, () => hero.ask()));
+  $("to-line").addEventListener("click", () => toLine(lines[0]));
+  $("next-line").addEventListener("click", () => toLine(lines[(lines.indexOf(store.state.line) + 1) % lines.length]));
   makeTour(store, go);
   makePresets(store, go);
   makeThrowing(store, hero, player, plane);

@@ -19,7 +19,7 @@ interface State {
   law: string; body: string; chi: number; gamma: number; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number;
+  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number; line: number;
 }
 
 interface Ball {

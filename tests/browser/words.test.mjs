@@ -1,45 +1,7 @@
 // The words of the page: headline, story, tour and presets say in plain words and numbers what is shown.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertClose, close, drawn, open, page, pass, pixelOf, state } from "./browser.mjs";
-
-test("numbers in the story are handles: a drag or keys do what the slider does, and the focus stays", async () => {
-  await open("#lab=0");
-  const handle = (key) => page.locator(`#story .handle[data-key=${key}]`);
-  assert.equal(await handle("slip").textContent(), "0.5 m/s");
-  assert.equal(await handle("spin").textContent(), "9.5 times a second");
-  assert.equal(await handle("spin").getAttribute("role"), "slider");
-  const box = await handle("spin").boundingBox();
-  await page.mouse.move(box.x + 5, box.y + box.height / 2);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 45, box.y + box.height / 2, { steps: 4 });
-  await page.mouse.up();
-  const { orbits: [{ u }], ball } = await state();
-  assertClose(u / ball.radius, 60 + 500 * 40 / 400, 0.02, "rad/s");
-  await handle("slip").focus();
-  await page.keyboard.press("ArrowRight");
-  assertClose((await state()).orbits[0].v, 0.6, 1e-9, "m/s");
-  assert.equal(await page.evaluate(() => document.activeElement.dataset.key), "slip");
-  assert.equal(await handle("slip").getAttribute("aria-valuetext"), "0.6 m/s");
-  // Without spin the sentence is another, and the handle is in it.
-  await handle("spin").focus();
-  await page.keyboard.press("Home");
-  assert.match(await page.textContent("#headline"), /^Without spin/);
-  assert.equal(await handle("spin").textContent(), "does not spin");
-  assert.equal(await page.evaluate(() => document.activeElement.dataset.key), "spin");
-  await page.keyboard.press("PageUp");
-  assertClose((await state()).orbits[0].u / ball.radius, 50, 1e-9, "rad/s");
-  await close();
-});
-
-test("words of the story have the colours of what they name", async () => {
-  await open("#lab=0");
-  const colours = await page.$$eval("#story b, #story .handle", (words) => Object.fromEntries(words.map((word) => [word.textContent, getComputedStyle(word).color])));
-  assert.equal(colours["0.515 m"], colours["The other spins"]);
-  assert.equal(colours["0.127 m"], colours["One does not spin"]);
-  assert.notEqual(colours["0.515 m"], colours["0.127 m"]);
-  await close();
-});
+import { close, drawn, open, page, pass, pixelOf, state } from "./browser.mjs";
 
 test("what was said of an orbit goes when the orbit does", async () => {
   await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5");

@@ -173,6 +173,7 @@ function makeBallCard(controls, store) {
     write($("ball-title"), ball.title);
     // A puck rests on its whole face, a stone on a band, and neither rolls.
     patchBy.options[patchBy.options.length - 1].disabled = body.mu === undefined;
-    write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(mu, 5)}. ${ball.sources}`);
+    write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(mu, 5)}. ` +
+      `${body.chi === 1 ? "" : `It counts as rolling once its slip is below ${shown(1000 * store.library.rollingSlip, 2)} mm/s. `}${ball.sources}`);
   });
 }

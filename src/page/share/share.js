@@ -26,7 +26,10 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const { width, height } = $($("picture").value).getBoundingClientRect();
     return { title, name, draw, width: Math.round(width), height: Math.round(height) };
   };
-  const tell = (text) => write($("copied"), text);
+  const tell = (text) => {
+    write($("copied"), text);
+    hero.say(text);
+  };
   /** What a button does, and where it cannot, why. */
   const on = (id, action) => $(id).addEventListener("click", async () => {
     try {
@@ -39,10 +42,11 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
     tell(copied ? `${what} copied.` : text);
   };
-  on("copy-link", () => {
+  const copyLink = () => {
     if (!address.link) return tell(`This page has no address here. Add this to a link to the page: #${toFragment(store.state)}`);
     return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
-  });
+  };
+  for (const id of ["copy-link", "send"]) on(id, copyLink);
   on("copy-embed", async () => {
     const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
     await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
@@ -69,7 +73,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const { name, draw, ...size } = picture();
     save(`${name}.png`, await pngOf(draw, size, pngWidth), "image/png");
   });
-  on("save-film", async () => {
+  for (const id of ["save-film", "film-line"]) on(id, async () => {
     const type = filmType();
     if (!type) throw new Error("this browser cannot record films");
     tell(`Recording the film: ${Math.ceil(player.seconds)} s.`);

@@ -126,6 +126,8 @@ const parts = {
     read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startFrom, start) ?? []) }),
   },
   chosen: always("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
+  // The line to reach by spin alone, in m; 0 for none.
+  line: value("line", 0, (text) => numberOf("line", text)),
   step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // of the tour
   // Of the stop time, or of the part that is shown, that the moving point has reached.
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },
@@ -140,7 +142,7 @@ const parts = {
 
 /** Of what a link speaks that only the Lab shows, and that is more than how the page looks. */
 const labParts = ["law", "body", "mu", "view", "window", "against", "field", "isochrones"];
-const motionParts = [...labParts, "ball", "orbits", "part", "isochrone"];
+const motionParts = [...labParts, "ball", "orbits", "part", "isochrone", "line"];
 
 /** What a link opens that speaks of no motion: a puck whose spin lets it slide four times as far. */
 const opening = "ball=puck&orbits=2.286,0.5";

@@ -5,8 +5,6 @@ import { shown } from "../numbers.js";
 
 const shortest = 7;  // seconds on the screen
 const longest = 12;
-const rest = 1500;   // ms at the end, before the motion begins again
-const rounds = 3;    // after which it rests
 
 export class Player {
   /** @param {Store} store */
@@ -61,8 +59,6 @@ export class Player {
     if (this.store.state.fraction >= 1) this.store.move({ fraction: 0 });
     const run = this.run = {};
     let last = null;
-    let ended = null;
-    let round = 1;
     const step = (time) => {
       if (this.run !== run || !this.playing) return;
       const { state, motion } = this.store;
@@ -70,16 +66,9 @@ export class Player {
       requestAnimationFrame(step);
       const passed = last === null ? 0 : Math.max(0, time - last);
       last = time;
-      if (state.fraction < 1) {
-        ended = null;
-        this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
-      } else if (ended === null) {
-        ended = time;
-        this.done?.();
-        this.done = null;
-      }
-      else if (time - ended > rest && round++ < rounds) this.store.move({ fraction: 0 });
-      else if (round > rounds) this.toggle(false);
+      this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
+      // A round is one; the reader begins another.
+      if (this.store.state.fraction >= 1) this.toggle(false);
     };
     requestAnimationFrame(step);
   }
