@@ -264,6 +264,35 @@ test("no card changes its height with the view, the step of the tour or the moti
   }
 });
 
+test("nothing moves under the hand: story, table and sliders stay while a slider is dragged, and the story fits", async () => {
+  const moved = [];
+  await open("#lab=0");
+  for (const [width, height] of [[360, 740], [390, 844], [768, 1024], [1024, 768], [1280, 800], [1440, 900], [1920, 1080], [2560, 1440]]) {
+    await page.setViewportSize({ width, height });
+    const rectangles = () => page.evaluate(() => ["words", "lanes", "player", "patch", "slip-control", "spin-control", "slip-slider", "spin-slider", "presets"].map((id) => {
+      const { left, top, width, height } = document.getElementById(id).getBoundingClientRect();
+      return { id, sides: [left + scrollX, top + scrollY, width, height] };
+    }));
+    for (const link of await page.$$("#presets a")) {
+      await link.evaluate((each) => each.click());
+      const what = `${width}, ${await link.textContent()}`;
+      const before = await rectangles();
+      for (const id of ["spin-slider", "slip-slider"]) for (let share = 0; share <= 1000; share += 125) {
+        await page.locator(`#${id}`).evaluate((input, value) => {
+          input.value = value;
+          input.dispatchEvent(new Event("input"));
+        }, share);
+        const wrong = (await rectangles()).filter(({ sides }, i) => sides.some((side, j) => Math.abs(side - before[i].sides[j]) > 0.5));
+        if (wrong.length) moved.push(`${what}, ${id} at ${share}: ${JSON.stringify([wrong[0], before.find((each) => each.id === wrong[0].id)])}`);
+        const over = await page.evaluate(() => ["words", "headline"].map((id) => document.getElementById(id)).find(({ scrollHeight, clientHeight }) => scrollHeight > clientHeight + 1)?.textContent);
+        if (over) moved.push(`${what}, ${id} at ${share}: cut: ${over}`);
+      }
+    }
+  }
+  assert.deepEqual(moved.slice(0, 5), [], `${moved.length} in all`);
+  await close();
+});
+
 test("letters follow the size that the reader has set in the browser", async () => {
   await open("", { viewport: { width: 1280, height: 800 } });
   const size = () => page.evaluate(() => parseFloat(getComputedStyle(document.getElementById("story")).fontSize));

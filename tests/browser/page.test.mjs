@@ -11,7 +11,7 @@ import { unpacked } from "../../src/page/packing.js";
 import { assertClose, close, drawn, file, folder, json, open, page, pass, pixelOf, program, programStop, saved, slides, state, stopTimes } from "./browser.mjs";
 
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
-const inLab = ["#columns", "#views", "#mu-control", "#friction-control"];
+const inLab = ["#columns", "#views", "#mu-control", "#friction-control", "#copies", "#plane-help", ".keys"];
 const story = () => page.textContent("#story");
 
 test("opens from disk and asks the network for nothing; at most 650 kB", async () => {
@@ -571,12 +571,16 @@ test("the first floor has the bodies, two sliders, the plane and the story; one 
   for (const options of [{}, phone]) {
     await open("#lab=0", options);
     for (const id of ["#headline", "#story", "#lanes", "#slip-slider", "#spin-slider", "#plane", "#presets", "#tour"]) assert.ok(await page.isVisible(id), id);
-    for (const id of inLab) assert.ok(!(await page.isVisible(id)), id);
+    for (const id of inLab) assert.ok(!(await page.locator(id).first().isVisible()), id);
     assert.equal(await page.locator("input:visible, select:visible").count(), 3, "time, slip, spin");
+    // The plane is curves alone, on axes in plain words.
+    const { title, colourBar, panels: [{ x, y, lines }] } = await page.evaluate(() => globalThis.page.plane.planeScene.figure);
+    assert.deepEqual([title, colourBar, x.name, y.name, lines.filter(({ legend, dashed }) => legend || dashed).length], ["", undefined, "rim speed of the spin, m/s", "sliding speed, m/s", 0]);
+    assert.equal((await page.textContent("#plane-card")).match(/[^.]+\./)[0].trim(), "Every motion is a curve to rest; click to start one, or drag a start.");
     assert.equal(await page.getAttribute("#lab", "aria-expanded"), "false");
     await page.focus("#lab");
     await page.keyboard.press("Enter");
-    for (const id of inLab) assert.ok(await page.isVisible(id), id);
+    for (const id of inLab.slice(0, options.isMobile ? -1 : undefined)) assert.ok(await page.locator(id).first().isVisible(), id);
     assert.equal(await page.getAttribute("#lab", "aria-expanded"), "true");
     // Without motion it is there at once.
     assert.ok((await page.locator("#columns").boundingBox()).y < 20);

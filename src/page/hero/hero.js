@@ -90,6 +90,7 @@ export class Hero {
     document.documentElement.dataset.mode = mode;
     for (const id of ["lanes", "patch"]) $(id).hidden = !ride;
     $("answers").hidden = mode !== "asking";
+    $("to-line").hidden = mode === "game";
     if (ride) {
       this.facts = factsOf(store);
       this.bodies = this.bodiesOf(ride);
@@ -223,7 +224,7 @@ export class Hero {
       const slidUntil = Math.min(state.fraction, body.share);
       const track = body.until(slidUntil);
       return {
-        title: mode === "asking" ? body.title : `${body.title}: ${has[i] ? slid(body) : "slides"}`,
+        title: mode === "asking" || mode === "game" ? body.title : `${body.title}: ${has[i] ? slid(body) : "slides"}`,
         xs: body.xs, ys: body.ys, at: places[i], slid: track, rolled: ride.rolls && state.fraction > body.share ? body.until(state.fraction).slice(track.length - 2) : [],
         colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
       };

@@ -58,7 +58,8 @@ export function drawLanes(surface, scene, theme) {
     surface.shape([[x, y]], { radius: pixels, stroke: colour, width: 1.5, dash: [3, 3] });
     // Labels of neighbours do not meet.
     const below = [pixels + 0.8 * size, -pixels - 0.8 * size, pixels + 2 * size][i % 3];
-    surface.text(x, y + below, words, { colour, size: 0.92 * size, align: "center", baseline: "middle", halo: theme.card });
+    const half = widthOf(words, { size: 0.92 * size }) / 2;
+    surface.text(Math.min(x, surface.width - half), y + below, words, { colour, size: 0.92 * size, align: "center", baseline: "middle", halo: theme.card });
   });
   const places = lanes.map(({ at, title, colour, ruler, slid, rolled }, i) => {
     const pixelsOf = (path) => Array.from({ length: path.length / 2 }, (_, j) => pixel({ x: path[2 * j], y: path[2 * j + 1] }, i)).flat();
@@ -226,6 +227,7 @@ export function drawPatch(surface, { still, k, spin, force, colour, hollow }, th
     surface.text(x0, beside, "does not slip", style);
   }
   if (force > 0.02) arrow(force, colour);
-  const share = still ? "at rest: no" : force < 0.001 ? "no" : `${shown(100 * force, force < 0.1 ? 1 : 2)} % of the`;
-  surface.text(x0, base + 1.2 * size, `${share} friction slows the slide`, style);
+  const share = force < 0.001 ? "no" : `${shown(100 * force, force < 0.1 ? 1 : 2)} % of the`;
+  const words = still ? "at rest" : `${share} friction slows the slide`;
+  surface.text(x0, base + 1.2 * size, words, { ...style, size: size * Math.min(1, surface.width / widthOf(words, style)) });
 }

@@ -11,16 +11,15 @@ const some = 1.05;
  *
  * @typedef {{
  *   name: string, real: boolean, rolls: boolean, slip: number, spin: number, along: number, across: number, least: number, own: Slide, plain: Slide,
- *   stop: number, turningAlone: number, rest?: {t: number, x: number, y: number} | null,
- * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended; turningAlone: when
- *   the spin would end if nothing slid
+ *   stop: number, rest?: {t: number, x: number, y: number} | null,
+ * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended
  */
 
 /** What the library knows of the chosen motion. @returns {Facts} */
-export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across }, timeFactor, library: { plane } }) {
+export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across } }) {
   return {
     name: ball ? ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck", real: Boolean(ball), rolls, spin: u / (ball?.radius ?? 1), slip: v,
-    along, across, least, own, plain, rest, stop: own.stop, turningAlone: u === 0 ? 0 : plane.stop(u, 0) * timeFactor,
+    along, across, least, own, plain, rest, stop: own.stop,
   };
 }
 
@@ -65,12 +64,10 @@ const sentences = {
   much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words)],
   more: (words) => [`Spin makes this ${words.thing} slide ${shown(100 * (words.times - 1), 2)} % farther`, two(words)],
   soon: (words) => [`This ${words.thing} soon rolls, and keeps spinning`, `${two(words)} Its spin ends after ${words.time(words.stop)}.`],
-  together: (words) => [`This ${words.thing} slides hardly farther, and spins to the end`,
-    `${two(words)} Sliding alone would end after ${words.time(words.plain.end)}, spinning alone after ${words.time(words.turningAlone)}. ` +
-    `Together they end after ${words.time(words.stop)}.`],
+  together: (words) => [`This ${words.thing} slides hardly farther, and spins to the end`, two(words)],
   curves: (words) => [`The path of this ${words.thing} curves by ${shown(Math.abs(words.own.turned), 2)}°`,
-    `It lands with a slip of ${words.speed}, which does not point along its path. Friction acts against the slip, so the path curves by ` +
-    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}. Then it rolls straight on. It spins ${words.turns}. Without spin the path would curve by ` +
+    `Its slip of ${words.speed} does not point along its path. Friction acts against the slip and bends the path by ` +
+    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. Without spin the path would bend by ` +
     `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.`],
   plain: (words) => ["Without spin, textbooks are right",
     `This ${words.name} ${words.leave.replace(/^\w+/, "$&s")} ${words.speed} and ${words.turns}: ` +
