@@ -86,7 +86,7 @@ test("while a start is held, what lies behind it stays; then it is what a link t
     return page.evaluate(() => document.getElementById("plane").toDataURL());
   };
   const behind = () => page.evaluate(() => (globalThis.seen ??= []).push(globalThis.page.plane.planeScene.figure) && new Set(globalThis.seen).size);
-  const link = "#ball=gel&window=11,0.6&orbits=9,0.5;-4,0.5&chosen=1&view=pair";
+  const link = "#ball=gel&window=11,0.6&orbits=9,0.5;-4,0.5&chosen=1&view=patch";
   await open(link);
   await behind();
   await page.mouse.move(...await pixelOf(-4, 0.5));

@@ -246,7 +246,7 @@ test("no card changes its height with the view, the step of the tour or the moti
     const heights = () => page.evaluate(() => ["hero", "plane-card", "tour"].map((id) => Math.round(document.getElementById(id).getBoundingClientRect().height)).join());
     const seen = new Map([[await heights(), "the opening"]]);
     const note = async (what) => seen.set(await heights(), what);
-    for (const view of ["patch", "log", "similarity", "blowup", "disc", "time", "pair", "uv"]) {
+    for (const view of ["patch", "log", "similarity", "blowup", "disc", "time", "uv"]) {
       await page.click(`#views [value=${view}]`);
       await note(view);
     }

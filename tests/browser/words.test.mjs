@@ -167,7 +167,7 @@ test("numbers of any size are answered in the page's words", async () => {
     await look(`mu ${value}`);
   }
   await close();
-  for (const fragment of ["#body=1e308,1e-308&mu=0.3", "#mu=1e-308", "#ball=gel&gravity=1e308", "#mu=1e-6&orbits=0.8,3.5", "#body=1000,0.001&mu=10&orbits=1,1", "#body=0.001,1000&mu=1&orbits=1,1"]) {
+  for (const fragment of ["#mu=1e-308", "#ball=gel&gravity=1e308", "#mu=1e-6&orbits=0.8,3.5"]) {
     await open(fragment, {}, false);
     await look(fragment);
     await close();

@@ -8,7 +8,6 @@ import { borderOf, CanvasSurface, widthOf } from "../drawing/surface.js";
 import { product, rideOn, rotation } from "./turning.js";
 
 const titleLines = 3.8;  // of a film, in sizes of the text
-const fastest = { flat: 60, round: 30 };  // rad/s on the screen; with a faster spin the marks would seem to turn back
 const turning = 20;      // s that the body turns in place while the reader is asked
 const ghosts = 3;        // earlier throws that stay on the table
 export const reach = 0.02;  // m by which a throw may miss the line
@@ -27,7 +26,6 @@ export class Hero {
   /** @type {{key: string, guess: string, ended: boolean, turn: number} | null} the question, while its motion is shown */
   asked = null;
   said = "";  // of what the reader does on the table
-  spinShown = 1;  // the share of the spin that is drawn
   /** @type {CanvasSurface | null} of the film that is being taken */
   film = null;
 
@@ -61,7 +59,7 @@ export class Hero {
     const asked = this.asked = { key: this.key, guess: "", ended: false, turn: 0 };
     this.show();
     this.draw();
-    const rate = (this.spinShown * this.facts.spin * store.end * store.timeFactor) / player.seconds;
+    const rate = (player.spinShown * this.facts.spin * store.end * store.timeFactor) / player.seconds;
     let began = 0;
     const step = (time) => {
       began ||= time;
@@ -121,16 +119,15 @@ export class Hero {
   }
 
   /** Both bodies: how they move, and when and where each ceases to slide. */
-  bodiesOf({ courses, plain, own, radius, end, rolls }) {
+  bodiesOf({ courses, plain, own, end }) {
     const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
     const lasts = end * timeFactor;
-    this.spinShown = Math.min(1, (fastest[rolls ? "round" : "flat"] * player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
     // A path that curves is seen from where it leads to the right, or where it was thrown to.
     const [x, y] = ["x", "y"].map((key) => courses[1][key].at(-1));
     const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
     const titles = ["without spin", spin === 0 ? "this one" : ball ? `spinning, ${shown(spin, 3)} rad/s` : "spinning"];
     return [plain, own].map(({ end, path }, i) => {
-      const ride = rideOn(courses[i], heading, this.spinShown);
+      const ride = rideOn(courses[i], heading, player.spinShown);
       const share = Math.min(1, end / lasts);
       return { ...ride, title: titles[i], end, far: path, share, stop: ride.at(share) };
     });

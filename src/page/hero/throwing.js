@@ -54,7 +54,7 @@ export function makeThrowing(store, hero, player, plane) {
     const thrown = aim;
     cancel();
     if (!thrown || thrown.slip * pixelsPerSpeed() < shortest) return;
-    const start = { u: round(thrown.spin) * radiusOf(), v: round(thrown.slip), heading: thrown.heading };
+    const start = { u: Number((round(thrown.spin) * radiusOf()).toPrecision(12)), v: round(thrown.slip), heading: thrown.heading };
     plane.startOrbit(start);
     player.begin();
   };

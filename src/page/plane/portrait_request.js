@@ -22,8 +22,7 @@ export function portraitRequest(state, { chi, gamma, drive, resistance }, screen
     law, mu, chi, gamma, drive, orbits, chosen, window, field, screen,
     // The first floor shows curves alone.
     isochrones: lab ? state.isochrones : 0,
-    // The plane is linear; that of the power is a view of its own.
-    view: view === "bent" ? "uv" : view, linear: view === "uv",
+    view, linear: view === "uv",
     // Without a motion there is no ball in the program's sense: only the mu of one.
     ball: ball && orbits[chosen] ? shotOf(ball, orbits[chosen], resistance) : null,
     // A law is not compared with itself.

@@ -84,9 +84,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     }
     tell("The film is saved.");
   });
-  for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
-    on(`save-${ending}`, () => save(`portrait.${ending}`, store.library.plane.portraitFile(store.request, ending), type));
-  }
+  on("save-tex", () => save("portrait.tex", store.library.plane.portraitFile(store.request), "text/x-tex"));
   on("save-csv", () => {
     const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
       : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
@@ -99,5 +97,8 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
+    // A film that was not fitted is no picture.
+    const { options } = $("picture");
+    options[options.length - 1].hidden = $("film-fit").hidden;
   });
 }

@@ -15,5 +15,5 @@ export const tour = [
   ["One curve for all", "Slide twice as fast and spin twice as fast: the curve has the same shape, is twice as large, and takes twice as long until the stop. Drag a start along the line to rest, or move the slider of the size. In the small panels all these curves are one line.", "body=disc&law=uniform&window=2,2&orbits=1.6,1.4;0.8,0.7;0.4,0.35"],
   ["Left and right", "With spin to the left or to the right the ball slides equally far. So the two halves of the plane are mirror images.", "mu=0.3&window=1,4&orbits=0.8,3.5;-0.8,3.5"],
   ["Small patches", "With a small patch a little spin hardly matters: this pool ball slides 3.6 % farther than textbooks predict. It still spins long after it has begun to roll.", "ball=pool&orbits=0.2286,1&part=whole"],
-  ["Why time steps fail", "Near rest the slip is a high power of the spin: it falls below 10⁻³⁰⁰ long before the spin is gone. A program that goes in time steps loses the slip. This page computes its logarithm exactly.", "mu=0.05&view=pair&orbits=0.8,3.5;0.3,1"],
+  ["Why time steps fail", "Near rest the slip is a high power of the spin: it falls below 10⁻³⁰⁰ long before the spin is gone. A program that goes in time steps loses the slip. This page computes its logarithm exactly.", "mu=0.05&view=log&orbits=0.8,3.5;0.3,1"],
 ].map(([title, text, fragment]) => ({ title, text, fragment }));

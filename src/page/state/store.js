@@ -28,7 +28,7 @@ export class Store {
   view = /** @type {View} */ ({});
   request = /** @type {PortraitRequest} */ ({});
   portrait = /** @type {Portrait} */ ({});
-  body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
+  body = { chi: 1, gamma: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
   /** @type {number[] | null} when they stop by the law compared with, in tau */
@@ -209,9 +209,9 @@ export class Store {
 
   /** How far the body of an orbit slides, in m. */
   farOf(index) {
-    const { state, state: { ball, orbits: { [index]: orbit }, law, mu, body, chi, gamma }, library: { plane } } = this;
+    const { state, state: { ball, orbits: { [index]: orbit }, law, mu, body }, library: { plane } } = this;
     const [shot, least] = [shotOf(ball ?? ballOf(1), orbit), this.leastOf(state, orbit)];
-    return this.keep(`far ${index}`, [law, mu, body, chi, gamma, shot, least], () => (orbit.v === 0 ? 0 : plane.slide(shot, 0, least).path));
+    return this.keep(`far ${index}`, [law, mu, body, shot, least], () => (orbit.v === 0 ? 0 : plane.slide(shot, 0, least).path));
   }
 
   /** A time until a stop, as it is told. */
