@@ -25,7 +25,6 @@ export class Hero {
   ring = null;
   /** @type {{key: string, guess: string, ended: boolean, turn: number} | null} the question, while its motion is shown */
   asked = null;
-  said = "";  // of what the reader does on the table
   /** @type {CanvasSurface | null} of the film that is being taken */
   film = null;
 
@@ -149,7 +148,6 @@ export class Hero {
 
   /** Says what the reader does on the table. */
   say(text) {
-    this.said = text;
     write($("told"), text);
   }
 
@@ -201,6 +199,8 @@ export class Hero {
     film.text(4, 1.7 * textSize, headline, { colour: theme.ink, size: fitting * textSize, bold: true });
     const clock = [player.timeText(now.tau), $("pace").textContent].filter(Boolean).join(", ");
     film.text(film.width - 4, 3.2 * textSize, clock, { colour: theme.soft, size: textSize, align: "right" });
+    // A film that is sent on says where it comes from.
+    film.text(4, 3.2 * textSize, /^http/.test(location.protocol) ? `${location.host}${location.pathname}` : "contensou", { colour: theme.soft, size: textSize });
     film.context.drawImage(lanes.canvas, 0, titleLines * textSize, lanes.width, lanes.height);
   }
 
