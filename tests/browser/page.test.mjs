@@ -578,7 +578,7 @@ test("the first floor has the bodies, two sliders, the plane and the story; one 
     // The plane is curves alone, on axes in plain words.
     const { title, colourBar, panels: [{ x, y, lines }] } = await page.evaluate(() => globalThis.page.plane.planeScene.figure);
     assert.deepEqual([title, colourBar, x.name, y.name, lines.filter(({ legend, dashed }) => legend || dashed).length], ["", undefined, "rim speed of the spin, m/s", "sliding speed, m/s", 0]);
-    assert.equal((await page.textContent("#plane-card")).match(/[^.]+\./)[0].trim(), "Every motion is a curve to rest; click to start one, or drag a start.");
+    assert.equal((await page.textContent("#plane-card")).match(/[^.]+\./)[0].trim(), "Every motion is a curve to rest; click to start one.");
     assert.equal(await page.getAttribute("#lab", "aria-expanded"), "false");
     await page.focus("#lab");
     await page.keyboard.press("Enter");

@@ -4,6 +4,7 @@ import { borderOf, widthOf } from "../drawing/surface.js";
 import { product, rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
+export const ringWidth = 12;  // pixels between a body and its ring
 const spotSize = 0.36;  // rad
 const ringed = Math.atan(2);  // rad, of the corners of an icosahedron around the one on top
 const circle = Array.from({ length: 24 }, (_, i) => rotation([0, 0, (i * Math.PI) / 12]))
@@ -88,8 +89,6 @@ function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme
   surface.text(x, cells[1].top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
-export const ringWidth = 12;  // pixels between a body and its ring
-
 /** The ring that is pulled to spin a body; an arrow along it shows the spin. */
 function drawRing(surface, { x, y, radius }, { share, words }, theme) {
   const out = radius + ringWidth;
@@ -158,13 +157,14 @@ function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   if (line) xs.push(1.12 * line.at);
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const above = 1.3 * size;  // for a title
+  const beside = ringWidth + 3;
   const room = surface.height - 3.1 * size;  // without the bar of the scale, and a ruler
   /** Bodies one below the other, or side by side. */
   const tableOf = (columns, rows) => {
     const [width, height] = [surface.width / columns, room / rows];
     /** Pixels of a metre, with a rim of `metres` and of `rim` pixels around the paths. */
     const scaleWith = (metres, rim) =>
-      Math.min((width - 8 - 2 * rim) / (right - left + 2 * metres), (height - above - 2 * rim) / (high - low + 2 * metres));
+      Math.min((width - 2 * beside - 2 * rim) / (right - left + 2 * metres), (height - above - 2 * rim) / (high - low + 2 * metres));
     // A body too small to be seen is drawn larger than it is.
     const seen = radius * scaleWith(radius, 0) >= smallest;
     const scale = seen ? scaleWith(radius, 0) : scaleWith(0, smallest);
@@ -173,7 +173,7 @@ function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   };
   const [rows, columns] = [tableOf(1, lanes.length), tableOf(lanes.length, 1)];
   const { height, scale, cells, pixels } = high - low > (right - left) / 4 && columns.scale > 1.2 * rows.scale ? columns : rows;
-  const pixel = ({ x, y }, i) => [cells[i].left + pixels + 4 + (x - left) * scale, cells[i].top + above + (height - above) / 2 - (y - (low + high) / 2) * scale];
+  const pixel = ({ x, y }, i) => [cells[i].left + pixels + beside + (x - left) * scale, cells[i].top + above + (height - above) / 2 - (y - (low + high) / 2) * scale];
   const bar = roundDown((surface.width * 0.22) / scale);
   const [end, base] = [surface.width - 6, surface.height - 5];
   const start = end - bar * scale;
