@@ -293,6 +293,21 @@ test("nothing moves under the hand: story, table and sliders stay while a slider
   await close();
 });
 
+test("the buttons of the tour stay where they are from step to step", async () => {
+  for (const [width, height] of [[390, 844], [1024, 768], [1440, 900]]) {
+    await open("#lab=0", { viewport: { width, height } });
+    const places = new Set();
+    for (let step = 0; step < 6; ++step) {
+      if (step) await page.locator("#step-on").evaluate((button) => button.click());
+      await page.waitForFunction((step) => globalThis.page.state.step === step, step);
+      await drawn();
+      places.add(await page.evaluate(() => ["step-on", "lanes"].map((id) => Math.round(document.getElementById(id).getBoundingClientRect().top + scrollY)).join()));
+    }
+    assert.equal(places.size, 1, `${width}: ${[...places].join("; ")}`);
+    await close();
+  }
+});
+
 test("letters follow the size that the reader has set in the browser", async () => {
   await open("", { viewport: { width: 1280, height: 800 } });
   const size = () => page.evaluate(() => parseFloat(getComputedStyle(document.getElementById("story")).fontSize));
