@@ -84,17 +84,17 @@ test("every state comes back from its link", () => {
   const states = [
     {}, { law: "pressure:-0.25", against: "pade", mu: 0.125, lab: true }, { body: "disc", mu: 1 },
     { view: "log", window: [2, 3e-7], field: "motion", isochrones: 0, theme: "dark" },
-    { orbits: [startOf(-1e-5, 0), startOf(1e20, 3, 3, 0, 170)], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5, step: 5, line: 2 }, { orbits: [], chosen: 0 },
+    { orbits: [startOf(-1e-5, 0), startOf(1e20, 3, 3, 0, 170)], chosen: 1, fraction: 0.25, part: "sliding", isochrone: 1.5, step: 5 }, { orbits: [], chosen: 0 },
   ].map((part) => ({ ...initialState(), ...part }));
   const ball = initialState();
   Object.assign(takeBall(ball, gel), { friction: 0.125, patchBy: "spin_deceleration", patch: 12.5 });
   ball.orbits = [startOf(1, 2), startOf(3, 4, -1, 0.25), startOf(3, 4, 4, 0, -45)];
-  for (const state of [...states, ball, { ...ball, part: "whole", embed: true, lab: true, ball: { ...ball.ball, slope: -2 } }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
+  for (const state of [...states, ball, { ...ball, line: 2, part: "whole", embed: true, lab: true, ball: { ...ball.ball, slope: -2 } }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
 });
 
 test("what cannot be read in a link keeps its first value", () => {
   const first = initialState();
-  for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "mu=0.3&at=2", "body=1", "body=1.5,2.5", "view=pair", "isochrones=3", "part=none", "mu=0.3&theme=red", "mu=0.3&step=9"]) {
+  for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "mu=0.3&at=2", "body=1", "body=1.5,2.5", "view=pair", "isochrones=3", "part=none", "mu=0.3&theme=red", "mu=0.3&step=9", "mu=0.3&line=1"]) {
     const state = fromFragment(part, known);
     assert.deepEqual({ ...state, orbits: part.startsWith("orbits") ? first.orbits : state.orbits, lab: false }, first, part);
   }

@@ -121,6 +121,6 @@ export function goal({ line, far, slip, spin, tries, ended, hit }) {
   return {
     headline: !ended ? `Same push, ${shown(slip, 3)} m/s. Reach the line, by spin alone.`
       : `${shown(spin, 3)} rad/s gives ${length(far, "m")}: ${hit ? `the line, in ${tries} ${tries === 1 ? "try" : "tries"}` : missed}`,
-    pieces: [["", "Pull the ring around the puck to spin it; let go, and it slides. Or turn the wheel over it, or press ↑ and ↓; then click it or press Enter."]],
+    pieces: [["", "Pull the ring around the puck to spin it; let go, and it slides. The wheel and the keys ↑ and ↓ spin it, too; a click or Enter lets it go."]],
   };
 }

@@ -184,6 +184,8 @@ export function fromFragment(fragment, known) {
   }
   const { mu, chi } = bodyOf(state, known);
   state.mu = mu ?? state.mu;
+  // Lines are reached in metres.
+  if (!state.ball) state.line = 0;
   // What cannot roll does not turn forward.
   if (!state.ball || chi === 1) state.orbits = state.orbits.map(unrolled);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));
