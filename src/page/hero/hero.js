@@ -9,7 +9,7 @@ import { product, rideOn, rotation } from "./turning.js";
 
 const titleLines = 3.8;  // of a film, in sizes of the text
 const turning = 20;      // s that the body turns in place while the reader is asked
-const ghosts = 3;        // earlier throws that stay on the table
+const ghosts = { game: 8, "": 3 };  // earlier throws that stay on the table
 export const reach = 0.02;  // m by which a throw may miss the line
 
 export class Hero {
@@ -171,9 +171,8 @@ export class Hero {
   /** Where earlier throws have ended that went straight. */
   ghostsNow() {
     const { mode, store, store: { state: { orbits, chosen, ball }, theme, contact } } = this;
-    if (mode !== "game" && mode !== "") return [];
     const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(({ index, across }) => index !== chosen && across === 0);
-    return earlier.slice(-ghosts).map((orbit) => {
+    return earlier.filter((_, i) => i >= earlier.length - (ghosts[mode] ?? 0)).map((orbit) => {
       const [far, angle] = [store.farOf(orbit.index), (orbit.heading * Math.PI) / 180];
       const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
       return { x: far * Math.cos(angle), y: far * Math.sin(angle), words, colour: theme.swatch(orbit.index) };
