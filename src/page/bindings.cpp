@@ -46,17 +46,14 @@ using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
-/// Prefix of a law's name that contains a table of the reader: rho/pressure of each row, with semicolons between.
+/// Prefix of a law's name that contains a pressure table of the reader, a CSV.
 constexpr std::string_view table_of_pressure = "table:";
 
 Law law_of(const std::string& name) {
   static std::map<std::string, Law> known;
   if (const auto found = known.find(name); found != known.end()) return found->second;
   if (name.starts_with(table_of_pressure)) {
-    std::string rows = name.substr(table_of_pressure.size());
-    std::ranges::replace(rows, '/', ',');
-    std::ranges::replace(rows, ';', '\n');
-    answers::CsvReader table("rho,pressure\n" + rows, "pressure.csv");
+    answers::CsvReader table(name.substr(table_of_pressure.size()), "pressure.csv");
     return known.emplace(name, answers::read_pressure_profile(table, "pressure.csv")).first->second;
   }
   if (auto law = answers::find_law_or_formulas(name)) return known.emplace(name, *law).first->second;
@@ -130,9 +127,8 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   }
   if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // otherwise the program's default number applies
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
-  const auto field = asked["field"].as<std::string>();
   using Field = portraits::PortraitStyle::Field;
-  question.style.field = field == "motion" ? Field::motion : field == "regularised" ? Field::regularised : Field::none;
+  question.style.field = asked["field"].as<std::string>() == "motion" ? Field::motion : Field::none;
   question.style.screen = asked["screen"].as<bool>();
   return question;
 }
@@ -180,12 +176,10 @@ class Plane {
     return result;
   }
 
-  /// Returns the file that the program writes for a request, with the ending tex or json.
-  std::string portrait_file(const val& asked, const std::string& ending) const {
+  /// Returns the TeX file that the program writes for a request.
+  std::string portrait_file(const val& asked) const {
     const answers::PortraitSpec question = question_of(asked, flow());
-    const portraits::PhasePortrait portrait = question.portrait();
-    return ending == "tex" ? portraits::pgfplots(question.figure(portrait))
-                           : portraits::to_json({portrait}, question.source());
+    return portraits::pgfplots(question.figure(question.portrait()));
   }
 
   /// Returns the stop time of one start.
@@ -422,10 +416,13 @@ std::string complaint(const std::string& body, double mu) {
 }
 
 /// Returns for each view {name, layered: true if it has isochrones and a field, moments: true if its points are times,
-/// not states}. The view of beta is left out, because a click there determines no time.
+/// not states}. The view of beta is left out, because a click there determines no time, and so is the view of two
+/// panels.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
-  std::erase(shown, portraits::View::regularised);
+  std::erase_if(shown, [](portraits::View view) {
+    return view == portraits::View::regularised || view == portraits::View::pair;
+  });
   return list(shown, [](portraits::View view) {
     return object("name", portraits::name(view), "layered", portraits::shows_window(view), "moments",
                   portraits::shows_moments(view));

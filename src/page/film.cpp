@@ -20,12 +20,12 @@ namespace {
 /// Returns the fit of the best law: {report, notes about columns that are not read, law, friction, patch, slip, spin,
 /// velocityX and velocityY of the centre along and across the slip, measured: {t, and for each observable of the film
 /// its column, and with _fitted the column of the fitted motion}, figure of `contensou fit`}.
-/// @param laws  names of laws, separated by commas
-val fit(const std::string& text, const std::string& name, const val& ball, const std::string& laws) {
+/// @param laws  list of names of laws
+val fit(const std::string& text, const std::string& name, const val& ball, const val& laws) {
   si::Experiment experiment = experiment_of(ball);
   experiment.ball.name = ball["title"].as<std::string>();
   std::vector<reduction::Law> tried;
-  for (const std::string& law : answers::split(laws, ',')) tried.push_back(law_of(law));
+  for (const auto& law : emscripten::vecFromJSArray<std::string>(laws)) tried.push_back(law_of(law));
   answers::CsvReader table(text, name);
   std::string notes;
   fit::FitRequest request{

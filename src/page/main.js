@@ -1,15 +1,15 @@
 // The page: what the reader does changes the state, and the state is drawn.
 import { Address } from "./state/address.js";
-import { makeChecks } from "./controls/checks.js";
 import { makeSettings } from "./controls/settings.js";
 import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
 import { makeFilm } from "./share/film.js";
 import { Hero } from "./hero/hero.js";
+import { lines } from "./hero/story.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
 import { makeOrbits } from "./controls/orbits.js";
-import { fromFragment, speaksOfNothing } from "./state/page_state.js";
+import { fromFragment, speaksOfNothing, strangeBall } from "./state/page_state.js";
 import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
@@ -21,7 +21,7 @@ import { makeThrowing } from "./hero/throwing.js";
 import { makeTour } from "./controls/tour.js";
 
 function start(library) {
-  const opens = speaksOfNothing(location.hash);
+  const opens = speaksOfNothing(location.hash, library);
   const store = new Store(library, fromFragment(location.hash, library));
   store.moves = !isStill();
   store.tell = (problem) => {
@@ -33,13 +33,20 @@ function start(library) {
   const plane = new Plane(store);
   makeSettings(store, plane);
   makeOrbits(store, plane);
-  makeChecks(store);
   const address = new Address(store);
   makeShare(store, { plane, hero, player, address, film: makeFilm(store, player) });
-  const go = (fragment, step = 0) => store.ask((state) => {
+  const go = (fragment, step = 0, done = () => player.begin()) => store.ask((state) => {
     const { theme, embed, lab } = state;
     Object.assign(state, fromFragment(fragment, library), { step, theme, embed, lab });
-  }, () => player.begin());
+  }, done);
+  // The question again, and the game: its tries begin at the puck of the opening.
+  const toLine = (line) => go(`ball=puck&orbits=2.286,0.5&line=${line}`, 0, () => {
+    player.toggle(false);
+    $("lanes").focus();
+  });
+  $("again").addEventListener("click", () => go("", 0, () => hero.ask()));
+  $("to-line").addEventListener("click", () => toLine(lines[0]));
+  $("next-line").addEventListener("click", () => toLine(lines[(lines.indexOf(store.state.line) + 1) % lines.length]));
   makeTour(store, go);
   makePresets(store, go);
   makeThrowing(store, hero, player, plane);
@@ -84,6 +91,8 @@ function start(library) {
   $("app").hidden = false;
   $("first-picture").remove();
   store.ask(() => {});
+  const strange = strangeBall(location.hash, library);
+  if (strange) store.tell(`There is no ball '${strange}'. Balls: ${library.balls.map(({ name }) => name).join(", ")}.`);
   // Who opens the page is asked; a link to a moment shows that moment, other links play.
   if (store.moves && opens && !store.state.embed) hero.ask();
   else if (store.state.fraction === 0) player.begin();

@@ -16,10 +16,10 @@ interface Start extends Speeds { along: number; across: number; heading: number 
 
 /** page_state.js says what each means. */
 interface State {
-  law: string; body: string; chi: number; gamma: number; mu: number;
+  law: string; body: string; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number;
+  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number; line: number;
 }
 
 interface Ball {
@@ -34,8 +34,8 @@ interface View { name: string; title: string; hint: string; layered: boolean; mo
 interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
 
 /** What one portrait is asked for by: portrait_request.js. */
-interface PortraitRequest extends Pick<State, "law" | "mu" | "chi" | "gamma" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
-  screen: boolean; linear: boolean; drive: number; orbits: Speeds[]; ball: object & Ball & { velocity: number[]; angular_velocity: number[] } | null;
+interface PortraitRequest extends Pick<State, "law" | "mu" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
+  chi: number; gamma: number; screen: boolean; linear: boolean; drive: number; orbits: Speeds[]; ball: object & Ball & { velocity: number[]; angular_velocity: number[] } | null;
 }
 
 /** Columns. */
@@ -49,7 +49,6 @@ interface Ride {
   t: Float64Array; x: Float64Array; y: Float64Array; vx: Float64Array; vy: Float64Array; wx: Float64Array; wy: Float64Array; wz: Float64Array;
   slip: Float64Array; energy: Float64Array; rest?: { t: number; x: number; y: number };
 }
-interface Check { name: string; measured: number; allowed: number; passed: boolean }
 
 type Words = import("./drawing/runs.js").Text;
 interface Tick { at: number; text: Words }
@@ -78,7 +77,7 @@ interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; 
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
   contact(law: string, ball: object): Contact;
-  fit(film: string, name: string, ball: object, laws: string): Fitted;
+  fit(film: string, name: string, ball: object, laws: string[]): Fitted;
   lawName(called: string): string;
   layOut(figure: Figure, width: number, height: number, letter: number): Layout;
   rowsOf(figure: { panels: unknown[]; columns: number; narrowest: number }, width: number): number;
@@ -90,7 +89,7 @@ interface Fitted { measured: Columns; report: string; notes: string; law: string
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
   portrait(request: PortraitRequest, behind: boolean): Portrait;
-  portraitFile(request: PortraitRequest, ending: string): string;
+  portraitFile(request: PortraitRequest): string;
   stop(u: number, v: number): number;
   stopBy(law: string, mu: number, u: number, v: number): number;
   instant(u: number, v: number, tau: number): Instant;
@@ -100,7 +99,6 @@ interface LibraryPlane {
   ride(ball: object, rollingFriction: number, end: number): Ride;
   motion(u: number, v: number): Motion;
   isochrone(tau: number): Float64Array[];
-  checks(u: number, v: number): Check[];
 }
 
 /** An element of the page, of whatever kind: with what fields, lists, forms, details, tables, links and canvases have. */

@@ -1,7 +1,7 @@
 // One curve: a start that is pulled runs through its copies, or changes curve, and the plane looks alike at every size.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertClose, close, drawn, open, page, pass, pixelOf, programStop, state } from "./browser.mjs";
+import { assertClose, close, drawn, open, page, pixelOf, programStop, state } from "./browser.mjs";
 
 const said = async () => (await page.textContent("#pointed")).trim();
 
@@ -86,7 +86,7 @@ test("while a start is held, what lies behind it stays; then it is what a link t
     return page.evaluate(() => document.getElementById("plane").toDataURL());
   };
   const behind = () => page.evaluate(() => (globalThis.seen ??= []).push(globalThis.page.plane.planeScene.figure) && new Set(globalThis.seen).size);
-  const link = "#ball=gel&window=11,0.6&orbits=9,0.5;-4,0.5&chosen=1&view=pair";
+  const link = "#ball=gel&window=11,0.6&orbits=9,0.5;-4,0.5&chosen=1&view=patch";
   await open(link);
   await behind();
   await page.mouse.move(...await pixelOf(-4, 0.5));
@@ -107,52 +107,6 @@ test("while a start is held, what lies behind it stays; then it is what a link t
   await close();
 });
 
-test("keys make copies, too, twice as large in two steps", async () => {
-  await open();
-  const { orbits: [before] } = await state();
-  await page.focus("#plane");
-  for (const key of ["]", "]", "[", "]"]) await page.keyboard.press(key);
-  const { orbits: [{ u, v }] } = await state();
-  assertClose(u / before.u, 2, 0.01, "u");
-  assertClose(v / before.v, u / before.u, 1e-12, "v");
-  assert.match(await said(), /^Speeds × (2|1\.99|2\.01): same curve, .* × the time: 3\.[67]/);
-  await close();
-});
-
-test("zoomed for ever, the numbers run and the curves stand still, until something is pressed", async () => {
-  /** The curves of the plane in parts of the window, and the window. */
-  const seen = () => page.evaluate(() => {
-    const { plane: { planeScene: { figure: { panels: [{ lines }] } } }, store: { portrait: { window: [U, V] } } } = globalThis.page;
-    return { U, lines: lines.filter(({ dashed }) => !dashed).map(({ lines }) => [...lines].map((value, i) => value / (i % 2 ? V : U))) };
-  });
-  const same = (a, b) => {
-    assert.deepEqual(a.lines.map((line) => line.length), b.lines.map((line) => line.length));
-    a.lines.forEach((line, i) => line.forEach((value, j) => assert.ok(Number.isNaN(value) || Math.abs(value - b.lines[i][j]) < 1e-3, `${value}, ${b.lines[i][j]}`)));
-  };
-  await open("#ball=puck&orbits=2.286,0.5", { stopped: true, reducedMotion: "no-preference" });
-  const before = await seen();
-  await page.click("#zoom-ever");
-  await pass(2500);
-  assert.ok((await seen()).U < before.U / 100);
-  assert.match(await said(), /^10[²³⁴⁵⁶] times closer/);
-  await page.mouse.click(5, 5);
-  await pass(100);
-  const after = await seen();
-  await pass(100);
-  assert.equal((await seen()).U, after.U);
-  await page.click("#fit");
-  assertClose((await seen()).U, before.U, 1e-12, "Fit");
-  await close();
-  await open("#ball=puck&orbits=2.286,0.5");
-  for (let decade = 1; decade <= 6; ++decade) {
-    await page.click("#zoom-ever");
-    const now = await seen();
-    assertClose(now.U, before.U / 10 ** decade, 1e-3, "without motion a decade");
-    same(now, before);
-  }
-  await close();
-});
-
 test("the tour's copies are copies", async () => {
   await open();
   for (let step = 1; step <= 2; ++step) {
@@ -168,43 +122,40 @@ test("the tour's copies are copies", async () => {
   await close();
 });
 
-test("the size of a start is a slider: its ends are the rim of the disc and the blown-up origin", async () => {
-  await open("#lab=0&ball=puck&orbits=2.286,0.5");
-  const to = async (value) => {
-    await page.locator("#size").evaluate((input, value) => {
-      input.value = value;
-      input.dispatchEvent(new Event("input"));
-    }, value);
-    return page.evaluate(() => {
-      const { state, store, library: { plane } } = globalThis.page;
-      const [{ u, v }] = state.orbits;
-      return { u, v, view: state.view, stop: store.motion.stop, place: [...plane.place(u, v)], said: document.getElementById("pointed").textContent };
-    });
-  };
-  const first = await to(0);
-  assert.equal(first.view, "uv");
-  const half = await to(-75);
-  assert.equal(half.view, "uv");
-  assertClose(half.stop / first.stop, 10 ** -0.3, 1e-5, "c times as long");
-  assert.match(half.said, /^Speeds × 0\.501: same curve, 0\.501 × the time: /);
-  // The farther, the nearer to the circle of radius 1, and never beyond.
-  const rims = [];
-  for (const value of [250, 500, 750, 1000]) {
-    const { view, place, said } = await to(value);
-    assert.equal(view, "disc");
-    assert.match(said, /The outer circle is infinity\.$/);
-    rims.push(Math.hypot(place[0], place[1]));
+test("one slider is the size of all motions: the numbers change with it, the curves and the stories do not", async () => {
+  for (const fragment of ["#lab=1&ball=puck&orbits=2.286,0.5;-1,0.3", "#lab=1&mu=0.3&orbits=0.8,3.5;0.4,2"]) {
+    await open(fragment);
+    const to = async (value) => {
+      await page.locator("#size").evaluate((input, value) => {
+        input.value = value;
+        input.dispatchEvent(new Event("input"));
+      }, value);
+      return page.evaluate(() => {
+        const { state: { orbits }, store, library: { plane } } = globalThis.page;
+        return {
+          orbits, U: store.portrait.window[0], stops: store.motions.map(({ stop }) => stop), said: document.getElementById("pointed").textContent,
+          curves: orbits.map(({ u, v }) => [0.2, 0.5, 0.9].flatMap((part) => {
+            const now = plane.instant(u, v, part * plane.stop(u, v));
+            return [now.u / u, now.v / v];
+          })),
+        };
+      });
+    };
+    const first = await to(0);
+    for (const value of [200, -1000, 1000]) {
+      const c = 10 ** (1.5 * value / 1000);
+      const now = await to(value);
+      assertClose(now.U, c * first.U, 1e-5, "the window");
+      now.orbits.forEach(({ u, v }, i) => assertClose(u / v, first.orbits[i].u / first.orbits[i].v, 1e-5, "its direction"));
+      now.stops.forEach((stop, i) => assertClose(stop, c * first.stops[i], 1e-4, "c times as long"));
+      now.curves.forEach((curve, i) => curve.forEach((share, j) => assertClose(share, first.curves[i][j], 1e-4, "the curve")));
+      assert.match(now.said, /^Both speeds × [\d.]+: the same curves, [\d.]+ × the time: /);
+    }
+    // Back in the middle it is what it was; another motion puts the slider there.
+    assert.deepEqual((await to(0)).orbits, first.orbits);
+    await to(500);
+    await page.click("#presets a:nth-child(2)");
+    assert.equal(await page.inputValue("#size"), "0");
+    await close();
   }
-  rims.forEach((rim, i) => assert.ok(rim <= 1 && (i === 0 || rim > rims[i - 1]), `${rims}`));
-  assert.ok(rims.at(-1) > 0.999, `${rims}`);
-  const small = await to(-1000);
-  assert.equal(small.view, "blowup");
-  assertClose(small.u / small.v, first.u / first.v, 1e-5, "its direction");
-  assert.match(small.said, /The inner circle is rest\.$/);
-  // Back in the middle it is what it was.
-  const back = await to(0);
-  assert.deepEqual([back.view, back.u, back.v], ["uv", first.u, first.v]);
-  await page.click("#presets a:nth-child(2)");
-  assert.equal(await page.inputValue("#size"), "0");
-  await close();
 });

@@ -195,7 +195,7 @@ test("the ball without spin is grey, whichever orbit is chosen", async () => {
   await close();
 });
 
-test("what is not seen is not drawn, and after three rounds it rests", async () => {
+test("what is not seen is not drawn, and after its round it rests", async () => {
   await open("#ball=puck&orbits=2.286,0.5", { stopped: true, reducedMotion: "no-preference" });
   await page.evaluate(() => {
     globalThis.drawings = 0;
@@ -220,7 +220,7 @@ test("what is not seen is not drawn, and after three rounds it rests", async () 
   await drawn();
   await pass(100);
   assert.ok((await now()).drawings > before.drawings + 2);
-  // Rounds, in a clock that goes quicker.
+  // A round, in a clock that goes quicker.
   await page.evaluate(() => {
     Object.defineProperty(globalThis.page.player, "seconds", { get: () => 0.05 });
     globalThis.starts = 0;
@@ -236,7 +236,7 @@ test("what is not seen is not drawn, and after three rounds it rests", async () 
   });
   await pass(5000);
   assert.equal(await page.evaluate(() => globalThis.page.player.playing), false);
-  assert.equal(await page.evaluate(() => globalThis.starts), 2);
+  assert.equal(await page.evaluate(() => globalThis.starts), 0);
   await close();
 });
 
@@ -246,7 +246,7 @@ test("no card changes its height with the view, the step of the tour or the moti
     const heights = () => page.evaluate(() => ["hero", "plane-card", "tour"].map((id) => Math.round(document.getElementById(id).getBoundingClientRect().height)).join());
     const seen = new Map([[await heights(), "the opening"]]);
     const note = async (what) => seen.set(await heights(), what);
-    for (const view of ["patch", "log", "similarity", "blowup", "disc", "time", "pair", "uv"]) {
+    for (const view of ["patch", "log", "similarity", "blowup", "disc", "time", "uv"]) {
       await page.click(`#views [value=${view}]`);
       await note(view);
     }
@@ -260,6 +260,50 @@ test("no card changes its height with the view, the step of the tour or the moti
       await note(`step ${step}`);
     }
     assert.equal(seen.size, 1, JSON.stringify([...seen]));
+    await close();
+  }
+});
+
+test("nothing moves under the hand: story, table and sliders stay while a slider is dragged, and the story fits", async () => {
+  const moved = [];
+  await open("#lab=0");
+  for (const [width, height] of [[360, 740], [390, 844], [768, 1024], [1024, 768], [1280, 800], [1440, 900], [1920, 1080], [2560, 1440]]) {
+    await page.setViewportSize({ width, height });
+    const rectangles = () => page.evaluate(() => ["words", "lanes", "player", "patch", "slip-control", "spin-control", "slip-slider", "spin-slider", "presets"].map((id) => {
+      const { left, top, width, height } = document.getElementById(id).getBoundingClientRect();
+      return { id, sides: [left + scrollX, top + scrollY, width, height] };
+    }));
+    for (const link of await page.$$("#presets a")) {
+      await link.evaluate((each) => each.click());
+      const what = `${width}, ${await link.textContent()}`;
+      const before = await rectangles();
+      for (const id of ["spin-slider", "slip-slider"]) for (let share = 0; share <= 1000; share += 125) {
+        await page.locator(`#${id}`).evaluate((input, value) => {
+          input.value = value;
+          input.dispatchEvent(new Event("input"));
+        }, share);
+        const wrong = (await rectangles()).filter(({ sides }, i) => sides.some((side, j) => Math.abs(side - before[i].sides[j]) > 0.5));
+        if (wrong.length) moved.push(`${what}, ${id} at ${share}: ${JSON.stringify([wrong[0], before.find((each) => each.id === wrong[0].id)])}`);
+        const over = await page.evaluate(() => ["words", "headline"].map((id) => document.getElementById(id)).find(({ scrollHeight, clientHeight }) => scrollHeight > clientHeight + 1)?.textContent);
+        if (over) moved.push(`${what}, ${id} at ${share}: cut: ${over}`);
+      }
+    }
+  }
+  assert.deepEqual(moved.slice(0, 5), [], `${moved.length} in all`);
+  await close();
+});
+
+test("the buttons of the tour stay where they are from step to step", async () => {
+  for (const [width, height] of [[390, 844], [1024, 768], [1440, 900]]) {
+    await open("#lab=0", { viewport: { width, height } });
+    const places = new Set();
+    for (let step = 0; step < 6; ++step) {
+      if (step) await page.locator("#step-on").evaluate((button) => button.click());
+      await page.waitForFunction((step) => globalThis.page.state.step === step, step);
+      await drawn();
+      places.add(await page.evaluate(() => ["step-on", "lanes"].map((id) => Math.round(document.getElementById(id).getBoundingClientRect().top + scrollY)).join()));
+    }
+    assert.equal(places.size, 1, `${width}: ${[...places].join("; ")}`);
     await close();
   }
 });

@@ -33,7 +33,7 @@ test("a link to rest says so, and what it rejects of the plane leaves the motion
     await page.click("#step-on");
     await close();
   }
-  await open("#ball=puck&orbits=2.286,0.5&window=1e200,1&view=pair");
+  await open("#ball=puck&orbits=2.286,0.5&window=1e200,1&view=log");
   assert.match(await page.textContent("#problem"), /window must be between/);
   const { ball, orbits: [{ u, v }], window } = await state();
   assert.deepEqual([ball.name, u, v, window], ["puck", 2.286, 0.5, null]);
@@ -136,9 +136,14 @@ test("what is wrong with a start is said beside it", async () => {
 });
 
 test("a link that nobody can read opens the page all the same", async () => {
-  await open("#law=nonsense&mu=-1&view=&window=1&orbits=x;1,-1;0.5,1&chosen=7&ball=golf&at=2");
+  await open("#law=nonsense&mu=-1&view=&window=1&orbits=x;1,-1;0.5,1&chosen=7&at=2");
   const { law, mu, view, orbits, chosen } = await state();
   assert.deepEqual({ law, mu, view, orbits, chosen }, { law: "exact", mu: 0.3, view: "uv", orbits: [{ u: 0.5, v: 1, along: 1, across: 0, heading: 0 }], chosen: 0 });
+  await close();
+  // A ball that nobody knows: the opening, and a word.
+  await open("#ball=golf&orbits=1,2");
+  assert.deepEqual([(await state()).ball.name, (await state()).orbits[0].u], ["puck", 2.286]);
+  assert.match(await page.textContent("#problem"), /^There is no ball 'golf'\. Balls: .*pool/);
   await close();
 });
 
@@ -162,7 +167,7 @@ test("a link that the library rejects opens the page all the same, and says why"
 test("a wrong number is named beside its field, and the last good state stays", async () => {
   await open("#law=exact&mu=0.25&orbits=0.8,3.5");
   const times = await stopTimes();
-  for (const [text, complaint] of [["abc", /'abc' is not a finite number/], ["0", /positive/], ["-1", /positive/], ["1.5", /at most 1/], ["", /needed/], ["1e999", /finite/], ["0,3", /0\.3/]]) {
+  for (const [text, complaint] of [["abc", /'abc' is not a finite number/], ["0", /positive/], ["-1", /positive/], ["1.5", /to 1 is allowed/], ["", /needed/], ["1e999", /finite/], ["0,3", /0\.3/]]) {
     await page.fill("#mu", text);
     assert.match(await page.textContent("#mu-error"), complaint);
     assert.equal(await page.getAttribute("#mu", "aria-invalid"), "true");

@@ -31,10 +31,19 @@ test("a film is fitted as the program fits it, and the ball takes what was found
   const words = ["fit", path, "--ball", "gel", "--law", "exact,pade"];
   const wanted = JSON.parse(execFileSync(program, [...words, "--format", "json"], { encoding: "utf8" }));
   const wantedText = execFileSync(program, words, { encoding: "utf8" });
+  // The second law holds a comma.
+  await open("#ball=gel&against=phi = k/hypot(1, k); psi = 1/hypot(1, k)");
+  assert.ok(await page.$eval("#picture option[value=film-fit]", ({ hidden }) => hidden));
+  await page.setInputFiles("#film", file("film.csv", text));
+  await fitted();
+  assert.match(await page.textContent("#film-report"), /hypot\(1, k\)/);
+  await close();
   await open("#ball=gel&against=pade");
   await page.setInputFiles("#film", file("film.csv", text));
   await fitted();
+  assert.ok(!(await page.$eval("#picture option[value=film-fit]", ({ hidden }) => hidden)));
   const { ball, law, orbits: [{ u, v }] } = await state();
+  assert.equal(await page.inputValue("#ball-fields [name=friction]"), String(Number(ball.friction.toPrecision(6))));
   assert.deepEqual([law, ball.patchBy], [wanted.law, "patch_radius"]);
   for (const [value, name] of [[ball.friction, "friction"], [ball.patch, "patch_radius"], [v, "slip"], [u / ball.radius, "spin"]]) assertClose(value, wanted[name].value, 1e-6, name);
   // The report is the program's, word for word; its numbers have six digits.
@@ -111,6 +120,7 @@ test("what is wrong with a film is said where it is read, with its line", async 
     ["t,slip\n0,1,2\n", /^track\.csv:2: 3 fields where the header has 2/],
     ["", /^track\.csv:1: empty input/],
     ["t,slip\n0,1\n0.1,0.8\n", /fit: /],
+    ["t,slip\n", /^track\.csv: the file has no rows$/],
   ]) {
     await page.setInputFiles("#film", file("track.csv", text));
     await page.waitForFunction(() => document.getElementById("film-problem").textContent !== "");
@@ -140,7 +150,7 @@ test("a film of 100 000 pictures is fitted, all of it", async () => {
 test("pictures are of any width, and of the plane, the balls, the patch and the motion in time", async () => {
   await open("#ball=pool&orbits=3,4,0.9,0.9&part=whole&rollingFriction=0.01");
   await page.evaluate(() => globalThis.page.store.move({ fraction: 0.3 }));
-  const words = { plane: /time left/, lanes: /spinning 105 rad\/s/, patch: /against sliding/, panes: /t \(s\)/ };
+  const words = { plane: /time left/, lanes: /spinning, 105 rad\/s/, patch: /friction slows the slide/, panes: /t \(s\)/ };
   for (const [picture, text] of Object.entries(words)) {
     await page.selectOption("#picture", picture);
     const svg = String(await saved("#save-svg"));

@@ -40,9 +40,9 @@ const dark = { colorScheme: "dark" };
 const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1 };
 writeFileSync(join(out, "page.png"), await shot("", 0.6, light));
 const shots = [
-  ["", 0.4, light], ["", 0.15, { ...phone, ...light }], ["#ball=gel&view=pair&orbits=9,0.5;-4,0.5", 0.2, dark],
+  ["", 0.4, light], ["", 0.15, { ...phone, ...light }], ["#ball=gel&view=log&orbits=9,0.5;-4,0.5", 0.2, dark],
   ["#ball=pool&orbits=3,4,0.9,0.9&rollingFriction=0.01&part=whole", 1, light], ["#ball=puck&view=disc&orbits=7.62,0.5", 0.6, light], ["#ball=rubber&view=blowup", 0.3, light],
-  ["#ball=gel&against=pade", 0, light, film], ["#body=disc&law=uniform&orbits=6,0.5", 0.3, { ...phone, ...dark }],
+  ["#ball=gel&against=pade", 0, light, film], ["#ball=puck&orbits=2.286,0.5;3.4,0.5;5,0.5;4.53,0.5&chosen=3&line=1", 1, { ...phone, ...dark }],
 ];
 const pictures = [];
 for (const asked of shots) pictures.push(await shot(...asked));

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { duration, length, shown } from "../../src/page/numbers.js";
 import { question } from "../../src/page/hero/story.js";
-import { assertClose, close, drawn, file, open, page, pass, pixelOf, programStop, saved, state } from "./browser.mjs";
+import { assertClose, close, drawn, file, json, open, page, pass, pixelOf, saved, state } from "./browser.mjs";
 
 /** Where a body is on the screen: the one that spins, or the other. */
 const body = (index = 1) => page.evaluate((index) => {
@@ -29,13 +29,10 @@ async function fling(dx, dy, wheel = 0, { index = 1, held = false } = {}) {
 }
 
 test("a body is thrown: how far is how fast, the wheel is the spin, and the throw is a dot of the plane and in the link", async () => {
-  await open("", { stopped: true, reducedMotion: "no-preference" });
-  await page.click("#answers button");
-  // Two pictures later the answers are gone, and the lanes are as wide as they stay.
+  await open("#ball=puck&orbits=2.286,0.5", { stopped: true, reducedMotion: "no-preference" });
   await pass(100);
-  await drawn();
   const width = await page.evaluate(() => globalThis.page.hero.lanes.width);
-  await fling(0.275 * width, 0, 400);
+  await fling(0.275 * width, 0, 800);
   const { orbits, chosen, ball, fraction } = await state();
   assert.deepEqual([orbits.length, chosen], [2, 1]);
   const { u, v, along, across, heading } = orbits[1];
@@ -105,7 +102,7 @@ test("what is thrown goes where the hand went, in the picture, and nothing is cu
       holder.remove();
       return found;
     }, svg);
-    assert.ok(texts.some(({ words }) => /more$/.test(words)), "the ruler");
+    assert.ok(texts.some(({ words }) => words === "0.515 m"), "the throw before");
     texts.forEach((text, i) => {
       assert.ok(text.left > -1 && text.right < width + 1 && text.top > -3 && text.bottom < height + 3, JSON.stringify({ ...text, dx, dy, width, height }));
       for (const other of texts.slice(i + 1)) {
@@ -157,7 +154,7 @@ test("keys throw, Escape and a short way throw nothing, and a wheel beside the b
   for (const key of ["ArrowUp", "ArrowUp", "Shift+ArrowRight"]) await page.keyboard.press(key);
   assert.equal(await told(), "0.563 m/s, 85 rad/s");
   await page.keyboard.press("Escape");
-  assert.match(await told(), /ended at the same instant/);
+  assert.equal(await told(), "");
   await page.keyboard.press("Enter");
   assert.equal((await state()).orbits.length, 1);
   assert.equal(await told(), "0.5 m/s, 60 rad/s");
@@ -169,6 +166,7 @@ test("keys throw, Escape and a short way throw nothing, and a wheel beside the b
   await fling(5, 5);
   assert.equal((await state()).orbits.length, 2);
   const before = await page.evaluate(() => scrollY);
+  await page.mouse.move(640, 40);
   await page.mouse.wheel(0, 200);
   await page.waitForFunction((before) => scrollY > before, before);
   await close();
@@ -183,11 +181,11 @@ test("the story has the two bodies in their colours", async () => {
         probe.style.color = colour;
         return getComputedStyle(probe).color;
       });
-      return { drawn: seen, words: [...document.querySelectorAll("#story b")].map((word) => [word.textContent, getComputedStyle(word).color]) };
+      return { drawn: seen, words: [...document.querySelectorAll("#story :is(.own, .plain)")].map((word) => [word.textContent, getComputedStyle(word).color]) };
     });
-    // Also how far each slides; the textbooks' length is that of the body without spin.
+    // Also how far each slides.
     const [plain, own] = [words[1][0], words[3][0]];
-    assert.deepEqual(words, [["One does not spin", bodies[0]], [plain, bodies[0]], ["The other spins", bodies[1]], [own, bodies[1]], [plain, bodies[0]]]);
+    assert.deepEqual(words, [["One does not spin", bodies[0]], [plain, bodies[0]], ["The other spins", bodies[1]], [own, bodies[1]]]);
     assert.ok(plain !== own && [plain, own].every((length) => / m$/.test(length)), `${plain}, ${own}`);
     await close();
   }
@@ -207,32 +205,94 @@ test("every picture is drawn on a phone", async () => {
   await close();
 });
 
-test("the dare: what came of a throw is what the library says, and the program", async () => {
+/** Where the ring of the body that spins is, at an angle to the left from the right, in rad. */
+const onRing = (angle) => page.evaluate((angle) => {
+  const { left, top } = document.getElementById("lanes").getBoundingClientRect();
+  const { x, y, radius } = globalThis.page.hero.places[1];
+  return [left + x + (radius + 12) * Math.cos(angle), top + y - (radius + 12) * Math.sin(angle)];
+}, angle);
+
+/** Pulls the ring from one angle to another, and lets go. */
+async function spin(from, to) {
+  await page.mouse.move(...await onRing(from));
+  await page.mouse.down();
+  for (let i = 1; i <= 12; ++i) await page.mouse.move(...await onRing(from + ((to - from) * i) / 12));
+  await page.mouse.up();
+}
+
+test("a line is reached by spin alone: the ring, the wheel without a button, keys; tries stay, and a hit is in the link", async () => {
+  await open("#lab=0", { stopped: true, reducedMotion: "no-preference" });
+  await page.click("#answers button");
+  await pass(8000);
+  await page.click("#to-line");
+  const headline = () => page.textContent("#headline");
+  assert.equal(await headline(), "Same push, 0.5 m/s. Reach the line, by spin alone.");
+  const speeds = async () => (await state()).orbits.map(({ u, v }) => [u / 0.0381, v]);
+  const rad = (await state()).ball.radius;
+  // An eighth of a turn to the left of two turns for 500 rad/s.
+  await spin(0, Math.PI / 4);
+  assertClose((await state()).orbits[1].u / rad, 60 + 500 / 16, 0.02, "rad/s");
+  assert.equal((await state()).orbits[1].v, 0.5, "the push is the same");
+  await pass(200);
+  assert.match(await headline(), /^Same push/, "nothing is told before the end");
+  await pass(14_000);
+  const [, { u }] = (await state()).orbits;
+  const far = json("stop", "--ball", "puck", "--slip", 0.5, "--spin", u / rad).slip_length;
+  assert.equal(await headline(), `${shown(u / rad, 3)} rad/s gives ${length(far, "m")}: ${length(1 - far, "m")} short of the line`);
+  assert.ok(!(await page.isVisible("#send")));
+  // The wheel over the body, without a button; a click lets go.
+  await page.mouse.move(...await body());
+  await page.mouse.wheel(0, -900);
+  await page.waitForFunction(() => globalThis.page.hero.ring?.share > 0.2);
+  assert.equal(await page.evaluate(() => scrollY), 0);
+  await page.mouse.click(...await body());
+  assert.equal((await state()).orbits.length, 3);
+  await pass(14_000);
+  assert.match(await headline(), /beyond the line$/);
+  // Keys, as fine as the line is wide.
+  await page.focus("#lanes");
+  do await page.keyboard.press("Shift+ArrowDown"); while (parseFloat((await told()).split(", ")[1]) > 121);
+  await page.keyboard.press("Enter");
+  await pass(14_000);
+  assert.match(await headline(), /gives (1|1\.0[012]\d?|0\.9[89]\d?) m: the line, in 3 tries$/);
+  const found = page.evaluate(() => globalThis.page.hero.ghostsNow().map(({ words }) => words));
+  assert.deepEqual(await found, (await speeds()).slice(0, 3).map(([its]) => `${shown(its * 0.0381 / rad, 3)} rad/s`));
+  await page.click("#send");
+  await page.waitForFunction(() => document.getElementById("told").textContent !== "");
+  const link = page.url();
+  await page.click("#next-line");
+  assert.deepEqual([(await state()).line, (await state()).orbits.length], [2, 1]);
+  await close();
+  await open(link.slice(link.indexOf("#")));
+  assert.match(await headline(), /: the line, in 3 tries$/);
+  await close();
+});
+
+test("the last throws stay on the table where they ended", async () => {
   await open();
-  assert.match(await page.textContent("#dare-line"), /No puck does/);
-  await fling(-120, 0, -400);
-  const { orbits: [, { u, v }] } = await state();
-  const { late, stop, radius, timeFactor } = await page.evaluate(([u, v]) => {
-    const { library: { plane }, store } = globalThis.page;
-    return { late: plane.instant(u, v, 0.99 * plane.stop(u, v)), stop: plane.stop(u, v), radius: store.state.ball.radius, timeFactor: store.timeFactor };
-  }, [u, v]);
-  assertClose(stop, programStop("--body", "disc", "--law", "uniform", "--u0", u, "--v0", v), 1e-12, "stop");
-  assert.equal(await told(), `Sliding and spinning ended at the same instant, after ${duration(stop * timeFactor, "s")}. At 99 % of that time it still slid at ${length(late.v, "m")}/s and spun at ${shown(Math.abs(late.u) / radius, 2)} rad/s.`);
-  await page.locator("#presets a", { hasText: "Gel" }).click();
-  assert.match(await page.textContent("#dare-line"), /A puck cannot/);
-  assert.match(await told(), /^It slides for 0\.627 s\. Its spin ends after 5\.17 s\.$/);
+  for (const dx of [60, 90, 120, 150]) await fling(dx, 0);
+  const { orbits, ball } = await state();
+  const ghosts = await page.evaluate(() => globalThis.page.hero.ghostsNow());
+  assert.equal(ghosts.length, 3);
+  ghosts.forEach(({ x, words }, i) => {
+    const { u, v } = orbits[i + 1];
+    const far = json("stop", "--ball", "puck", "--slip", v, "--spin", u / ball.radius).slip_length;
+    assertClose(x, far, 1e-9, "path");
+    assert.equal(words, length(far, "m"));
+  });
   await close();
 });
 
 test("each preset says in one sentence what is to be seen, with numbers that are the page's", async () => {
   await open();
   const links = await page.$$("#presets a");
-  assert.equal(links.length, 8);
+  assert.equal(links.length, 6);
   for (const link of links) {
     await link.click();
     assert.equal(await link.getAttribute("aria-current"), "true");
     const says = await page.textContent("#says");
-    const { real, spin, slip, own, plain, stop, turningAlone } = await page.evaluate(() => globalThis.page.hero.facts);
+    const { real, spin, slip, own, plain, stop } = await page.evaluate(() => globalThis.page.hero.facts);
+    const turningAlone = await page.evaluate(() => globalThis.page.library.plane.stop(globalThis.page.store.orbit.u, 0) * globalThis.page.store.timeFactor);
     const unit = real ? "m" : "";
     const times = own.path / plain.path;
     const known = [length(own.path, unit), length(plain.path, unit), `${shown(times, 2)} times as far`, `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second`,
@@ -277,13 +337,13 @@ test("paper has the end, and the screen afterwards what it had", async () => {
 test("a first picture stands in the page before the library does, of what it opens with", async () => {
   const first = () => page.locator("#first-picture");
   await open("", { javaScriptEnabled: false }, null);
-  assert.equal(await first().locator("h2").textContent(), question.headline);
+  assert.equal(await first().locator("h2").textContent(), question().headline);
   assert.ok((await first().locator("svg").boundingBox()).height > 80);
   await close();
   assert.ok(readFileSync(file, "utf8").indexOf("first-picture") < 40_000, "before the library");
   await open("", { reducedMotion: "no-preference" });
   assert.equal(await first().count(), 0);
-  assert.equal(await page.textContent("#headline"), question.headline);
+  assert.equal(await page.textContent("#headline"), question().headline);
   await close();
   // Of another motion it shows nothing.
   await open("#ball=gel", {}, null, () => (globalThis.WebAssembly = undefined));

@@ -1,45 +1,7 @@
 // The words of the page: headline, story, tour and presets say in plain words and numbers what is shown.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertClose, close, drawn, open, page, pass, pixelOf, state } from "./browser.mjs";
-
-test("numbers in the story are handles: a drag or keys do what the slider does, and the focus stays", async () => {
-  await open("#lab=0");
-  const handle = (key) => page.locator(`#story .handle[data-key=${key}]`);
-  assert.equal(await handle("slip").textContent(), "0.5 m/s");
-  assert.equal(await handle("spin").textContent(), "9.5 times a second");
-  assert.equal(await handle("spin").getAttribute("role"), "slider");
-  const box = await handle("spin").boundingBox();
-  await page.mouse.move(box.x + 5, box.y + box.height / 2);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 45, box.y + box.height / 2, { steps: 4 });
-  await page.mouse.up();
-  const { orbits: [{ u }], ball } = await state();
-  assertClose(u / ball.radius, 60 + 500 * 40 / 400, 0.02, "rad/s");
-  await handle("slip").focus();
-  await page.keyboard.press("ArrowRight");
-  assertClose((await state()).orbits[0].v, 0.6, 1e-9, "m/s");
-  assert.equal(await page.evaluate(() => document.activeElement.dataset.key), "slip");
-  assert.equal(await handle("slip").getAttribute("aria-valuetext"), "0.6 m/s");
-  // Without spin the sentence is another, and the handle is in it.
-  await handle("spin").focus();
-  await page.keyboard.press("Home");
-  assert.match(await page.textContent("#headline"), /^Without spin/);
-  assert.equal(await handle("spin").textContent(), "does not spin");
-  assert.equal(await page.evaluate(() => document.activeElement.dataset.key), "spin");
-  await page.keyboard.press("PageUp");
-  assertClose((await state()).orbits[0].u / ball.radius, 50, 1e-9, "rad/s");
-  await close();
-});
-
-test("words of the story have the colours of what they name", async () => {
-  await open("#lab=0");
-  const colours = await page.$$eval("#story b, #story .handle", (words) => Object.fromEntries(words.map((word) => [word.textContent, getComputedStyle(word).color])));
-  assert.equal(colours["0.515 m"], colours["The other spins"]);
-  assert.equal(colours["0.127 m"], colours["One does not spin"]);
-  assert.notEqual(colours["0.515 m"], colours["0.127 m"]);
-  await close();
-});
+import { close, drawn, open, page, pass, pixelOf, state } from "./browser.mjs";
 
 test("what was said of an orbit goes when the orbit does", async () => {
   await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5");
@@ -175,8 +137,7 @@ test("at each step of the tour the text says what the headline and the numbers s
 
 test("every preset says what is to be seen", async () => {
   await open();
-  const wanted = { "Puck": /4 times/, "No spin": /Without spin/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bowling hook": /curves by 6/,
-    "Floor polisher": /10 times/, "Curling stone": /stone spins as long as it slides/ };
+  const wanted = { "Puck": /4 times/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bowling hook": /curves by 6/, "Curling stone": /stone slides hardly farther/ };
   for (const link of await page.$$("#presets a")) {
     await link.click();
     assert.match(await page.textContent("#headline"), wanted[await link.textContent()]);
@@ -206,7 +167,7 @@ test("numbers of any size are answered in the page's words", async () => {
     await look(`mu ${value}`);
   }
   await close();
-  for (const fragment of ["#body=1e308,1e-308&mu=0.3", "#mu=1e-308", "#ball=gel&gravity=1e308", "#mu=1e-6&orbits=0.8,3.5", "#body=1000,0.001&mu=10&orbits=1,1", "#body=0.001,1000&mu=1&orbits=1,1"]) {
+  for (const fragment of ["#mu=1e-308", "#ball=gel&gravity=1e308", "#mu=1e-6&orbits=0.8,3.5"]) {
     await open(fragment, {}, false);
     await look(fragment);
     await close();

@@ -2,26 +2,23 @@
 import { $ } from "../dom.js";
 import { addNumberField, fillSelect } from "./fields.js";
 
-const table = "table";  // what the name of a law begins with that is the reader's own: rho/pressure of each row
-const mostRows = 200;   // of it, which go with the link
+const table = "table:";  // what the name of a law begins with that is the reader's own; its CSV follows
+const longest = 6000;   // letters of it, which go with the link
 
 /** Whether a law is formulas. */
 const isFormula = (law) => law?.includes("=");
 
 /** What a law is called: a table by the file that the program would read. */
-export const lawTitle = (law) => (law?.startsWith(`${table}:`) ? "pressure.csv" : law);
+export const lawTitle = (law) => (law?.startsWith(table) ? "pressure.csv" : law);
 
-/** The name of the law of a CSV with columns rho and pressure. @throws {Error} if it has none */
+/** The name of the law of a CSV with columns rho and pressure. @throws {Error} if it is too long */
 export function lawOfTable(text) {
-  const [header, ...rows] = text.replace(/^\ufeff/, "").trim().split(/\r\n?|\n/).map((line) => line.split(",").map((cell) => cell.trim()));
-  const columns = ["rho", "pressure"].map((name) => header.indexOf(name));
-  if (columns.includes(-1)) throw new Error("A pressure table has the columns rho and pressure: its first line must be \"rho,pressure\".");
-  if (rows.length > mostRows) throw new Error(`This page takes tables of at most ${mostRows} rows, because its link contains them. The program takes longer ones: --law FILE.csv.`);
-  return `${table}:${rows.map((row) => columns.map((column) => row[column] ?? "").join("/")).join(";")}`;
+  if (text.length <= longest) return `${table}${text.replace(/^\ufeff/, "").trim()}`;
+  throw new Error(`This page takes tables of at most ${longest} letters, because its link contains them. The program takes longer ones: --law FILE.csv.`);
 }
 
 /** The table of a law of lawOfTable, as the file that the program reads; null of any other. */
-export const tableOfLaw = (law) => (law.startsWith(`${table}:`) ? `rho,pressure\n${law.slice(table.length + 1).replaceAll("/", ",").replaceAll(";", "\n")}\n` : null);
+export const tableOfLaw = (law) => (law.startsWith(table) ? `${law.slice(table.length)}\n` : null);
 
 /**
  * @param {string} id  of the list, and with -exponent of where the number's field goes

@@ -24,18 +24,20 @@ export function makeOrbits(store, plane) {
     return entry;
   }
 
+  /** Of a real ball the spin is asked for, else the reduced speeds. */
+  const titles = () => (store.state.ball ? { u: "spin (rad/s)", v: "slip (m/s)" } : { u: "u₀", v: "v₀" });
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     let [what, problem] = ["", ""];
     try {
       const [u, v] = ["u", "v"].map((name) => {
-        what = `${name}₀: `;
+        what = `${titles()[name]}: `;
         return parseNumber(form.elements[name].value);
       });
       what = "This start cannot be shown: ";
-      if (v < 0) throw new Error("v₀ must be ≥ 0");
-      if (u === 0 && v === 0) throw new Error("u₀ = v₀ = 0 is a body at rest");
-      plane.startOrbit({ u, v }, (edit, done) => done(store.change(edit)));
+      if (v < 0) throw new Error(`${titles().v} must be ≥ 0`);
+      if (u === 0 && v === 0) throw new Error("both speeds are 0: that is a body at rest");
+      plane.startOrbit({ u: u * (store.state.ball?.radius ?? 1), v }, (edit, done) => done(store.change(edit)));
     } catch (error) {
       problem = what + error.message;
     }
@@ -47,6 +49,7 @@ export function makeOrbits(store, plane) {
   store.shows.push(({ orbits, chosen, ball }) => {
     const { motions, others, request, theme } = store;
     $("clear-orbits").hidden = orbits.length < 2;
+    for (const [name, title] of Object.entries(titles())) write(form.elements[name].previousElementSibling, title);
     showList(list, orbits, item, (entry, { u, v }, index) => {
       entry.className = index === chosen ? "chosen" : "";
       entry.style.setProperty("--swatch", theme.swatch(index));

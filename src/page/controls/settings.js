@@ -10,7 +10,7 @@ import { allowed, bodyOf, initialState, moved, takeBall, unrolled } from "../sta
 /** The titles of entries of the library, by their names. */
 const titlesOf = (entries) => Object.fromEntries(entries.map(({ name, title = name.replace("-", " ") }) => [name, title]));
 
-const fieldTitles = { none: "none", motion: "motion (2.6)", regularised: "regularised motion (2.7)" };
+const fieldTitles = { none: "none", motion: "motion (2.6)" };
 const patchTitles = { patch_radius: "radius ε (m)", spin_deceleration: "spin deceleration (rad/s²)", whole_face: "whole face" };
 const ballLabels = {
   radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)", patchBy: "patch given by",
@@ -20,8 +20,8 @@ const ballLabels = {
 
 const smallestMu = 1e-3;
 const mostFriction = 1.2;
-const shareToMu = (share, largest) => Number((largest * (smallestMu / largest) ** (1 - share)).toPrecision(3));
-const muToShare = (mu, largest) => 1 - Math.log(mu / largest) / Math.log(smallestMu / largest);
+const shareToMu = (share) => Number((smallestMu ** (1 - share)).toPrecision(3));
+const muToShare = (mu) => 1 - Math.log(mu) / Math.log(smallestMu);
 const round = (value) => Number(value.toPrecision(3));
 const radiusOf = ({ ball }) => ball?.radius ?? 1;
 
@@ -42,14 +42,10 @@ function makeChoices(controls, store, plane) {
     if (ball) takeBall(state, ball);
     else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(unrolled) });
   });
-  controls.choose("body", { ...titlesOf(bodies), own: "your own χ and γ" }, ({ body }) => body, (state, body) => {
+  controls.choose("body", titlesOf(bodies), ({ body }) => body, (state, body) => {
     state.body = body;
-    const { mu, largestMu } = bodyOf(state, store.library);
-    state.mu = mu ?? Math.min(state.mu, largestMu);
+    state.mu = bodyOf(state, store.library).mu ?? state.mu;
   });
-  for (const [key, label] of Object.entries({ chi: "χ = 1 + mR²/J_h", gamma: "γ = mR²/J_z" })) {
-    controls.number($("inertia"), key, label, ({ state }) => state[key], (state, value) => (state[key] = value));
-  }
   controls.choose("field", fieldTitles, ({ field }) => field, (state, field) => (state.field = field));
   ["U", "V"].forEach((name, side) => {
     const shown = ({ portrait }) => Number(portrait.window[side].toPrecision(6));
@@ -67,7 +63,14 @@ function makeChoices(controls, store, plane) {
     $("pressure").value = "";
   });
   const formulas = $("formulas");
-  formulas.addEventListener("change", () => store.attempt(() => useLaw("law")(formulas.value.trim())));
+  formulas.addEventListener("change", () => store.attempt(() => {
+    try {
+      useLaw("law")(formulas.value.trim());
+    } catch (error) {
+      // The page has no options.
+      throw new Error(error.message.replace(/give its value with --param (\S+)=VALUE/, "write its value at the end: ; $1 = 0.8"));
+    }
+  }));
   $("save-pressure").addEventListener("click", () => save("pressure.csv", tableOfLaw(store.state.law), "text/csv"));
   $("isochrones").addEventListener("change", () => store.ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
@@ -90,7 +93,6 @@ function makeChoices(controls, store, plane) {
     $("isochrones").checked = state.isochrones > 0;
     $("field").disabled = $("isochrones").disabled = !view.layered;
     $("body-label").hidden = Boolean(state.ball);
-    $("inertia").hidden = state.body !== "own";
     showView(state.view);
     write($("view-hint"), view.hint);
     const without = contact?.without ? `. The plane is drawn without rolling friction: ${contact.without}.` : "";
@@ -118,21 +120,20 @@ function makeSliders(controls, store, plane) {
   controls.slider("spin", "spin", ({ orbit, state }) => {
     const spin = orbit && orbit.u / radiusOf(state);
     return orbit && { share: Math.abs(spin) / most(state).spin, text: state.ball ? `${shown(spin, 3)} rad/s` : `u₀ = ${shown(spin, 3)}` };
-  }, (state, share) => move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * round(share * most(state).spin) * radiusOf(state) })));
+  }, (state, share) => move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * Number((round(share * most(state).spin) * radiusOf(state)).toPrecision(12)) })));
   controls.slider("friction", "friction f", ({ state: { ball } }) => ball && { share: ball.friction / mostFriction, text: shown(ball.friction, 3) },
     (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * mostFriction)));
   const setMu = (state, mu) => {
-    const { largestMu } = store.body;
-    if (allowed("mu", mu) > largestMu) throw new Error(`mu is the patch radius divided by R: at most ${largestMu} here`);
+    allowed("mu", mu);
     // Patch radius and spin deceleration are proportional to mu.
     if (state.ball) state.ball.patch = Number(((state.ball.patch * mu) / state.mu).toPrecision(12));
     else state.mu = mu;
   };
   const isGiven = () => (store.state.ball ? store.state.ball.patchBy === "whole_face" : store.body.mu !== undefined);
-  const { all, output } = controls.slider("mu", "patch", ({ state: { mu }, body, contact }) => {
+  const { all, output } = controls.slider("mu", "patch", ({ state: { mu }, contact }) => {
     const text = contact ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
-    return { share: muToShare(mu, body.largestMu), disabled: isGiven(), text, spoken: `${text && `${text}, `}mu ${shown(mu)}` };
-  }, (state, share) => setMu(state, shareToMu(share, store.body.largestMu)));
+    return { share: muToShare(mu), disabled: isGiven(), text, spoken: `${text && `${text}, `}mu ${shown(mu)}` };
+  }, (state, share) => setMu(state, shareToMu(share)));
   // And mu as a number.
   const input = make("input", { id: "mu", className: "number", inputMode: "decimal", autocomplete: "off", ariaLabel: "mu, as a number" });
   const field = numberField(input, (mu) => store.change((state) => setMu(state, mu)));
@@ -152,10 +153,12 @@ function makeBallCard(controls, store) {
   const ownerOf = (key, { ball, orbits, chosen }) => (key in ball ? ball : orbits[chosen]);
   const isHidden = (key, { state: { ball }, body }) =>
     !ball || (key === "patch" && ball.patchBy === "whole_face") || (/^(along|across|rolling)/.test(key) && body.chi === 1);
+  // The link has all digits.
+  const fewDigits = (value) => value && Number(value.toPrecision(6));
   const patchBy = make("select", { id: "patch-by" });
   for (const [key, label] of Object.entries(ballLabels)) {
     if (key === "patchBy") $("ball-fields").append(make("label", {}, label, patchBy));
-    else controls.number($("ball-fields"), key, label, (store) => (isHidden(key, store) ? undefined : ownerOf(key, store.state)?.[key]), (state, value) => {
+    else controls.number($("ball-fields"), key, label, (store) => (isHidden(key, store) ? undefined : fewDigits(ownerOf(key, store.state)?.[key])), (state, value) => {
       // The spin in rad/s stays.
       if (key === "radius") for (const orbit of state.orbits) orbit.u *= value / state.ball.radius;
       ownerOf(key, state)[key] = value;
@@ -173,6 +176,7 @@ function makeBallCard(controls, store) {
     write($("ball-title"), ball.title);
     // A puck rests on its whole face, a stone on a band, and neither rolls.
     patchBy.options[patchBy.options.length - 1].disabled = body.mu === undefined;
-    write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(mu, 5)}. ${ball.sources}`);
+    write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(mu, 5)}. ` +
+      `${body.chi === 1 ? "" : `It counts as rolling once its slip is below ${shown(1000 * store.library.rollingSlip, 2)} mm/s. `}${ball.sources}`);
   });
 }

@@ -1,12 +1,12 @@
 // What fingers, mouse and keys do on a canvas, in its pixels.
 
 const slack = 6;    // pixels that a finger may move and still tap
-const notch = 400;  // pixels that the wheel turns by for a radian
+const notch = 800;  // pixels that the wheel turns by for a radian
 
 /**
  * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held, from), release(), cancel(), turn(radians, held) of
- *            what is held, to the left; tap(x, y, kind), drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(),
- *            isochrone(), ruler(), clear(), remove(), zoom(factor), grow(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
+ *            what is held, or lies under the wheel, to the left; tap(x, y, kind), drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(),
+ *            isochrone(), clear(), remove(), zoom(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
  *            may be missing
  */
 export function listen(canvas, on) {
@@ -72,9 +72,10 @@ export function listen(canvas, on) {
   }, { passive: false });
   // Two fingers on a trackpad, or Ctrl and the wheel; the wheel alone scrolls the page.
   canvas.addEventListener("wheel", (event) => {
-    if (!event.ctrlKey && !turns()) return;
+    const held = start ? start.held : on.turn ? on.hold(...place(event), "mouse") : null;
+    if (!event.ctrlKey && (!on.turn || held === null)) return;
     event.preventDefault();
-    if (turns()) on.turn(-event.deltaY / notch, start.held);
+    if (on.turn && held !== null) on.turn(-event.deltaY / notch, held);
     else on.zoom?.(Math.exp(Math.max(-0.3, Math.min(0.3, event.deltaY / 200))));
   }, { passive: false });
   canvas.addEventListener("blur", () => on.leave?.());
@@ -83,8 +84,7 @@ export function listen(canvas, on) {
     const fine = event.shiftKey ? 0.25 : 1;
     const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const actions = {
-      "Enter": on.enter, "Delete": on.remove, "Backspace": on.remove, "Escape": on.clear, "i": on.isochrone, "p": on.panel, "r": on.ruler,
-      "]": on.grow && (() => on.grow(Math.SQRT2)), "[": on.grow && (() => on.grow(Math.SQRT1_2)),
+      "Enter": on.enter, "Delete": on.remove, "Backspace": on.remove, "Escape": on.clear, "i": on.isochrone, "p": on.panel,
       "+": on.zoom && (() => on.zoom(0.8)), "-": on.zoom && (() => on.zoom(1.25)),
     };
     if (steps[event.key]) on.move(...steps[event.key].map((step) => step * fine));

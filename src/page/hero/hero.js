@@ -1,17 +1,16 @@
-// The top of the page: what the ball does, beside one that does not spin.
+// The top of the page: the motion of a body beside one that does not spin, the question, and the game of the line.
 import { $, make, write } from "../dom.js";
 import { drawLanes, drawPatch } from "./hero_figure.js";
 import { duration, length, shown } from "../numbers.js";
-import { makeHandles } from "./handles.js";
-import { Ruler } from "./ruler.js";
-import { dare, factsOf, nothing, outcome, question, say } from "./story.js";
+import { answers, factsOf, goal, judged, nothing, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { borderOf, CanvasSurface, widthOf } from "../drawing/surface.js";
-import { rideOn } from "./turning.js";
+import { product, rideOn, rotation } from "./turning.js";
 
 const titleLines = 3.8;  // of a film, in sizes of the text
-const fastest = 9;  // rad/s on the screen; a faster spin is drawn in a part of its size, so that its marks turn one way to the eye
-const late = 0.99;  // of the time until the stop, at which the last speeds are told
+const turning = 20;      // s that the body turns in place while the reader is asked
+const ghosts = { game: 8, "": 3 };  // earlier throws that stay on the table
+export const reach = 0.02;  // m by which a throw may miss the line
 
 export class Hero {
   /** What is said. */
@@ -22,14 +21,10 @@ export class Hero {
   places = [];
   /** @type {{from: number[], to: number[], words: string} | null} of a throw */
   aim = null;
-  /** @type {OwnOrbit | null} the motion of which the reader is asked, before he is told */
+  /** @type {{share: number, words: string} | null} around the body that spins */
+  ring = null;
+  /** @type {{key: string, guess: string, ended: boolean, turn: number} | null} the question, while its motion is shown */
   asked = null;
-  guess = "";
-  said = "";  // of what the reader does on the table
-  /** @type {number[][] | null} of the ruler, or of the bar of the scale: pixels */
-  rulerEnds = null;
-  /** The place at a pixel. */
-  toTable = (/** @type {number} */ x, /** @type {number} */ y) => ({ x, y });
   /** @type {CanvasSurface | null} of the film that is being taken */
   film = null;
 
@@ -39,99 +34,149 @@ export class Hero {
     this.player = player;
     this.lanes = new ScreenSurface($("lanes"), (surface) => Object.assign(this, this.drawBalls(surface)));
     this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
-    this.ruler = new Ruler(this);
-    this.handles = makeHandles($("story"));
     store.shows.push(() => this.show());
-    $("answers").append(...question.answers.map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
+    $("answers").append(...Object.values(answers).map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
   }
 
-  /** Asks which body goes farther. */
+  /** The motion that is shown. */
+  get key() {
+    const { ball, orbits, chosen, line } = this.store.state;
+    return JSON.stringify([ball, orbits, chosen, line]);
+  }
+
+  /** What the page does with the reader: it asks, shows the first round, has judged his answer, or plays for a line. */
+  get mode() {
+    const { asked, store: { state, ride } } = this;
+    return !ride ? "" : asked ? (asked.ended ? "judged" : asked.guess ? "watching" : "asking") : state.line ? "game" : "";
+  }
+
+  /** Asks which body goes farther. The body that spins turns in place. */
   ask() {
-    this.asked = this.store.motion;
+    const { store, player, lanes } = this;
+    player.toggle(false);
+    store.move({ fraction: 0 });
+    const asked = this.asked = { key: this.key, guess: "", ended: false, turn: 0 };
     this.show();
     this.draw();
+    const rate = (player.spinShown * this.facts.spin * store.end * store.timeFactor) / player.seconds;
+    let began = 0;
+    const step = (time) => {
+      began ||= time;
+      if (this.asked !== asked || asked.guess || time - began > 1000 * turning) return;
+      asked.turn = (rate * (time - began)) / 1000;
+      lanes.drawInSight();
+      requestAnimationFrame(step);
+    };
+    if (store.moves) requestAnimationFrame(step);
   }
 
   answer(guess) {
-    this.guess = `You said: ${guess}. `;
-    this.player.toggle(true);
+    const { asked, store, player } = this;
+    if (!asked) return;
+    asked.guess = guess;
+    this.show();
+    if (store.moves) player.toggle(true);
+    else store.move({ fraction: 1 });
   }
 
   /** Everything but the moment. */
   show() {
     const { store, store: { ride } } = this;
-    if (this.asked !== store.motion) this.asked = null;
+    if (this.asked && this.asked.key !== this.key) this.asked = null;
+    const { mode } = this;
+    document.documentElement.dataset.mode = mode;
     for (const id of ["lanes", "patch"]) $(id).hidden = !ride;
-    $("answers").hidden = !this.asked;
-    $("dare").hidden = !ride || Boolean(this.asked);
-    $("says").classList.toggle("later", Boolean(this.asked));
+    $("answers").hidden = mode !== "asking";
+    $("to-line").hidden = mode === "game";
     if (ride) {
       this.facts = factsOf(store);
       this.bodies = this.bodiesOf(ride);
     }
-    const { headline, story, pieces = [["", story]] } = !ride ? nothing : this.asked ? question : say(this.facts);
+    this.speak();
+  }
+
+  /** Headline and story. */
+  speak() {
+    const { store, facts, mode, asked } = this;
+    const said = mode === "" && !store.ride ? nothing : mode === "asking" || mode === "watching" ? question(asked?.guess)
+      : mode === "game" ? goal(this.tryNow) : say(facts);
+    const headline = mode === "judged" ? judged(asked?.guess ?? "", facts) : said.headline;
     write($("headline"), headline);
-    this.tell(pieces);
-    write($("dare-line"), dare[ride?.rolls ? "rolls" : "stops"]);
-    $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${story}`);
+    this.tell(said.pieces);
+    // A screen reader hears what came of it.
+    write($("heard"), mode === "judged" || (mode === "game" && this.tryNow.ended) ? headline : "");
+    const hit = mode === "game" && this.tryNow.ended && this.tryNow.hit;
+    $("send").hidden = $("film-line").hidden = $("next-line").hidden = !hit;
+    $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${$("story").textContent}`);
+  }
+
+  /** The last try for the line. */
+  get tryNow() {
+    const { facts, store: { state: { line, orbits, chosen, fraction }, ride } } = this;
+    const far = ride?.own.path ?? 0;
+    return { line, far, slip: facts.slip, spin: facts.spin, tries: chosen, ended: fraction >= 1 && chosen > 0, hit: chosen > 0 && orbits.length > 1 && Math.abs(far - line) <= reach };
   }
 
   /** Both bodies: how they move, and when and where each ceases to slide. */
-  bodiesOf({ courses, plain, own, radius, end }) {
+  bodiesOf({ courses, plain, own, end }) {
     const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
     const lasts = end * timeFactor;
-    const spinShown = Math.min(1, (fastest * player.seconds * radius) / (Math.abs(orbit.u) * lasts) || 1);
     // A path that curves is seen from where it leads to the right, or where it was thrown to.
     const [x, y] = ["x", "y"].map((key) => courses[1][key].at(-1));
     const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
-    const titles = ["without spin", spin === 0 ? "this one" : `spinning${ball ? ` ${shown(spin, 3)} rad/s` : ""}`];
+    const titles = ["without spin", spin === 0 ? "this one" : ball ? `spinning, ${shown(spin, 3)} rad/s` : "spinning"];
     return [plain, own].map(({ end, path }, i) => {
-      const ride = rideOn(courses[i], heading, spinShown);
-      return { ...ride, title: titles[i], end, far: path, stop: ride.at(Math.min(1, end / lasts)), slides: ride.until(end / lasts) };
+      const ride = rideOn(courses[i], heading, player.spinShown);
+      const share = Math.min(1, end / lasts);
+      return { ...ride, title: titles[i], end, far: path, share, stop: ride.at(share) };
     });
   }
 
-  /** The story: words in the colours of what they name, and numbers that are handles. */
+  /** Words in the colours of the bodies. */
   tell(pieces) {
-    const { handles, store: { state: { chosen }, theme } } = this;
-    const kinds = pieces.map(([kind]) => kind);
-    const nodeOf = (kind, i) => (!kind ? new Text() : handles[kind] && kinds.indexOf(kind) === i ? handles[kind] : make("b"));
-    const shape = kinds.join();
-    // What stays keeps the focus.
-    if (shape !== this.shape) {
-      const focused = Object.entries(handles).find(([, handle]) => handle === document.activeElement);
-      $("story").replaceChildren(...kinds.map(nodeOf));
-      if (focused) (focused[1].isConnected ? focused[1] : $(`${focused[0]}-slider`)).focus();
-      this.shape = shape;
-    }
-    const colours = { plain: theme.soft, own: theme.swatch(chosen), spin: theme.swatch(chosen) };
-    $("story").childNodes.forEach((node, i) => {
-      write(node, pieces[i][1]);
-      if (node instanceof HTMLElement) node.style.color = colours[kinds[i]] ?? "";
-    });
-    for (const [key, handle] of Object.entries(handles)) {
-      const slider = $(`${key}-slider`);
-      if (!slider) continue;
-      handle.setAttribute("aria-valuenow", slider.value);
-      handle.setAttribute("aria-valuetext", handle.textContent);
-    }
+    const { store: { state: { chosen }, theme } } = this;
+    const colours = { plain: theme.soft, own: theme.swatch(chosen) };
+    const key = JSON.stringify([pieces, colours]);
+    if (key === this.told) return;
+    this.told = key;
+    $("story").replaceChildren(...pieces.map(([kind, textContent]) => {
+      const node = make(kind === "times" ? "b" : "span", { textContent, className: kind });
+      node.style.color = colours[kind] ?? "";
+      return node;
+    }));
   }
 
   /** Says what the reader does on the table. */
   say(text) {
-    this.said = text;
-    this.draw();
+    write($("told"), text);
   }
 
   drawPatch(surface) {
-    const { now, theme } = this.store;
-    if (now) drawPatch(surface, { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force }, theme);
+    const { now, theme, state: { chosen }, request } = this.store;
+    if (!now) return;
+    const scene = { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force, colour: theme.swatch(chosen), hollow: request.law === "ring" };
+    drawPatch(surface, scene, theme);
   }
 
   drawBalls(surface) {
-    const { store: { ride, theme, contact }, aim, asked } = this;
-    const placed = this.ruler.placed && { ...this.ruler.placed, words: this.ruler.words };
-    return ride ? drawLanes(surface, { lanes: this.lanesNow(), radius: ride.radius, rolls: ride.rolls, unit: contact ? "m" : "", secret: asked !== null, aim, placed }, theme) : { places: [], rulerEnds: null };
+    const { store: { ride, theme, contact, state: { line } }, aim, ring } = this;
+    if (!ride) return { places: [] };
+    const unit = contact ? "m" : "";
+    return drawLanes(surface, {
+      lanes: this.lanesNow(), radius: ride.radius, rolls: ride.rolls, unit, aim, ring, ghosts: this.ghostsNow(),
+      line: line ? { at: line, reach, words: length(line, unit) } : null,
+    }, theme);
+  }
+
+  /** Where earlier throws have ended that went straight. */
+  ghostsNow() {
+    const { mode, store, store: { state: { orbits, chosen, ball }, theme, contact } } = this;
+    const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(({ index, across }) => index !== chosen && across === 0);
+    return earlier.filter((_, i) => i >= earlier.length - (ghosts[mode] ?? 0)).map((orbit) => {
+      const [far, angle] = [store.farOf(orbit.index), (orbit.heading * Math.PI) / 180];
+      const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
+      return { x: far * Math.cos(angle), y: far * Math.sin(angle), words, colour: theme.swatch(orbit.index) };
+    });
   }
 
   /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
@@ -153,42 +198,48 @@ export class Hero {
     film.text(4, 1.7 * textSize, headline, { colour: theme.ink, size: fitting * textSize, bold: true });
     const clock = [player.timeText(now.tau), $("pace").textContent].filter(Boolean).join(", ");
     film.text(film.width - 4, 3.2 * textSize, clock, { colour: theme.soft, size: textSize, align: "right" });
+    // A film that is sent on says where it comes from.
+    film.text(4, 3.2 * textSize, /^http/.test(location.protocol) ? `${location.host}${location.pathname}` : "contensou", { colour: theme.soft, size: textSize });
     film.context.drawImage(lanes.canvas, 0, titleLines * textSize, lanes.width, lanes.height);
   }
 
   lanesNow() {
-    const { store: { state, timeFactor, ride, end, theme, contact }, bodies } = this;
+    const { store: { state, timeFactor, ride, end, theme, contact }, bodies, mode, asked } = this;
     const time = state.fraction * end * timeFactor;
     const places = bodies.map(({ at }) => at(state.fraction));
+    if (mode === "asking" && asked) places[1] = { ...places[1], turn: product(rotation([0, 0, asked.turn]), places[1].turn) };
     const has = bodies.map((body) => time >= (1 - 1e-12) * body.end);
     const word = ({ rest }) => (!ride.rolls ? "stopped" : time < (rest?.t ?? Infinity) ? "rolls" : "rests");
     // A ruler lies between them where both go straight.
     const [plain, own] = bodies;
     const straight = bodies.every(({ stop: { x, y, path } }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
     const [to, path] = has[1] ? [own.stop, own.far] : [places[1], places[1].path];
-    const ruler = straight && path > 1.02 * plain.far ? { from: plain.stop, to, more: path - plain.far } : null;
+    const ruler = straight && has[0] && path > 1.02 * plain.far ? { from: plain.stop, to, more: path - plain.far } : null;
     const slid = (body) => `${word(body)}, after ${length(body.far, contact ? "m" : "")} in ${duration(body.end, contact ? "s" : "")}`;
-    return bodies.map((body, i) => ({
-      title: `${body.title}: ${has[i] ? slid(body) : "slides"}`,
-      xs: body.xs, ys: body.ys, at: places[i], slides: body.slides,
-      colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
-    }));
+    return bodies.map((body, i) => {
+      const slidUntil = Math.min(state.fraction, body.share);
+      const track = body.until(slidUntil);
+      return {
+        title: mode === "asking" || mode === "game" ? body.title : `${body.title}: ${has[i] ? slid(body) : "slides"}`,
+        xs: body.xs, ys: body.ys, at: places[i], slid: track, rolled: ride.rolls && state.fraction > body.share ? body.until(state.fraction).slice(track.length - 2) : [],
+        colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
+      };
+    });
   }
 
   draw() {
-    const { store: { ride, now, state, orbit, motion, library: { plane } }, facts } = this;
+    const { store: { ride, now, state }, mode, asked } = this;
     if (!ride) return;
-    if (this.asked && state.fraction > 0) {
-      this.asked = null;
+    const ended = state.fraction >= 1;
+    if (asked && mode === "watching" && ended) {
+      asked.ended = true;
       this.show();
-    }
+    } else if (mode === "game" && ended !== this.ended) this.speak();
+    this.ended = ended;
     if (this.film) this.drawFilm(this.film);
     else this.lanes.drawInSight();
     this.patch.drawInSight();
     $("patch").setAttribute("aria-label", `The contact patch from below: ${shown(100 * now.force, 2)} % of the friction f N acts against the sliding` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
-    if (this.aim) return;
-    const last = state.fraction < 1 ? null : plane.instant(orbit.u, orbit.v, late * motion.stop);
-    write($("told"), this.said ? this.said : last ? this.guess + outcome(facts, { slip: last.v, spin: (last.u / orbit.u) * facts.spin }, late) : "");
   }
 }

@@ -4,6 +4,7 @@ import { borderOf, widthOf } from "../drawing/surface.js";
 import { product, rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
+export const ringWidth = 12;  // pixels between a body and its ring
 const spotSize = 0.36;  // rad
 const ringed = Math.atan(2);  // rad, of the corners of an icosahedron around the one on top
 const circle = Array.from({ length: 24 }, (_, i) => rotation([0, 0, (i * Math.PI) / 12]))
@@ -21,46 +22,88 @@ const spots = [[0, 0], ...rings, [Math.PI, 0]].map(([tilt, fifths]) => {
 /** What rolls is seen from above and before it: its spots go over the top and down, where one that slides shows the same ones. */
 const seen = rotation([-0.7, 0, 0]);
 
-/** A ball with spots, turned by a matrix; a flat body shows the same spots on its face, from above. */
+/** A ball with spots, turned by a matrix; a flat body has one mark on its face, seen from above. */
 function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) {
   surface.shape([[x, y]], { radius, fill: colour, stroke: theme.card, width: 2 });
-  const view = rolls ? product(seen, turn) : turn;
-  const turned = spots.map((spot) => spot.map((point) => turnedBy(view, point))).filter(([middle]) => middle[2] > -0.3);
-  surface.shape(turned.map(([, ...border]) => border.flatMap(([px, py, pz]) => {
-    // Behind the horizon the border goes along it.
-    const out = 0.985 * radius * (pz < 0 ? 1 / Math.hypot(px, py) : 1);
-    return [x + out * px, y - out * py];
-  })), { fill: theme.card });
+  if (rolls) {
+    const view = product(seen, turn);
+    const turned = spots.map((spot) => spot.map((point) => turnedBy(view, point))).filter(([middle]) => middle[2] > -0.3);
+    surface.shape(turned.map(([, ...border]) => border.flatMap(([px, py, pz]) => {
+      // Behind the horizon the border goes along it.
+      const out = 0.985 * radius * (pz < 0 ? 1 / Math.hypot(px, py) : 1);
+      return [x + out * px, y - out * py];
+    })), { fill: theme.card });
+  } else {
+    const [px, py] = turnedBy(turn, [0.78 * radius, 0, 0]);
+    surface.shape([[x, y, x + px, y - py]], { stroke: theme.card, width: Math.max(2.5, 0.18 * radius) });
+  }
   surface.shape([[x, y]], { radius, stroke: theme.ink, width: 1.2 });
 }
 
 /**
- * @param scene  lanes: title, xs, ys, slides (the line of the path until it ceases to slide), at (x, y, turn), colour, and
- *   ruler: {from, to: places, more: m} between where the other stands and this one; radius; unit: "m" or "", lengths in m; rolls: seen at an angle;
- *   secret: the paths are not drawn; aim: {from, to: pixels, words} of a throw; placed: {from, to: places, words} of the
- *   reader's ruler, which then is the only one
- * @returns {{places: {x: number, y: number, radius: number}[], rulerEnds: number[][], toTable: (x: number, y: number) => {x: number, y: number}}}
- *   in pixels where the bodies are, and the ends of the ruler or of the bar of the scale; the place at a pixel on the second table
+ * @param scene  lanes: title, xs, ys, slid and rolled (lines of the path until now), at (x, y, turn), colour, and ruler:
+ *   {from, to: places, more: m} between the end of the other body and this one; radius; unit: "m" or "", lengths in m; rolls: seen
+ *   at an angle; ghosts: {x, y, words, colour} of earlier throws; line: {at, reach, words} to reach, or null; ring: {share, words} of
+ *   the full spin, or null; aim: {from, to: pixels, words} of a throw
+ * @returns {{places: {x: number, y: number, radius: number}[]}} where the bodies are, in pixels
  */
 export function drawLanes(surface, scene, theme) {
-  const { lanes, radius, unit, rolls, secret, aim, placed } = scene;
+  const { lanes, radius, unit, rolls, ghosts, line, ring, aim } = scene;
   const size = theme.textSize;
-  const keys = [radius, unit, secret, theme, ...lanes.flatMap(({ xs, slides, colour }) => [xs, slides.length, slides.at(-2), colour])];
-  const table = surface.still(keys, theme.card, () => drawPaths(surface, scene, theme));
-  let ends = table.bar;
-  const places = lanes.map(({ at, title, colour, ruler }, i) => {
-    const [x, y] = table.pixel(at, i);
-    if (ruler && !secret && !aim) {
-      surface.shape([table.pixel(ruler.from, i)], { radius: table.pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
-      if (!placed) ends = drawRuler(surface, besides(table, i, ruler, theme), `${length(ruler.more, unit)} more`, theme) ?? ends;
-    }
-    drawBall(surface, { x, y, radius: table.pixels, rolls }, at.turn, colour, theme);
-    surface.text(table.cells[i].left + 4, table.cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
-    return { x, y, radius: table.pixels };
+  const keys = [radius, unit, theme, line?.at, ...ghosts.map(({ x }) => x), ...lanes.map(({ xs }) => xs)];
+  const table = surface.still(keys, theme.card, () => drawTable(surface, scene, theme));
+  const { pixel, pixels, cells } = table;
+  if (line) drawLine(surface, table, line, theme);
+  ghosts.forEach(({ x: far, y: aside, words, colour }, i) => {
+    const [x, y] = pixel({ x: far, y: aside }, 1);
+    surface.shape([[x, y]], { radius: pixels, stroke: colour, width: 1.5, dash: [3, 3] });
+    // Labels of neighbours do not meet.
+    const below = [pixels + 0.8 * size, -pixels - 0.8 * size, pixels + 2 * size][i % 3];
+    const half = widthOf(words, { size: 0.92 * size }) / 2;
+    surface.text(Math.min(x, surface.width - half), y + below, words, { colour, size: 0.92 * size, align: "center", baseline: "middle", halo: theme.card });
   });
-  if (placed && !secret) ends = drawRuler(surface, [placed.from, placed.to].map((place) => table.pixel(place, 1)), placed.words, theme) ?? ends;
+  const places = lanes.map(({ at, title, colour, ruler, slid, rolled }, i) => {
+    const pixelsOf = (path) => Array.from({ length: path.length / 2 }, (_, j) => pixel({ x: path[2 * j], y: path[2 * j + 1] }, i)).flat();
+    if (rolled.length) surface.shape([pixelsOf(rolled)], { stroke: theme.soft, width: 1.5 });
+    surface.shape([pixelsOf(slid)], { stroke: `${colour}66`, width: Math.min(16, pixels / 2) });
+    const [x, y] = pixel(at, i);
+    if (ruler && !aim && !ghosts.length) {
+      surface.shape([pixel(ruler.from, i)], { radius: pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
+      drawRuler(surface, besides(table, i, ruler, theme), `${length(ruler.more, unit)} more`, theme);
+    }
+    drawBall(surface, { x, y, radius: pixels, rolls }, at.turn, colour, theme);
+    surface.text(cells[i].left + 4, cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
+    return { x, y, radius: pixels };
+  });
+  if (ring) drawRing(surface, places[1], ring, theme);
   if (aim) drawAim(surface, aim, theme);
-  return { places, rulerEnds: ends, toTable: table.toTable };
+  return { places };
+}
+
+/** The line to reach, as wide as a hit may miss it. */
+function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme) {
+  const [[left], [x], [right]] = [at - reach, at, at + reach].map((far) => pixel({ x: far, y: 0 }, 1));
+  const top = cells[1].top + 1.3 * theme.textSize;
+  surface.shape([borderOf({ left, top, width: right - left, height: height - 1.3 * theme.textSize })], { fill: theme.line });
+  surface.shape([[x, top, x, cells[1].top + height]], { stroke: theme.ink, width: 1.5 });
+  surface.text(x, cells[1].top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
+}
+
+/** The ring that is pulled to spin a body; an arrow along it shows the spin. */
+function drawRing(surface, { x, y, radius }, { share, words }, theme) {
+  const out = radius + ringWidth;
+  const sweep = 1.8 * Math.PI * share;
+  const arc = (from, to) => Array.from({ length: 41 }, (_, i) => from + ((to - from) * i) / 40).flatMap((angle) => [x + out * Math.cos(angle), y - out * Math.sin(angle)]);
+  surface.shape([arc(0, 2 * Math.PI)], { stroke: theme.soft, width: 2, dash: [2, 5] });
+  if (Math.abs(sweep) > 0.05) {
+    const end = Math.PI / 2 + sweep;
+    const [px, py, side] = [x + out * Math.cos(end), y - out * Math.sin(end), Math.sign(sweep)];
+    surface.shape([arc(Math.PI / 2, end)], { stroke: theme.ink, width: 3.5 });
+    const [ux, uy] = [-side * Math.sin(end), -side * Math.cos(end)];
+    surface.shape([[px + 9 * ux, py + 9 * uy, px - 3 * ux + 6 * uy, py - 3 * uy - 6 * ux, px - 3 * ux - 6 * uy, py - 3 * uy + 6 * ux]], { fill: theme.ink });
+  }
+  const right = x + out + 8 + widthOf(words, { size: theme.textSize, bold: true }) < surface.width;
+  surface.text(right ? x + out + 8 : x - out - 8, y, words, { colour: theme.ink, size: theme.textSize, bold: true, align: right ? "left" : "right", baseline: "middle", halo: theme.card });
 }
 
 /** The arrow of a throw, with what it says. */
@@ -85,11 +128,11 @@ function besides({ pixel, pixels }, i, { from, to }, theme) {
   return ends.map(([x, y]) => [x - out * (by - ay), y + out * (bx - ax)]);
 }
 
-/** A ruler with its words in it, or where they do not fit beside it or at its end. @returns its ends, if it can be seen */
+/** A ruler with its words in it, or where they do not fit beside it or at its end. */
 function drawRuler(surface, ends, words, theme) {
   const [[ax, ay], [bx, by]] = ends;
   const far = Math.hypot(bx - ax, by - ay);
-  if (far < 2) return null;
+  if (far < 2) return;
   const side = bx < ax ? -1 : 1;
   const [nx, ny] = [(-side * (by - ay)) / far, (side * (bx - ax)) / far];
   const wide = widthOf(words, { size: theme.textSize, bold: true }) + 10;
@@ -105,22 +148,23 @@ function drawRuler(surface, ends, words, theme) {
   const [x, y] = steep ? [middle + (before ? -8 : 8) * Math.abs(nx), level + 8 * ny] : fits ? [middle, level] : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, ay];
   const align = before ? "right" : fits ? "center" : "left";
   surface.text(x, y, words, { colour: theme.ink, size: theme.textSize, bold: true, baseline: "middle", align });
-  return ends;
 }
 
-/** The table with the paths; returns where the bodies go. */
-function drawPaths(surface, { lanes, radius, unit, secret, rolls }, theme) {
+/** The table with its scale; returns where the bodies go. */
+function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   const size = theme.textSize;
-  const [xs, ys] = ["xs", "ys"].map((key) => lanes.flatMap((lane) => lane[key]));
+  const [xs, ys] = ["xs", "ys"].map((key) => [...lanes.flatMap((lane) => lane[key]), ...ghosts.map((ghost) => ghost[key[0]])]);
+  if (line) xs.push(1.12 * line.at);
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const above = 1.3 * size;  // for a title
+  const beside = ringWidth + 3;
   const room = surface.height - 3.1 * size;  // without the bar of the scale, and a ruler
   /** Bodies one below the other, or side by side. */
   const tableOf = (columns, rows) => {
     const [width, height] = [surface.width / columns, room / rows];
     /** Pixels of a metre, with a rim of `metres` and of `rim` pixels around the paths. */
     const scaleWith = (metres, rim) =>
-      Math.min((width - 8 - 2 * rim) / (right - left + 2 * metres), (height - above - 2 * rim) / (high - low + 2 * metres));
+      Math.min((width - 2 * beside - 2 * rim) / (right - left + 2 * metres), (height - above - 2 * rim) / (high - low + 2 * metres));
     // A body too small to be seen is drawn larger than it is.
     const seen = radius * scaleWith(radius, 0) >= smallest;
     const scale = seen ? scaleWith(radius, 0) : scaleWith(0, smallest);
@@ -129,14 +173,7 @@ function drawPaths(surface, { lanes, radius, unit, secret, rolls }, theme) {
   };
   const [rows, columns] = [tableOf(1, lanes.length), tableOf(lanes.length, 1)];
   const { height, scale, cells, pixels } = high - low > (right - left) / 4 && columns.scale > 1.2 * rows.scale ? columns : rows;
-  const pixel = ({ x, y }, i) => [cells[i].left + pixels + 4 + (x - left) * scale, cells[i].top + above + (height - above) / 2 - (y - (low + high) / 2) * scale];
-  if (!secret) lanes.forEach((lane, i) => {
-    const pixelsOf = (line) => Array.from({ length: line.length / 2 }, (_, j) => pixel({ x: line[2 * j], y: line[2 * j + 1] }, i)).flat();
-    const slides = pixelsOf(lane.slides);
-    const rest = pixelsOf(lane.xs.flatMap((x, j) => (2 * j < slides.length - 2 ? [] : [x, lane.ys[j]])));
-    if (rolls) surface.shape([[...slides.slice(-2), ...rest]], { stroke: theme.soft, width: 1.5 });
-    surface.shape([slides], { stroke: `${lane.colour}66`, width: Math.min(16, pixels / 2) });
-  });
+  const pixel = ({ x, y }, i) => [cells[i].left + pixels + beside + (x - left) * scale, cells[i].top + above + (height - above) / 2 - (y - (low + high) / 2) * scale];
   const bar = roundDown((surface.width * 0.22) / scale);
   const [end, base] = [surface.width - 6, surface.height - 5];
   const start = end - bar * scale;
@@ -144,8 +181,7 @@ function drawPaths(surface, { lanes, radius, unit, secret, rolls }, theme) {
   const larger = pixels / (radius * scale);
   const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
-  const toTable = (x, y) => ({ x: left + (x - cells[1].left - pixels - 4) / scale, y: (low + high) / 2 - (y - cells[1].top - above - (height - above) / 2) / scale });
-  return { pixel, pixels, cells, toTable, bar: [[start, base], [end, base]] };
+  return { pixel, pixels, cells, height };
 }
 
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it
@@ -155,9 +191,10 @@ const points = steps.flatMap((i) => steps.map((j) => [(i + (j % 2) / 2) / 5.5, (
     .filter(([x, y]) => Math.hypot(x, y) <= 0.88);
 
 /**
- * @param scene  still: no point slips; k, the slip of the centre over that of the rim; spin: its sign; force: fraction of f N
+ * @param scene  still: no point slips; k, the slip of the centre over that of the rim; spin: its sign; force: fraction of f N;
+ *   colour: of the body; hollow: a ring carries the load
  */
-export function drawPatch(surface, { still, k, spin, force }, theme) {
+export function drawPatch(surface, { still, k, spin, force, colour, hollow }, theme) {
   const size = theme.textSize;
   const radius = Math.min(surface.width / 2 - 4, (surface.height - 4.4 * size) / 2);
   const [x0, y0] = [surface.width / 2, 1.5 * size + radius];
@@ -174,23 +211,23 @@ export function drawPatch(surface, { still, k, spin, force }, theme) {
   });
   // From below, a ball that spins to the left when seen from above turns to the right.
   const [sliding, turning] = still ? [0, 0] : spin === 0 || k === Infinity ? [1, 0] : [k / (1 + k), -spin / (1 + k)];
-  const strokes = points.map(([x, y]) => {
+  const strokes = points.filter(([x, y]) => !hollow || Math.hypot(x, y) > 0.7).map(([x, y]) => {
     const [dx, dy] = [sliding - turning * y, -turning * x].map((slip) => slip * 2 * arrowShare * radius);
     const [px, py] = [x0 + x * radius, y0 - y * radius];
     return [px - dx, py - dy, px + dx, py + dy];
   });
   surface.shape(strokes, { stroke: theme.ink, width: 1.3 });
   surface.shape(strokes.map((stroke) => stroke.slice(2)), { radius: 1.9, fill: theme.ink });
-  const accent = theme.swatch(0);
-  const style = { colour: accent, size, align: "center", baseline: "middle" };
+  const style = { colour, size, align: "center", baseline: "middle" };
   if (spin !== 0 && k < 1) {
     const y = y0 - (sliding / turning) * radius;
-    surface.shape([[x0, y]], { radius: 5, fill: accent, stroke: theme.card, width: 1.5 });
+    surface.shape([[x0, y]], { radius: 5, fill: colour, stroke: theme.card, width: 1.5 });
     const [beside, half] = [y + (y > y0 ? -1 : 1) * 1.4 * size, widthOf("does not slip", style) / 2];
     surface.shape([borderOf({ left: x0 - half - 3, top: beside - 0.7 * size, width: 2 * half + 6, height: 1.4 * size })], { fill: theme.paper });
     surface.text(x0, beside, "does not slip", style);
   }
-  if (force > 0.02) arrow(force, accent);
-  const left = force < 0.001 ? "none" : `${shown(100 * force, force < 0.1 ? 1 : 2)} %`;
-  surface.text(x0, base + 1.2 * size, `against sliding: ${left}`, style);
+  if (force > 0.02) arrow(force, colour);
+  const share = force < 0.001 ? "no" : `${shown(100 * force, force < 0.1 ? 1 : 2)} % of the`;
+  const words = still ? "at rest" : `${share} friction slows the slide`;
+  surface.text(x0, base + 1.2 * size, words, { ...style, size: size * Math.min(1, surface.width / widthOf(words, style)) });
 }

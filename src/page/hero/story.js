@@ -11,16 +11,15 @@ const some = 1.05;
  *
  * @typedef {{
  *   name: string, real: boolean, rolls: boolean, slip: number, spin: number, along: number, across: number, least: number, own: Slide, plain: Slide,
- *   stop: number, turningAlone: number, rest?: {t: number, x: number, y: number} | null,
- * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended; turningAlone: when
- *   the spin would end if nothing slid
+ *   stop: number, rest?: {t: number, x: number, y: number} | null,
+ * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended
  */
 
 /** What the library knows of the chosen motion. @returns {Facts} */
-export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across }, timeFactor, library: { plane } }) {
+export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across } }) {
   return {
     name: ball ? ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck", real: Boolean(ball), rolls, spin: u / (ball?.radius ?? 1), slip: v,
-    along, across, least, own, plain, rest, stop: own.stop, turningAlone: u === 0 ? 0 : plane.stop(u, 0) * timeFactor,
+    along, across, least, own, plain, rest, stop: own.stop,
   };
 }
 
@@ -36,87 +35,92 @@ export function regimeOf(/** @type {Facts} */ { real, rolls, slip, spin, along, 
   return times >= some ? "more" : rolls ? "soon" : "together";
 }
 
-const more = (ratio, word) => (ratio >= much ? `${shown(ratio, 2)} times as ${word}` : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
+const more = (ratio, word) => (ratio - 1 < 1e-5 ? `equally ${word}` : ratio >= much ? `${shown(ratio, 2)} times as ${word}`
+  : `${shown(100 * (ratio - 1), 2)} % ${{ far: "farther", long: "longer" }[word]}`);
 
-/** Words of a sentence that name something: a body, own or plain, or slip or spin. */
+/** Words that name a body, own or plain, or are emphasised. */
 const named = (kind, words) => `[${kind}|${words}]`;
 
 /** The parts of the sentences. */
 function wordsOf(/** @type {Facts} */ facts) {
-  const { name, real, rolls, slip, spin, along, across, least, own, plain } = facts;
+  const { name, real, rolls, slip, spin, along, across, own, plain } = facts;
   const unit = real ? "m" : "";
   const time = (t) => `${real ? "" : "τ = "}${duration(t, unit)}`;
   const leave = along === slip && across === 0 ? "leave at" : "land with a slip of";
   const turns = spin === 0 ? "does not spin" : real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
-    ...facts, thing: name.split(" ").at(-1), time, leave, then: rolls ? "then it rolls" : "then it stops",
-    speed: named("slip", real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`), turns: named("spin", turns),
+    ...facts, thing: name.split(" ").at(-1), time, leave, then: rolls ? "then rolls" : "and stops", turns,
+    speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`,
     far: named("own", length(own.path, unit)), farPlain: named("plain", length(plain.path, unit)),
     times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
-    threshold: rolls ? ` A ${name.split(" ").at(-1)} counts as rolling once its slip is below ${real ? `${shown(1000 * least, 2)} mm/s` : "1/500 of the first slip"}.` : "",
   };
 }
 
 const two = ({ name, leave, speed, farPlain, then, turns, far, longer, times }) =>
-  `Two equal ${name}s ${leave} ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}. ` +
-  `${named("own", "The other spins")} ${turns}: it slides ${far}, ${more(times, "far")}, and takes ${longer}. Textbooks predict ${farPlain} for both.`;
+  `Two equal ${name}s ${leave} ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}, as textbooks predict for both. ` +
+  `${named("own", "The other spins")} ${turns}: it slides ${far}, ${named("times", more(times, "far"))}, and takes ${longer}.`;
 
 const sentences = {
-  much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words) + words.threshold],
-  more: (words) => [`Spin makes this ${words.thing} slide ${shown(100 * (words.times - 1), 2)} % farther`, two(words) + words.threshold],
-  soon: (words) => [`This ${words.thing} soon rolls, and keeps spinning`, `${two(words)} Its spin ends after ${words.time(words.stop)}.${words.threshold}`],
-  together: (words) => [`This ${words.thing} spins as long as it slides`,
-    `${two(words)} Sliding alone would end after ${words.time(words.plain.end)}, spinning alone after ${words.time(words.turningAlone)}. ` +
-    `Together they end at the same instant, after ${words.time(words.stop)}.`],
+  much: (words) => [`Spin a ${words.thing}, and it slides ${shown(words.times, 2)} times as far`, two(words)],
+  more: (words) => [`Spin makes this ${words.thing} slide ${shown(100 * (words.times - 1), 2)} % farther`, two(words)],
+  soon: (words) => [`This ${words.thing} soon rolls, and keeps spinning`, `${two(words)} Its spin ends after ${words.time(words.stop)}.`],
+  together: (words) => [`This ${words.thing} slides hardly farther, and spins to the end`, two(words)],
   curves: (words) => [`The path of this ${words.thing} curves by ${shown(Math.abs(words.own.turned), 2)}°`,
-    `It lands with a slip of ${words.speed}, which does not point along its path. Friction acts against the slip, so the path curves by ` +
-    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}. Then it rolls straight on. It spins ${words.turns}. Without spin the path would curve by ` +
-    `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.${words.threshold}`],
+    `Its slip of ${words.speed} does not point along its path. Friction acts against the slip and bends the path by ` +
+    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. Without spin the path would bend by ` +
+    `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.`],
   plain: (words) => ["Without spin, textbooks are right",
     `This ${words.name} ${words.leave.replace(/^\w+/, "$&s")} ${words.speed} and ${words.turns}: ` +
-    `it slides ${words.farPlain}, ${words.then}. Textbooks predict the same distance with spin. Give it spin and compare.${words.threshold}`],
+    `it slides ${words.farPlain}, ${words.then}. Textbooks predict the same distance with spin. Give it spin and compare.`],
   rolls: (words) => [words.slip > words.least ? `This ${words.thing} rolls almost at once` : `This ${words.thing} already rolls`,
-    `${words.slip > words.least ? `It slides for only ${words.time(words.own.end)} and ${words.far}.` : "It slides too slowly to be seen."}${words.spin === 0 ? "" : ` Its spin ends after ${words.time(words.stop)}.`}${words.threshold}`],
+    `${words.slip > words.least ? `It slides for only ${words.time(words.own.end)} and ${words.far}.` : "It slides too slowly to be seen."}${words.spin === 0 ? "" : ` Its spin ends after ${words.time(words.stop)}.`}`],
   spins: (words) => [`A ${words.thing} that spins in place`,
     `It does not move along the table. The contact patch rubs as it turns, so the ${words.thing} turns ever slower and stops after ${words.time(words.stop)}.`],
   rests: (words) => [`A ${words.thing} at rest`, "Nothing slides and nothing spins."],
 };
+
+const piecesOf = (sentence) => sentence.split(/\[(.*?)\]/).map((piece, i) => (i % 2 ? piece.split("|") : ["", piece]));
 
 /** {headline, story} of a motion, and the story's pieces: [what it names, or nothing; words]. */
 export function say(/** @type {Facts} */ facts) {
   const [headline, sentence] = sentences[regimeOf(facts)](wordsOf(facts));
   const { rest } = facts;
   const end = rest ? ` It rests after ${shown(rest.t, 3)} s, ${length(Math.hypot(rest.x, rest.y), "m")} from its start.` : "";
-  const pieces = `${sentence}${end}`.split(/\[(.*?)\]/).map((piece, i) => (i % 2 ? piece.split("|") : ["", piece]));
+  const pieces = piecesOf(sentence + end);
   return { headline, pieces, story: pieces.map(([, words]) => words).join("") };
 }
 
 /** Said if there is no motion. */
-export const nothing = { headline: "Click the plane: a motion starts there", story: "Up: faster sliding. To the side: faster spin." };
+export const nothing = { headline: "Click the plane: a motion starts there", pieces: [["", "Up: faster sliding. To the side: faster spin."]] };
 
-/** Asked before anything is told. */
-export const question = {
+export const answers = { spins: "the one that spins", plain: "the one without spin", equal: "equally far" };
+
+/** Asked before anything is told; with the reader's guess, until the motion has ended. */
+export const question = (guess = "") => ({
   headline: "One puck spins. Which slides farther?",
-  story: "Two equal pucks leave side by side at the same speed. One spins, the other does not. Your guess?",
-  answers: ["the one that spins", "the one without spin", "equally far"],
-};
+  pieces: [["", guess ? `You said: ${guess}.` : "Two equal pucks leave side by side at the same speed. One spins, the other does not. Your guess?"]],
+});
 
-export const dare = {
-  stops: "Throw it. Can you make it stop sliding while it still spins? No puck does.",
-  rolls: "A ball can stop sliding while it still spins: then it rolls. A puck cannot.",
-};
+/** The verdict on a guess. */
+export function judged(guess, /** @type {Facts} */ { own, plain }) {
+  const [far, farPlain] = [own, plain].map(({ path }) => length(path, "m"));
+  return {
+    [answers.spins]: `You are right: the one that spins went ${far}, the other ${farPlain}`,
+    [answers.plain]: `You said the one without spin: it went ${farPlain}. The one that spins went ${far}`,
+    [answers.equal]: `You said equally far, as textbooks do: ${farPlain}. The one that spins went ${far}`,
+  }[guess];
+}
 
-/**
- * The outcome of a throw: sliding and spinning of a body that cannot roll end at the same instant.
- *
- * @param last  slip and spin, in the units of the facts, when that share of the time until the stop has passed
- */
-export function outcome(/** @type {Facts} */ facts, last, share) {
-  const { real, rolls, slip, spin, own, stop } = facts;
-  const time = (t) => `${real ? "" : "τ = "}${duration(t, real ? "s" : "")}`;
-  if (slip === 0) return spin === 0 ? "It is at rest. Throw it." : "It only spins. Throw it.";
-  if (spin === 0) return "It did not spin. Throw it again, with spin.";
-  if (rolls) return `It slides for ${time(own.end)}. Its spin ends after ${time(stop)}.`;
-  const speeds = real ? `${length(last.slip, "m")}/s and spun at ${shown(Math.abs(last.spin), 2)} rad/s` : `v = ${length(last.slip, "")} and spun with u = ${length(Math.abs(last.spin), "")}`;
-  return `Sliding and spinning ended at the same instant, after ${time(stop)}. At ${shown(100 * share)} % of that time it still slid at ${speeds}.`;
+/** The lines to reach, in m. */
+export const lines = [1, 2, 3];
+
+/** The game of the line: what is asked for, and what came of a try. */
+export function goal({ line, far, slip, spin, tries, ended, hit }) {
+  const off = length(Math.abs(far - line), "m");
+  const missed = far < line ? `${off} short of the line` : `${off} beyond the line`;
+  return {
+    headline: !ended ? `Same push, ${shown(slip, 3)} m/s. Reach the line, by spin alone.`
+      : `${shown(spin, 3)} rad/s gives ${length(far, "m")}: ${hit ? `the line, in ${tries} ${tries === 1 ? "try" : "tries"}` : missed}`,
+    pieces: [["", "Pull the ring around the puck to spin it; let go, and it slides. The wheel and the keys ↑ and ↓ spin it, too; a click or Enter lets it go."]],
+  };
 }

@@ -1,10 +1,11 @@
-// Bodies are thrown: pressed, dragged and let go. The way of the hand is the speed, its direction the direction; a second
-// finger or the wheel spins them. Keys do the same.
+// Bodies are thrown: pressed, dragged and let go. The way of the hand is the speed, its direction the direction. The ring around
+// the body that spins is pulled to spin it; a second finger, the wheel and keys do the same.
 import { $, write } from "../dom.js";
 import { listen } from "../drawing/gestures.js";
+import { ringWidth } from "./hero_figure.js";
 import { shown } from "../numbers.js";
 
-const reach = { touch: 16, mouse: 4 };  // pixels beside a body from which it is taken hold of
+const reach = { touch: 16, mouse: 4 };  // pixels beside a body or its ring from which it is taken hold of
 const widest = 0.55;   // of the picture's width: a throw of the full speed
 const full = { real: { slip: 2, spin: 500 }, free: { slip: 5, spin: 5 } };  // m/s and rad/s; without units
 const shortest = 12;   // pixels of a throw
@@ -17,35 +18,43 @@ const round = (value) => Number(value.toPrecision(3));
 /** @param {Store} store @param {Hero} hero @param {Player} player @param {Plane} plane */
 export function makeThrowing(store, hero, player, plane) {
   const canvas = $("lanes");
-  /** @type {{slip: number, spin: number, heading: number, from: number[]} | null} */
+  /** @type {{slip: number, spin: number, heading: number, from: number[], pushed: boolean} | null} */
   let aim = null;
+  let angle = 0;  // of the hand on the ring
   const most = () => full[store.contact ? "real" : "free"];
   const radiusOf = () => store.state.ball?.radius ?? 1;
   const pixelsPerSpeed = () => (widest * hero.lanes.width) / most().slip;
+  const isGame = () => hero.mode === "game";
 
+  /** Shows the ring; without an aim, with the spin that the body has. */
+  const showRing = (spin = store.orbit.u / radiusOf()) => {
+    hero.ring = { share: spin / most().spin, words: `${shown(spin, 3)}${store.contact ? " rad/s" : ""}` };
+  };
   /** Shows the throw as it would be now. */
   const show = (values) => {
     if (player.playing) player.toggle(false);
     const [{ x, y }] = hero.places.slice(-1);
     const { u, v, heading } = store.orbit;
-    const next = aim = { slip: v, spin: u / radiusOf(), heading, from: [x, y], ...aim, ...values };
+    const next = aim = { slip: v, spin: u / radiusOf(), heading, from: [x, y], pushed: false, ...aim, ...values };
     const far = next.slip * pixelsPerSpeed();
-    const angle = (next.heading * Math.PI) / 180;
+    const towards = (next.heading * Math.PI) / 180;
     const words = store.contact ? `${shown(next.slip, 3)} m/s, ${shown(next.spin, 3)} rad/s` : `v = ${shown(next.slip, 3)}, u = ${shown(next.spin, 3)}`;
-    hero.aim = { from: next.from, to: [next.from[0] + far * Math.cos(angle), next.from[1] - far * Math.sin(angle)], words };
+    showRing(next.spin);
+    hero.aim = next.pushed ? { from: next.from, to: [next.from[0] + far * Math.cos(towards), next.from[1] - far * Math.sin(towards)], words } : null;
     write($("told"), words);
     hero.lanes.draw();
   };
   const cancel = () => {
-    if (!aim) return;
-    aim = hero.aim = null;
+    if (!aim && !hero.ring) return;
+    if (aim) hero.say("");
+    aim = hero.aim = hero.ring = null;
     hero.draw();
   };
   const release = () => {
     const thrown = aim;
     cancel();
     if (!thrown || thrown.slip * pixelsPerSpeed() < shortest) return;
-    const start = { u: round(thrown.spin) * radiusOf(), v: round(thrown.slip), heading: thrown.heading };
+    const start = { u: Number((round(thrown.spin) * radiusOf()).toPrecision(12)), v: round(thrown.slip), heading: thrown.heading };
     plane.startOrbit(start);
     player.begin();
   };
@@ -56,36 +65,51 @@ export function makeThrowing(store, hero, player, plane) {
     return { spin: Math.max(-spin, Math.min(spin, now + by * spin)) };
   };
 
-  const isBody = (x, y, beside = 0) => hero.places.some((place) => Math.hypot(place.x - x, place.y - y) <= place.radius + beside);
+  const handAngle = (x, y) => Math.atan2(hero.places[1].y - y, x - hero.places[1].x);
+  /** What lies at a pixel: a body, or the ring of the one that spins. */
+  const partAt = (x, y, kind) => {
+    if (!store.ride || hero.mode === "asking" || hero.places.length < 2) return null;
+    const beside = hero.places.map((place) => Math.hypot(place.x - x, place.y - y) - place.radius);
+    if (beside[1] > 0 && Math.abs(beside[1] - ringWidth) <= ringWidth + reach[kind]) return "ring";
+    if (Math.min(...beside) > reach[kind]) return null;
+    return isGame() ? (beside[1] <= 0 ? "ring" : null) : "body";
+  };
 
   listen(canvas, {
     hold(x, y, kind) {
-      if (!store.ride) return null;
-      return (isBody(x, y) ? "body" : hero.asked ? null : hero.ruler.at(x, y, kind)) ?? (isBody(x, y, reach[kind]) ? "body" : null);
+      const part = partAt(x, y, kind);
+      if (part === "ring") angle = handAngle(x, y);
+      return part;
     },
     pull(x, y, held, from) {
-      if (held !== "body") return hero.ruler.pull(held, x, y);
+      if (held === "ring") {
+        const now = handAngle(x, y);
+        const by = Math.atan2(Math.sin(now - angle), Math.cos(now - angle));
+        angle = now;
+        return show(spun(by / (2 * Math.PI * turns)));
+      }
       const [dx, dy] = [x - from[0], from[1] - y];
       const heading = Math.round((Math.atan2(dy, dx) * 180) / Math.PI);
-      show({ from, slip: Math.hypot(dx, dy) / pixelsPerSpeed(), heading: Math.abs(heading) <= level ? 0 : heading });
+      show({ from, pushed: true, slip: Math.hypot(dx, dy) / pixelsPerSpeed(), heading: Math.abs(heading) <= level ? 0 : heading });
     },
-    turn: (radians, held) => held === "body" && show(spun(radians / (2 * Math.PI * turns))),
-    release, cancel, leave: cancel,
-    clear() {
-      cancel();
-      hero.ruler.reset();
-    },
-    ruler: () => store.ride && !hero.asked && hero.ruler.next(),
-    tap: () => player.toggle(),
+    turn: (radians) => show(spun(radians / (2 * Math.PI * turns))),
+    release, cancel, leave: cancel, clear: cancel,
+    tap: () => (aim ? release() : hero.mode !== "asking" && player.toggle()),
     point(x, y) {
-      canvas.style.cursor = isBody(x, y) ? "grab" : hero.asked ? "" : { to: "ew-resize", from: "ew-resize", both: "move" }[hero.ruler.at(x, y, "mouse")?.part ?? ""] ?? "";
+      const part = partAt(x, y, "mouse");
+      canvas.style.cursor = part ? "grab" : "";
+      if (aim || Boolean(part) === Boolean(hero.ring) || (player.playing && !hero.ring)) return;
+      if (part) showRing();
+      else hero.ring = null;
+      hero.lanes.draw();
     },
     move(dx, dy) {
-      if (!store.ride) return;
-      if (hero.ruler.part) return hero.ruler.move(4 * dx, 4 * dy);
+      if (!store.ride || hero.mode === "asking") return;
       const slip = aim?.slip ?? store.orbit.v;
-      show({ slip: Math.max(0, Math.min(2 * most().slip, slip + (dx * most().slip) / keySteps)), ...spun(dy / keySteps) });
+      const pushed = aim?.pushed || dx !== 0;
+      if (isGame()) show(spun(dy / keySteps));
+      else show({ pushed, slip: Math.max(0, Math.min(2 * most().slip, slip + (dx * most().slip) / keySteps)), ...spun(dy / keySteps) });
     },
-    enter: () => (aim ? release() : store.ride && show({})),
+    enter: () => (aim ? release() : store.ride && hero.mode !== "asking" && show({})),
   });
 }

@@ -5,11 +5,11 @@ import { shotOf } from "./portrait_request.js";
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
 /**
- * {portrait, roll}: the latter of a real ball that moves and can roll.
+ * {portrait, roll}: the latter of a real ball that moves.
  *
  * @param request  of portrait_request.js
  * @param through  points that the orbits of the others pass
- * @param body     with its chi, and mu if it decides it
+ * @param body     with its mu if it decides it
  * @param builtIn  the state's ball as the program knows it, if there is one
  */
 export function commandLine(state, request, through, body, builtIn) {
@@ -31,7 +31,7 @@ export function commandLine(state, request, through, body, builtIn) {
   if (ball) {
     words.push("--slip", ball.velocity[0], "--spin", ball.angular_velocity[2]);
   } else {
-    if (state.body !== "ball") words.push("--body", state.body === "own" ? `${state.chi},${state.gamma}` : state.body);
+    if (state.body !== "ball") words.push("--body", state.body);
     if (body.mu === undefined) words.push("--mu", state.mu);
     if (start) words.push("--u0", start.u, "--v0", start.v);
   }
@@ -46,7 +46,7 @@ export function commandLine(state, request, through, body, builtIn) {
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
   const line = (all) => all.map((word) => quoted(String(word))).join(" ");
-  return { portrait: line(words), roll: ball && body.chi !== 1 ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
+  return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
 }
 
 /** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */

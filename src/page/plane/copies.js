@@ -1,16 +1,13 @@
-// A start that is pulled, or made larger by the slider: along its ray it runs through its copies, c times as large; across,
-// it changes curve.
+// A start that is pulled: along its ray it runs through its copies, c times as large; across, it changes curve. And the slider of
+// the size: all starts and the window grow together, so that the numbers change and the curves do not.
 import { $ } from "../dom.js";
 import { forgiveTouches } from "../controls/fields.js";
 import { shown } from "../numbers.js";
-import { moved } from "../state/page_state.js";
 
 const narrow = 8;    // degrees beside the ray, with both speeds in units of the start's
 const most = 12;     // starts of one pull whose curves stay
 const apart = 0.12;  // of the start: how far they are from each other
-const decades = 4;      // to either end of the slider
-const vanished = 0.04;  // of the window: a start so small is looked for in the blown-up origin
-const hints = { uv: "", disc: " The outer circle is infinity.", blowup: " The inner circle is rest." };
+const decades = 1.5;  // to either end of the slider; no body is faster, or slower
 
 /** How many times as large a start is as another, and whether it is a copy of it: both speeds by one factor. */
 export function sizeOf({ u, v }, base) {
@@ -29,6 +26,8 @@ export class Copies {
   pull = null;
   /** @type {(Speeds & {stop: number, motion: Motion, lines: Float64Array[]})[]} where it has been */
   ghosts = [];
+  /** @type {{orbits: Start[], window: number[], now: Start[]} | null} what the slider began with, and what it has made of the starts */
+  size = null;
 
   /** @param {Store} store */
   constructor(store, announce) {
@@ -42,7 +41,9 @@ export class Copies {
   /** Where the slider is. */
   show() {
     this.slider.disabled = !this.store.orbit;
-    if (this.now?.from !== this.slider) this.slider.value = 0;
+    if (this.isSized) return;
+    this.size = null;
+    this.slider.value = 0;
   }
 
   /** What the curves depend on but for their starts; and where they lie in the panels. */
@@ -68,22 +69,21 @@ export class Copies {
     return (pull.at = along ? { u: times * pull.base.u, v: times * pull.base.v } : at);
   }
 
-  /**
-   * The chosen start, c times as large: one that leaves the plane flies to the rim of the disc, one that vanishes in it into
-   * the blown-up origin.
-   */
+  /** Whether the starts are as the slider has made them. */
+  get isSized() {
+    return this.size !== null && JSON.stringify(this.size.now) === JSON.stringify(this.store.state.orbits);
+  }
+
+  /** All starts and the window, c times as large. */
   resize(c) {
-    const { slider, store, store: { state: { chosen }, orbit } } = this;
-    if (!orbit) return;
-    const pull = this.begin(chosen, slider);
-    const { base, window } = pull;
-    const at = pull.at = { u: Number((c * base.u).toPrecision(6)), v: Number((c * base.v).toPrecision(6)) };
-    const share = Math.max(Math.abs(at.u) / window[0], at.v / window[1]);
-    const view = share > 1 ? "disc" : share < vanished ? "blowup" : "uv";
+    const { store } = this;
+    const { orbits, window } = this.size && this.isSized ? this.size : { orbits: store.state.orbits, window: store.portrait.window };
+    const times = (speed) => Number((c * speed).toPrecision(6));
+    const now = orbits.map(({ u, v, along, across, heading }) => ({ u: times(u), v: times(v), along: times(along), across: times(across), heading }));
     store.ask((state) => {
-      state.orbits[chosen] = moved(orbit, at.u, at.v);
-      Object.assign(state, { view, window, fraction: 0, isochrone: 0 });
-    }, () => this.announce(this.words + hints[view]));
+      this.size = { orbits, window, now };
+      Object.assign(state, { orbits: now, window: window.map(times), fraction: 0, isochrone: 0 });
+    }, () => this.announce(`Both speeds × ${shown(c, 3)}: the same curves, ${shown(c, 3)} × the time: ${store.stopText(store.motion.stop)}.`));
   }
 
   /** Remembers where the start is now. */

@@ -1,6 +1,6 @@
 // The plane under the reader's hand: pointing, starting and choosing orbits, zooming.
 import { $, write } from "../dom.js";
-import { Copies, sizeOf } from "./copies.js";
+import { Copies } from "./copies.js";
 import { listen } from "../drawing/gestures.js";
 import { drawPortrait } from "../drawing/figure.js";
 import { plain } from "../drawing/runs.js";
@@ -16,6 +16,8 @@ export class Plane {
   /** @type {Frame[]} */
   frames = [];
   planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
+  /** @type {{of: Figure, figure: Figure} | null} what the first floor shows of a figure */
+  bare = null;
   /** @type {{panel: number, x: number, y: number} | null} */
   cross = null;
   announce = (text) => write($("pointed"), text || "\u00a0");
@@ -24,7 +26,7 @@ export class Plane {
   constructor(store) {
     this.store = store;
     this.copies = new Copies(store, this.announce);
-    this.zooming = new Zooming(store, this.announce);
+    this.zooming = new Zooming(store);
     this.surface = new ScreenSurface($("plane"), (surface) => {
       surface.fit(store.library.rowsOf(store.portrait.figure, surface.width));
       this.planeScene = this.scene();
@@ -51,15 +53,29 @@ export class Plane {
       isochrone: () => this.atCross((x, y) => this.drawIsochrone(x, y)),
       clear: () => this.clear(),
       zoom: (factor) => this.zooming.by(factor),
-      grow: (factor) => this.scale(factor),
       remove: () => store.motion && this.removeOrbit(store.state.chosen),
     });
     const buttons = {
       "zoom-in": () => this.zooming.by(0.7), "zoom-out": () => this.zooming.by(1 / 0.7), "fit": () => this.zooming.fit(),
-      "zoom-ever": () => this.zooming.forEver(), "clear-isochrone": () => this.clear(),
+      "clear-isochrone": () => this.clear(),
     };
     for (const [id, action] of Object.entries(buttons)) $(id).addEventListener("click", action);
     store.shows.push(() => this.label());
+  }
+
+  /** The portrait's figure; on the first floor without title, legend and symbols. */
+  get figure() {
+    const { state: { lab, ball }, portrait: { figure }, view } = this.store;
+    if (lab || view.name !== "uv") return figure;
+    if (this.bare?.of !== figure) {
+      const unit = ball ? ", m/s" : "";
+      const panels = figure.panels.map((panel) => ({
+        ...panel, x: { ...panel.x, name: `rim speed of the spin${unit}` }, y: { ...panel.y, name: `sliding speed${unit}` },
+        lines: panel.lines.map((line) => ({ ...line, legend: "" })), marks: panel.marks.map((mark) => ({ ...mark, legend: "" })),
+      }));
+      this.bare = { of: figure, figure: { ...figure, panels, title: "", colourBar: undefined } };
+    }
+    return this.bare.figure;
   }
 
   scene() {
@@ -69,7 +85,7 @@ export class Plane {
       return { ...orbit, index, chosen: index === state.chosen, start: view.moments ? null : library.plane.place(u, v) };
     }).sort((a, b) => Number(a.chosen) - Number(b.chosen));
     return {
-      figure: portrait.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none, own, cross: this.cross,
+      figure: this.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none, own, cross: this.cross,
       marker: now && now.tau < motion.stop ? { index: state.chosen, places: now.places } : null,
     };
   }
@@ -179,15 +195,6 @@ export class Plane {
       this.announce(this.copies.words);
       if (ghosts !== this.copies.ghosts) this.draw();
     });
-  }
-
-  /** The chosen start as a copy, that many times as large. */
-  scale(factor) {
-    const { store: { orbit, state }, copies } = this;
-    if (!orbit) return;
-    const { base, from } = copies.now ?? { base: orbit, from: {} };
-    const c = factor * sizeOf(orbit, base).c;
-    this.moveStart({ u: c * base.u, v: c * base.v }, state.chosen, from);
   }
 
   drawIsochrone(x, y) {

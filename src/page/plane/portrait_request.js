@@ -16,12 +16,13 @@ export const shotOf = (ball, { u, v, along, across }, resistance = 0) => ({
  * @returns {PortraitRequest} null for what is not asked for
  */
 export function portraitRequest(state, { chi, gamma, drive, resistance }, screen) {
-  const { law, mu, ball, chosen, view, window, isochrones, field, against } = state;
+  const { law, mu, ball, chosen, view, window, field, against, lab } = state;
   const orbits = state.orbits.map(unrolled);
   return {
-    law, mu, chi, gamma, drive, orbits, chosen, window, isochrones, field, screen,
-    // The plane is linear; that of the power is a view of its own.
-    view: view === "bent" ? "uv" : view, linear: view === "uv",
+    law, mu, chi, gamma, drive, orbits, chosen, window, field, screen,
+    // The first floor shows curves alone.
+    isochrones: lab ? state.isochrones : 0,
+    view, linear: view === "uv",
     // Without a motion there is no ball in the program's sense: only the mu of one.
     ball: ball && orbits[chosen] ? shotOf(ball, orbits[chosen], resistance) : null,
     // A law is not compared with itself.

@@ -2,14 +2,12 @@
 
 const texts = {
   uv: ["plane", "Zhuravlev's plane: sliding speed v against u = R ω, where ω is the spin about the vertical. Every motion ends at the origin."],
-  bent: ["bent", "The plane, with another scale near v = 0 if μ is small: the shaded part shows a power of v. There orbits are straight lines into the origin."],
   patch: ["patch", "Sliding speed and rim speed of the patch on equal scales: a ray from the origin has the slope k = v/(μ|u|)."],
   log: ["log", "Logarithms of both speeds. Multiplying both speeds shifts an orbit along the diagonal, so all orbits are one curve, shifted."],
   similarity: ["similarity", "Canonical coordinates: multiplying both speeds shifts an orbit along p = ln v, so all orbits are one curve, shifted."],
   blowup: ["blow-up", "The origin is drawn as the inner half-circle, so that the direction of each orbit at its end is seen. In the chart (u, ln k) the line u = 0 is the origin."],
   disc: ["disc", "The whole half-plane in a half-disc (Poincaré): the circle is infinity."],
   time: ["time", "Both speeds divided by their first values, and k, against time τ divided by the stop time τ*. Only k at the start matters. Click to go to a moment."],
-  pair: ["pair", "The plane, and ln k against u, which shows how orbits enter the origin."],
 };
 
 /** A view of the library with its title and a hint to the reader. */

@@ -26,9 +26,9 @@ export function makeFilm(store, player) {
   const fit = (name, text) => {
     const { library, request, state } = store;
     if (!state.ball) throw new Error("Choose a real ball above first: the fit needs its radius.");
-    const laws = [request.law, request.against].filter(Boolean);
+    const laws = request.against ? [request.law, request.against] : [request.law];
     const ball = request.ball ?? shotOf(state.ball, startOf(0, 0));
-    const found = library.fit(text, name, ball, laws.join());
+    const found = library.fit(text, name, ball, laws);
     store.measured = { columns: found.measured, ball: ball.name };
     store.ask((next) => Object.assign(next, {
       law: laws.find((law) => lawTitle(law) === found.law) ?? found.law, window: null, chosen: 0, fraction: 0,
@@ -47,6 +47,7 @@ export function makeFilm(store, player) {
     $("film-report").hidden = $("film-fit").hidden = $("save-residuals").hidden = !figure;
     picture.measure();
     picture.draw();
+    store.show();
     $("film-card").scrollIntoView({ block: "nearest" });
   };
   const read = async (file) => {
@@ -59,7 +60,8 @@ export function makeFilm(store, player) {
       const found = fit(file.name, text);
       say(`${file.name} is fitted. The ball above now has the fitted friction, patch, slip and spin.`, "", found);
     } catch (error) {
-      say("", error.message);
+      // The page has no options.
+      say("", error.message.replace("no row has a time between --from and --until", "the file has no rows"));
     }
     // The same file may be chosen again.
     $("film").value = "";

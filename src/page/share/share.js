@@ -26,7 +26,10 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const { width, height } = $($("picture").value).getBoundingClientRect();
     return { title, name, draw, width: Math.round(width), height: Math.round(height) };
   };
-  const tell = (text) => write($("copied"), text);
+  const tell = (text) => {
+    write($("copied"), text);
+    hero.say(text);
+  };
   /** What a button does, and where it cannot, why. */
   const on = (id, action) => $(id).addEventListener("click", async () => {
     try {
@@ -39,10 +42,11 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
     tell(copied ? `${what} copied.` : text);
   };
-  on("copy-link", () => {
+  const copyLink = () => {
     if (!address.link) return tell(`This page has no address here. Add this to a link to the page: #${toFragment(store.state)}`);
     return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
-  });
+  };
+  for (const id of ["copy-link", "send"]) on(id, copyLink);
   on("copy-embed", async () => {
     const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
     await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
@@ -69,7 +73,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const { name, draw, ...size } = picture();
     save(`${name}.png`, await pngOf(draw, size, pngWidth), "image/png");
   });
-  on("save-film", async () => {
+  for (const id of ["save-film", "film-line"]) on(id, async () => {
     const type = filmType();
     if (!type) throw new Error("this browser cannot record films");
     tell(`Recording the film: ${Math.ceil(player.seconds)} s.`);
@@ -80,9 +84,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     }
     tell("The film is saved.");
   });
-  for (const [ending, type] of [["json", "application/json"], ["tex", "text/x-tex"]]) {
-    on(`save-${ending}`, () => save(`portrait.${ending}`, store.library.plane.portraitFile(store.request, ending), type));
-  }
+  on("save-tex", () => save("portrait.tex", store.library.plane.portraitFile(store.request), "text/x-tex"));
   on("save-csv", () => {
     const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
       : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
@@ -95,5 +97,8 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
+    // A film that was not fitted is no picture.
+    const { options } = $("picture");
+    options[options.length - 1].hidden = $("film-fit").hidden;
   });
 }

@@ -3,11 +3,10 @@ import { parseNumber, shown } from "../numbers.js";
 import { tour } from "./presets.js";
 
 /**
- * chi, gamma and the largest mu of the state's body; and mu itself where the body decides it.
- * @returns {{chi: number, gamma: number, largestMu: number, mu: number | undefined}}
+ * chi and gamma of the state's body, and mu where the body decides it.
+ * @returns {{chi: number, gamma: number, mu: number | undefined}}
  */
-export const bodyOf = ({ body, chi, gamma }, { bodies }) => (body === "own"
-  ? { chi, gamma, largestMu: ranges.mu[1], mu: undefined } : { ...bodies.find(({ name }) => name === body), largestMu: 1 });
+export const bodyOf = ({ body }, { bodies }) => bodies.find(({ name }) => name === body);
 
 export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "rollingFriction", "slope"];
 
@@ -15,7 +14,7 @@ const startKeys = ["u", "v", "along", "across", "heading"];
 
 /** What a number may be, from 1e-9 to 1e9 if nothing else is said: beyond, what follows from it may be no number. */
 const ranges = {
-  rollingFriction: [0, 1e3], slope: [-89, 89], along: [-1e9, 1e9], across: [-1e9, 1e9], chi: [1e-3, 1e3], gamma: [1e-3, 1e3], mu: [1e-6, 10],
+  rollingFriction: [0, 1e3], slope: [-89, 89], along: [-1e9, 1e9], across: [-1e9, 1e9], mu: [1e-6, 1],
   U: [Number.MIN_VALUE, Infinity], V: [Number.MIN_VALUE, Infinity], u: [-Infinity, Infinity], v: [0, Infinity], heading: [-360, 360],
   chosen: [0, Infinity], at: [0, 1], isochrone: [Number.MIN_VALUE, Infinity],
 };
@@ -40,7 +39,7 @@ export const moved = ({ v: before, along, across, heading }, u, v) => startOf(u,
 /** A real ball with the start that the library has for it. */
 export function takeBall(state, ball) {
   Object.assign(state, {
-    ball: { ...ball, rollingFriction: 0, slope: 0 }, law: ball.law, body: ball.body, orbits: [startOf(ball.radius * ball.spin, ball.slip)],
+    ball: { ...ball, rollingFriction: 0, slope: 0, initial: { ...ball, rollingFriction: 0, slope: 0 } }, law: ball.law, body: ball.body, orbits: [startOf(ball.radius * ball.spin, ball.slip)],
     chosen: 0, fraction: 0, isochrone: 0, part: "sliding", window: null,
   });
   return state.ball;
@@ -75,9 +74,8 @@ const value = (name, first, read) => ({
   write: (state) => (state[name] === first ? null : state[name]),
   read: (text, known) => ({ [name]: read(text, known) }),
 });
-const always = (name, first, read) => ({ ...value(name, first, read), write: (state) => state[name] });
 const ofBall = (key, read) => ({
-  write: ({ ball }) => ball?.[key],
+  write: ({ ball }) => (ball?.[key] === ball?.initial[key] ? null : ball[key]),
   read: (text, _known, { ball }) => ball && { ball: { ...ball, [key]: read(text, ball) } },
 });
 
@@ -90,14 +88,10 @@ const ofBall = (key, read) => ({
  */
 const parts = {
   body: {
-    first: { body: "ball", chi: 1, gamma: 2 },  // the latter two of a body of the reader's own
-    write: ({ ball, body, chi, gamma }) => (ball ? null : body === "own" ? [chi, gamma] : body),
-    read(text, { bodies }) {
-      if (!text.includes(",")) return { body: oneOf(namesOf(bodies), text) };
-      const [chi, gamma] = numbersOf(["chi", "gamma"], text);
-      return { body: "own", chi, gamma };
-    },
+    ...value("body", "ball", (text, { bodies }) => oneOf(namesOf(bodies), text)),
+    write: ({ ball, body }) => (ball || body === "ball" ? null : body),
   },
+  // A link without a ball says so by its mu.
   mu: { ...value("mu", 0.3, (text) => numberOf("mu", text)), write: ({ ball, mu }) => (ball ? null : mu) },
   ball: {
     first: { ball: null },  // SI values of a real ball; then speeds are m/s
@@ -106,13 +100,16 @@ const parts = {
   },
   patchBy: ofBall("patchBy", (text, ball) => oneOf([ball.patchBy, "patch_radius", "spin_deceleration"], text)),
   ...Object.fromEntries(ballKeys.map((key) => [key, ofBall(key, (text) => numberOf(key, text))])),
-  law: always("law", "exact", (text, { lawName }) => lawName(text)),
+  law: {
+    ...value("law", "exact", (text, { lawName }) => lawName(text)),
+    write: ({ ball, law }) => (law === (ball?.law ?? "exact") ? null : law),
+  },
   // Another law, whose portrait is drawn into the same figure.
   against: { ...value("against", null, (text, { lawName }) => lawName(text)), write: ({ law, against }) => (against === law ? null : against) },
-  view: always("view", "uv", (text, { views }) => oneOf(namesOf(views), text)),
+  view: value("view", "uv", (text, { views }) => oneOf(namesOf(views), text)),
   // [U, V]: |u| <= U, v <= V are shown; null: the library's choice for the orbits.
   window: value("window", null, (text) => numbersOf(["U", "V"], text)),
-  field: value("field", "none", (text) => oneOf(["none", "motion", "regularised"], text)),  // of directions
+  field: value("field", "none", (text) => oneOf(["none", "motion"], text)),  // of directions
   isochrones: value("isochrones", 7, (text) => Number(oneOf(["0", "7"], text))),  // of the stop time, about so many
   // Of the motion: "whole", or "sliding", as that of a ball is first.
   part: {
@@ -125,7 +122,9 @@ const parts = {
       (heading ? [u, v, along, across, heading] : along === v && across === 0 ? [u, v] : [u, v, along, across])).join(";"),
     read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startFrom, start) ?? []) }),
   },
-  chosen: always("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
+  chosen: value("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
+  // The line to reach by spin alone, in m; 0 for none.
+  line: value("line", 0, (text) => numberOf("line", text)),
   step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // of the tour
   // Of the stop time, or of the part that is shown, that the moving point has reached.
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },
@@ -134,13 +133,16 @@ const parts = {
   theme: value("theme", "auto", (text) => oneOf(["light", "dark"], text)),
   // Only the balls are shown, for a page around this one.
   embed: { ...value("embed", false, () => true), write: ({ embed }) => (embed ? 1 : null) },
-  // All is shown, not the first floor alone.
-  lab: { ...value("lab", false, (text) => text === "1"), write: ({ lab }) => Number(lab) },
+  // All is shown, not the first floor alone. A link of what only the Lab shows opens it.
+  lab: {
+    ...value("lab", false, (text) => text === "1"),
+    write: (state) => (state.lab === labParts.some((key) => parts[key].write(state) != null) ? null : Number(state.lab)),
+  },
 };
 
 /** Of what a link speaks that only the Lab shows, and that is more than how the page looks. */
 const labParts = ["law", "body", "mu", "view", "window", "against", "field", "isochrones"];
-const motionParts = [...labParts, "ball", "orbits", "part", "isochrone"];
+const motionParts = [...labParts, "ball", "orbits", "part", "isochrone", "line"];
 
 /** What a link opens that speaks of no motion: a puck whose spin lets it slide four times as far. */
 const opening = "ball=puck&orbits=2.286,0.5";
@@ -156,8 +158,14 @@ export function toFragment(/** @type {State} */ state) {
 
 const queryOf = (fragment) => new URLSearchParams(fragment.replace(/^#/, ""));
 
-/** Whether a link speaks of no motion, such as that of the page alone. */
-export const speaksOfNothing = (fragment) => !motionParts.some((key) => queryOf(fragment).has(key));
+/** The name of a ball in a link that the library does not have. */
+export function strangeBall(fragment, { balls }) {
+  const name = queryOf(fragment).get("ball");
+  return name === null || namesOf(balls).includes(name) ? "" : name || "no name";
+}
+
+/** Whether a link speaks of no motion, such as that of the page alone, or of a ball that nobody knows. */
+export const speaksOfNothing = (fragment, known) => !motionParts.some((key) => queryOf(fragment).has(key)) || strangeBall(fragment, known) !== "";
 
 /**
  * The state of a fragment; what cannot be read in it keeps its first value.
@@ -167,13 +175,17 @@ export const speaksOfNothing = (fragment) => !motionParts.some((key) => queryOf(
  */
 export function fromFragment(fragment, known) {
   const query = queryOf(fragment);
-  const state = speaksOfNothing(fragment) ? fromFragment(opening, known) : initialState();
+  const opens = speaksOfNothing(fragment, known);
+  if (opens) motionParts.forEach((key) => query.delete(key));
+  const state = opens ? fromFragment(opening, known) : initialState();
   state.lab = labParts.some((key) => query.has(key));
   for (const [key, { read }] of Object.entries(parts)) {
     if (query.has(key)) Object.assign(state, readable(read, query.get(key), known, state));
   }
-  const { mu, largestMu, chi } = bodyOf(state, known);
-  state.mu = mu ?? Math.min(state.mu, largestMu);
+  const { mu, chi } = bodyOf(state, known);
+  state.mu = mu ?? state.mu;
+  // Lines are reached in metres.
+  if (!state.ball) state.line = 0;
   // What cannot roll does not turn forward.
   if (!state.ball || chi === 1) state.orbits = state.orbits.map(unrolled);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));

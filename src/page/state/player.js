@@ -5,8 +5,7 @@ import { shown } from "../numbers.js";
 
 const shortest = 7;  // seconds on the screen
 const longest = 12;
-const rest = 1500;   // ms at the end, before the motion begins again
-const rounds = 3;    // after which it rests
+const fastest = { flat: 60, round: 30 };  // rad/s on the screen, of marks that are seen to turn one way
 
 export class Player {
   /** @param {Store} store */
@@ -25,11 +24,18 @@ export class Player {
     return contact ? Math.min(longest, Math.max(shortest, end * timeFactor)) : shortest;
   }
 
+  /** The share of the spin that is drawn: of a faster one the marks would seem to turn back. */
+  get spinShown() {
+    const { orbit, end, timeFactor, ride } = this.store;
+    return orbit && ride ? Math.min(1, (fastest[ride.rolls ? "round" : "flat"] * this.seconds * ride.radius) / (Math.abs(orbit.u) * end * timeFactor) || 1) : 1;
+  }
+
   show() {
-    const { state, end, timeFactor, contact, now } = this.store;
+    const { spinShown, store: { state, end, timeFactor, contact, now } } = this;
     this.showPart(state.part);
     const factor = this.seconds / (end * timeFactor);
-    write($("pace"), !contact ? "" : factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time");
+    const pace = factor > 1.05 ? `slowed ${shown(factor, 2)} times` : factor < 0.95 ? `${shown(1 / factor, 2)} times as fast` : "in real time";
+    write($("pace"), !contact ? "" : spinShown > 0.95 ? pace : `${pace}, its spin ${factor / spinShown > 1 ? `${shown(factor / spinShown, 2)} times` : `${shown(spinShown / factor, 2)} times as fast`}`);
     $("time").value = Math.round(1000 * state.fraction);
     $("time").setAttribute("aria-valuetext", now ? this.timeText(now.tau) : "no motion");
     write($("clock"), now ? this.timeText(now.tau) : "");
@@ -61,8 +67,6 @@ export class Player {
     if (this.store.state.fraction >= 1) this.store.move({ fraction: 0 });
     const run = this.run = {};
     let last = null;
-    let ended = null;
-    let round = 1;
     const step = (time) => {
       if (this.run !== run || !this.playing) return;
       const { state, motion } = this.store;
@@ -70,16 +74,9 @@ export class Player {
       requestAnimationFrame(step);
       const passed = last === null ? 0 : Math.max(0, time - last);
       last = time;
-      if (state.fraction < 1) {
-        ended = null;
-        this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
-      } else if (ended === null) {
-        ended = time;
-        this.done?.();
-        this.done = null;
-      }
-      else if (time - ended > rest && round++ < rounds) this.store.move({ fraction: 0 });
-      else if (round > rounds) this.toggle(false);
+      this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
+      // A round is one; the reader begins another.
+      if (this.store.state.fraction >= 1) this.toggle(false);
     };
     requestAnimationFrame(step);
   }

@@ -28,7 +28,7 @@ export class Store {
   view = /** @type {View} */ ({});
   request = /** @type {PortraitRequest} */ ({});
   portrait = /** @type {Portrait} */ ({});
-  body = { chi: 1, gamma: 1, largestMu: 1, mu: /** @type {number | undefined} */ (undefined) };
+  body = { chi: 1, gamma: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
   /** @type {number[] | null} when they stop by the law compared with, in tau */
@@ -169,13 +169,18 @@ export class Store {
     this.end = this.ride?.end ?? 1;
   }
 
+  /** The slip below which a ball rolls. */
+  leastOf({ ball, mu }, { u, v }) {
+    return ball ? this.library.rollingSlip : slow * (v + mu * Math.abs(u));
+  }
+
   /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
   rideOf(state, orbit, ofSystem) {
-    const { library: { rollingSlip, plane }, body: { chi }, timeFactor } = this;
+    const { library: { plane }, body: { chi }, timeFactor } = this;
     const rolls = chi !== 1;
-    const { u, v } = orbit;
+    const { v } = orbit;
     const ball = state.ball ?? ballOf(1);
-    const least = state.ball ? rollingSlip : slow * (v + state.mu * Math.abs(u));
+    const least = this.leastOf(state, orbit);
     const resistance = rolls ? ball.rollingFriction : 0;
     const starts = { plain: { ...orbit, u: 0 }, own: orbit };
     // A ball that spins and is held by rolling friction creeps as long as it spins: when it ceases to slide is told without.
@@ -200,6 +205,13 @@ export class Store {
     // At rest time passes all the same.
     const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
     return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
+  }
+
+  /** How far the body of an orbit slides, in m. */
+  farOf(index) {
+    const { state, state: { ball, orbits: { [index]: orbit }, law, mu, body }, library: { plane } } = this;
+    const [shot, least] = [shotOf(ball ?? ballOf(1), orbit), this.leastOf(state, orbit)];
+    return this.keep(`far ${index}`, [law, mu, body, shot, least], () => (orbit.v === 0 ? 0 : plane.slide(shot, 0, least).path));
   }
 
   /** A time until a stop, as it is told. */
