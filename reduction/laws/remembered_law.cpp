@@ -19,7 +19,7 @@ struct Values {
   double moment_deficit;
 };
 
-/// A law and its values so far.
+/// A law, and the values of the law that were computed so far.
 class Memory {
  public:
   explicit Memory(const Law& given) : law(given) {}
@@ -31,7 +31,7 @@ class Memory {
       const std::lock_guard lock(guard_);
       if (const auto found = known_.find(slip); found != known_.end()) return found->second;
     }
-    const Values made{law(slip), law.moment_deficit(slip)};  // other threads go on
+    const Values made{law(slip), law.moment_deficit(slip)};  // without a lock: other threads go on
     const std::lock_guard lock(guard_);
     known_.emplace(slip, made);
     return made;
@@ -53,7 +53,7 @@ class Memory {
   std::unordered_map<Slip, Values, Hash, Same> known_;
 };
 
-/// @tparam StatesForceDeficit  Law::states_force_deficit of the law given
+/// @tparam StatesForceDeficit  Law::states_force_deficit of the given law
 template <bool StatesForceDeficit>
 class RememberedLaw {
  public:

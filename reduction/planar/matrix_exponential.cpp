@@ -10,7 +10,7 @@ Eigen::Matrix2d matrix_exponential(const Eigen::Matrix2d& matrix) {
   if (matrix(0, 1) == 0 && matrix(1, 0) == 0) {
     return Eigen::Vector2d(std::exp(matrix(0, 0)), std::exp(matrix(1, 1))).asDiagonal();
   }
-  // By Cayley and Hamilton, B = A - tr(A)/2 satisfies B^2 = d with a number d.
+  // Cayley and Hamilton: B = A - tr(A)/2 satisfies B^2 = d with a number d.
   const double half_trace = matrix.trace() / 2;
   const Eigen::Matrix2d b = matrix - half_trace * Eigen::Matrix2d::Identity();
   const double d = -b.determinant();
