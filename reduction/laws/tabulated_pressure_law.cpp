@@ -108,7 +108,7 @@ const FunctionTable<2>& ring_functions() {
 /// The integrals of (R34) over rings whose radii are close to k; u = s/k^2 - 1.
 class NearRings {
  public:
-  /// Integrals of Phi and of a Psi/k of a ring, from 0 to u, and the integrals of these two integrals.
+  /// Integrals over u, from 0, of Phi and of a Psi/k of a ring; and (again) the integrals of these integrals over u.
   struct Integrals {
     double force, force_again, moment, moment_again;
   };

@@ -79,8 +79,8 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     if (straight) return sliding_over(flow, *aim.distance);
   }
 
-  // `here` has a distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of this number divided
-  // by the demanded one. It is independent of the scale of the start, and it grows with k.
+  // A ratio of the demands is used: distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of
+  // this ratio divided by the demanded one. It is independent of the start's scale, and it grows with k.
   const auto residual = [&](double ln_k) {
     const Reached here = reached(flow, unit_start(flow, ln_k));
     const double time = aim.tau ? 2 * std::log(here.tau / *aim.tau) : 0;

@@ -1,4 +1,4 @@
-// Notation (README (R1) to (R7)): w = mu |u|, s = scaled time; ln w, m, n, o, b and c are SimilarityCurve's, at xi:
+// Notation (README (R1) to (R7)): w = mu |u|, s: scaled time, index 0: start; m, n, o, b and c: SimilarityCurve, at xi:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
 //   slip left = v (v/(2 (1 - rho)) + n w)                         (R13), (R50)

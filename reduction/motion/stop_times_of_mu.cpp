@@ -307,7 +307,7 @@ struct Derivatives {
 double first_ray(const Law& law) { return law.force_slope() / law.pivoting_moment(); }
 
 /// Returns the edges of the intervals, up to max_r. If there is a pole at r = 0 an interval must not be long, because
-/// errors at its upper end would be too large for the small values at its lower end.
+/// the error at its upper end would be felt at its lower end.
 std::vector<double> edges(const Law& law, bool pole, double max_r) {
   constexpr double ratio = 16, least = 1e-20;
   // Next to the first ray the functions are smooth in r, but their series converge slowly.

@@ -239,7 +239,7 @@ class Follower {
     return true;
   }
 
-  /// Returns true at a pole or at the end of the values, if the last part took only a few rounding errors of the time.
+  /// Returns true at a pole or a border of the field, if the last part took only a few rounding errors of the time.
   bool at_border(const Jet& here, double roundings) const {
     constexpr double overflows = 1e100;
     const double rounding = roundings * eps * motion_.followed;

@@ -140,7 +140,7 @@ double PadeCurve::beta_coefficient(double ln_k) const {
 }
 
 double PadeCurve::time_rate(double ln_k) const {
-  // k/((1 + k) D), computed with k or 1/k, whichever is at most 1.
+  // k/((1 + k) D), D = Phi - r k Psi, computed with k or 1/k, whichever is at most 1.
   const double far = std::exp(-std::abs(ln_k));
   if (ln_k > 0) return (8 * far + 3 * pi) * (16 * far + 15 * pi) / (3 * pi * (1 + far) * (A_ * far + B_));
   return (8 + 3 * pi * far) * (16 + 15 * pi * far) / (3 * pi * (1 + far) * (A_ + B_ * far));

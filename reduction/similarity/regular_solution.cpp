@@ -6,7 +6,7 @@
 //   |D| dp/dz + (Phi' - F Psi'/Psi) p           = -Psi'/Psi,   p = ds/dv, ' = d/d ln k
 //   |D| dq/dz + r k (Psi Phi'/F - Psi') q       = k Phi'/F,    q = ds/dw
 //   |D| db/dz - h b               = -g,  h = (r k Psi + k F)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
-// A function y = j m with a factor j(k) satisfies the equation of m with F - D j'/j in place of F and with j times the
+// Let j be a function of k. Then y = j m satisfies the equation of m with F - D j'/j in place of F and j times the
 // right side. The same holds for n and o.
 #include "similarity/regular_solution.hpp"
 

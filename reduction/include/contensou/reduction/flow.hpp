@@ -95,7 +95,7 @@ class Flow {
   static constexpr std::size_t many_starts = std::size_t{1} << 15;
 
   /// Computes the stop times of starts (u0[i], v0[i]).
-  /// Starts fewer than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
+  /// Fewer starts than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
   /// once and tests each polynomial against the solution (reduction/numerics.md, Table). A rejected start becomes NaN.
   ///
   /// @param u0, v0   speeds of the starts, of any size; u0 of either sign, v0 >= 0

@@ -24,9 +24,9 @@ class Flow;
 /// lengths have the unit of a speed squared.
 ///
 /// Accuracy  u and ln v 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference); beta
-///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the
-/// difference
-///           stop_time() - tau, which loses digits; at_time_left() keeps them.
+///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the time
+///           left, stop_time() - tau. This difference loses digits; at_time_left() avoids the difference and keeps the
+///           digits.
 class Orbit {
  public:
   /// The speeds and the time left until the stop.

@@ -128,7 +128,7 @@ class PlanarReduction {
   /// Returns the flow that solves the equations of motion, as given to `reduced`; null for another system.
   const Flow* flow() const;
 
-  /// @throws std::domain_error  if x is not finite, and without a scaling
+  /// @throws std::domain_error  if x is not finite, or if the system has no scaling
   PlanarCanonical canonical(const Eigen::Vector2d& x) const;
   Eigen::Vector2d point(double q, double p) const;
 
@@ -191,7 +191,7 @@ class PlanarReduction {
 /// p is ln |x|. The first integral is that of the flow, ln |u| - ln w(k). Under a drive v = 0 is a border. Two motions
 /// that are mirror images start at each of its points, so orbits from v = 0 are rejected.
 ///
-/// Accuracy  times as StopTime::accuracy. reversed() solves the field by its values, as PlanarReduction does.
+/// Accuracy  times as StopTime::accuracy. reversed() is solved from the values of the field, without the flow.
 /// Cost      0.1 ms, and the solution of the flow
 PlanarReduction reduced(const Flow& flow);
 

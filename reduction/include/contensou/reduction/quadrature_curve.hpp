@@ -19,7 +19,7 @@ namespace contensou::reduction {
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, also on and next to rays
 ///           (tests/reference/rays.csv); the other functions 1e-13, less accurate next to a ray.
 /// Cost      about 1 300 calls of the law for m, as many for each of n, o and b, and 2 000 for ln w and c; then about
-///          30 ns for each value. Noise in the law raises the number of calls to a million and shows in truncation().
+///           30 ns for each value. Noise in the law raises the number of calls to a million and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi

@@ -9,9 +9,9 @@ namespace contensou::reduction {
 /// law and the Pade law, xi is ln k.
 ///
 /// Orbits, stop times, the state at a time and the regularised time follow from the functions by exponentials and sums
-/// (Orbit). w is mu |u|, s is the scaled time of reduction/README.md (R1). m, n and c are bounded for all r; b is
-/// bounded, but its value at k = 0 is 1/(128 r Psi(0)). Under a drive rho, m, n and o grow like 1/k as k -> 0, but
-/// their products with v stay finite. v underflows long before ln v.
+/// (Orbit). w is mu |u|, s is the scaled time of reduction/README.md (R1). m, n and c are bounded for all r; so is b,
+/// except at k = 0, where b is 1/(128 r Psi(0)). Under a drive rho, m, n and o grow like 1/k as k -> 0, but their
+/// products with v stay finite. v underflows long before ln v.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;

@@ -31,8 +31,8 @@ struct FarCoefficient {
   double constant;
 };
 
-/// Computes the constants. The result is empty for a law whose Phi tends to 1 only like 1/k (the Pade law). For such a
-/// law the logarithm has another cause and the opposite sign.
+/// Computes the constants. The result is empty for a law whose Phi tends to 1 only like 1/k (the Pade law). Under such
+/// a law the term in ln k has another cause and the opposite sign.
 ///
 /// Accuracy  logarithm 1e-13, constant 1e-9.
 std::optional<FarCoefficient> far_coefficient(const Law& law);

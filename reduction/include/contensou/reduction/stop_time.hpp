@@ -38,8 +38,8 @@ StopTime stop_time(const ReducedSystem& system, State start);
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the route is not possible for this system
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its Outcome::sentence
 ///
-/// The time is the paper's tau = (3 pi/2) f g t with the coefficient of friction f; tau has the unit of a speed. A
-/// system never changes and is cheap to copy.
+/// Accuracy  StopTime::accuracy: closed 1e-15 for mu <= 1, quadrature 3e-15 for a smooth law, steppers 1e-10. It holds
+///           for all finite starts, even if v0/(mu u0) overflows.
 StopTime stop_time(const ReducedSystem& system, State start, Route route);
 
 }  // namespace contensou::reduction

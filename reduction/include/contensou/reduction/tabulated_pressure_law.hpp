@@ -26,7 +26,7 @@ class TabulatedPressureLaw {
   /// @param rho       distance from the centre divided by eps: from 0 to 1, not decreasing; a step has two rows
   /// @param pressure  pressure at each rho, in any unit: finite, >= 0, not all 0
   /// @throws std::domain_error   if a row breaks these rules; the message contains its number, counted from 1
-  /// @throws std::runtime_error  if the table is nonzero only so near the centre that it acts at no k of the library
+  /// @throws std::runtime_error  if the loaded part of the table is too small to have an effect at any k of the library
   TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure);
 
   const std::string& name() const { return name_; }

@@ -58,8 +58,8 @@ struct TerminalRatios {
   /// @throws std::domain_error  if k is negative or not a number
   TerminalRatio end_of(double k) const;
 
-  /// If the relative difference of Phi/(k Psi) and r is at most this number, they count as equal. Two rays count as one
-  /// if Phi/(k Psi) differs from r by no more between them; a ray is left out if it differs by no more up to an axis.
+  /// If the relative difference of Phi/(k Psi) and r is at most this number, it counts as 0. Two rays count as one if
+  /// the difference stays that small between them. A ray is left out if it stays that small up to an axis.
   static constexpr double tolerance = 512 * std::numeric_limits<double>::epsilon();
 };
 
