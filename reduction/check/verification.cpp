@@ -110,7 +110,7 @@ class Examination {
     double worst = 0;
     const TerminalChart& chart = orbit_.chart();
     for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), chart.coordinate(0) + 0.5)}) {
-      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 may lie on a ray or beyond a ray
+      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 can lie on a ray or beyond a ray
       const auto [bottom, top] = std::minmax({chart.log_ratio(xi - 1), chart.log_ratio(xi)});
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {

@@ -33,7 +33,7 @@ double coefficient_rate(const Law& law, double k) {
   return law.moment_deficit(slip) / law(slip).force;
 }
 
-/// Returns the edges of panels of width 1, halved repeatedly towards y = 0 (k = 1), where a law may have a kink.
+/// Returns the edges of panels of width 1, halved repeatedly towards y = 0 (k = 1), at which a law can have a kink.
 std::vector<double> panel_edges(double low, double high) {
   constexpr int halvings = 40;
   std::vector<double> edges{low};
@@ -99,7 +99,7 @@ std::optional<FarCoefficient> far_coefficient(const Law& law) {
   constexpr double fastest = 0x1p100;
   const double c = fastest * law(slip_of_ratio(fastest)).moment / law.pivoting_moment();
 
-  // From this k on, g - 1 + c/k equals its leading term, in 1/k^2. At smaller k its rounding error is small enough.
+  // From this k on, g - 1 + c/k equals its leading term, in 1/k^2. At smaller k the rounding of the sum is negligible.
   constexpr double ln_top = 11;
   const auto rest = [&](double k) { return coefficient_rate(law, k) - 1 + c / k; };
   double integral = 0;

@@ -196,7 +196,7 @@ struct StopTimeTable::Stored {
     if (!std::isfinite(u0) || !std::isfinite(v0) || v0 < 0) return not_a_number;
     const double largest = std::max(std::abs(u0), v0);
     if (largest == 0) return 0;
-    // A start outside the table's range of speeds can have a multiple inside.
+    // A start outside the table's range of speeds can have a multiple inside this range.
     const int exponent = std::ilogb(largest);
     const State start{std::ldexp(std::abs(u0), -exponent), std::ldexp(std::abs(v0), -exponent)};
     const double tau = from_panels(loop, start.u, start.v);

@@ -303,7 +303,7 @@ struct Derivatives {
   }
 };
 
-/// Returns the r from which on a law has a ray, without a drive.
+/// Returns Phi'(0)/Psi(0), the r from which on a law has a ray if there is no drive.
 double first_ray(const Law& law) { return law.force_slope() / law.pivoting_moment(); }
 
 /// Returns the edges of the intervals, up to max_r. If there is a pole at r = 0 an interval must not be long, because

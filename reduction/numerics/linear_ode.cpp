@@ -21,7 +21,7 @@ bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   return ratio.maxCoeff() - ratio.minCoeff() <= 1 && LegendreSeries::tail(ratio) <= rounding;
 }
 
-/// Returns true if d y' is small compared with h y for every polynomial y of that degree.
+/// Returns true if d y' is small compared with h y for every polynomial y of the degree of a series.
 bool forgets_start(const Samples& advection, const Samples& rate) {
   return advection.maxCoeff() * (order * order) < rate.minCoeff();
 }

@@ -8,7 +8,7 @@ namespace contensou::reduction {
 /// never amplifies an error. If d vanishes at -1, the result is the regular solution, which starts at g/h.
 ///
 /// @param advection  d at the points of LegendreSeries, >= 0
-/// @param rate       h at these points; h/d may have any size; for h < 0, y moves away from g/h
+/// @param rate       h at these points; h/d can have any size; for h < 0, y moves away from g/h
 /// @param source     g at these points
 /// @param start      y(-1)
 /// @return           y

@@ -15,7 +15,7 @@ Eigen::Matrix2d matrix_exponential(const Eigen::Matrix2d& matrix) {
   const Eigen::Matrix2d b = matrix - half_trace * Eigen::Matrix2d::Identity();
   const double d = -b.determinant();
   const double root = std::sqrt(std::abs(d));
-  double even = 1, odd = 1;  // cosh(root), sinh(root)/root; for d < 0 cos, sin
+  double even = 1, odd = 1;  // cosh(root) and sinh(root)/root, but cos and sin for d < 0
   if (root > 1e-9) {
     even = d > 0 ? std::cosh(root) : std::cos(root);
     odd = (d > 0 ? std::sinh(root) : std::sin(root)) / root;

@@ -245,7 +245,7 @@ PlanarEnd ScalingSolution::end(const StripPlace& place) const {
   return PlanarEnd::undecided;
 }
 
-/// Returns the time until the orbit reaches its end, which may be a border; infinity if it never does.
+/// Returns the time until the orbit reaches its end (possibly a border); infinity if it never reaches an end.
 double ScalingSolution::end_time(const StripPlace& place, double p) const {
   const double c = section.time_degree();
   if (place.strip != nullptr)

@@ -28,7 +28,7 @@ enum class Limit { centre, infinity, point, undecided };
 /// divided by exp(c p), then continue over the turns.
 class Strip {
  public:
-  /// @param breaks     directions within the strip at which R and T may not be smooth
+  /// @param breaks     directions within the strip at which R and T might not be smooth
   /// @param sense      direction in which xi grows: 1 for counter-clockwise, else -1
   /// @param length     angle between the ends
   /// @param tolerance  relative error of the panels

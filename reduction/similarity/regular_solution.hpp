@@ -36,7 +36,7 @@ class RegularSolution {
     double source;      ///< g
   };
 
-  /// @param equation   the three terms at k; all three may have a common positive factor
+  /// @param equation   the three terms at k; they can be multiplied by a common positive factor
   /// @param direction  +1 if z = ln k, -1 if z = -ln k; errors decay as z grows
   /// @param edges      z at which panels meet, increasing; y = g/h at the first edge, unless start is given
   /// @param size       errors of g and y are relative to max(|y|, size), because a law can compute

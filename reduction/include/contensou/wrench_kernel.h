@@ -90,7 +90,7 @@ struct Uniform {
   template <class T>
   CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
     const T y = at.y;
-    T g = 0, h = 0, c = 0;  // for k > 1
+    T g = 0, h = 0, c = 0;  // values for k > 1
     if (y >= static_cast<T>(0.5)) {
       const T x = (y - static_cast<T>(0.70710678118654752)) / (y + static_cast<T>(0.70710678118654752)), x2 = x * x;
       g = polynomial(x, x2, 0.96190659426731, 0.19187552486001952, 0.149084065720948, 0.1312914117695403,

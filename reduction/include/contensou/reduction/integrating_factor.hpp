@@ -27,7 +27,7 @@ struct SmoothField {
   PlanarField value;
   /// The derivatives of f, exact except for rounding; row 0 belongs to u'. If empty, differences replace the Jacobian.
   std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
-  /// The denominator D with its derivatives by u and v, if f is a quotient N/D. V D may have a form even if V has none.
+  /// The denominator D with its derivatives by u and v, if f is a quotient N/D. V D can have a form even if V has none.
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
   /// If it is not empty, V is sought only among sums of these functions.
   Basis basis = {};

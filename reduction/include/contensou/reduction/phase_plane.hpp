@@ -8,7 +8,7 @@
 
 namespace contensou::reduction {
 
-/// A constant direction v/u of the regularised field (2.7). The half-line from the origin along it consists of orbits.
+/// An invariant direction v/u: the half-line from the origin in this direction consists of orbits.
 enum class InvariantDirection {
   pivoting,  ///< the axis v = 0, q = v/|u| = 0
   ray,       ///< an invariant ray, v = mu k |u|

@@ -15,9 +15,9 @@
 
 namespace contensou::reduction {
 
-/// A point in the canonical coordinates q, p of a scaling X (Generator) with centre x_0 and matrix A: x = x_0 + S exp(p
-/// A') n(q), A' = S^-1 A S, n(q) = (cos q, sin q), S a fixed matrix. On the closed curve p = 0, x = x_0 + S n. X moves
-/// p alone, p -> p + s. For A = 1 the curve is a circle, p is ln |x - x_0| up to a constant, and q is the angle.
+/// A point in the canonical coordinates q, p of a scaling X (Generator) with the centre x_0 and the matrix A:
+/// x = x_0 + S exp(p A') n(q), A' = S^-1 A S, n(q) = (cos q, sin q), S fixed. The closed curve p = 0 is x_0 + S n(q).
+/// X moves p alone, p -> p + s. For A = 1 the curve is a circle, p is ln |x - x_0| up to a constant, q is the angle.
 struct PlanarCanonical {
   double q;      ///< angle, -pi < q <= pi
   double p;      ///< -infinity at the centre x_0

@@ -12,7 +12,7 @@
 
 namespace contensou::reduction {
 
-/// The right side f of x' = f(x) in the plane. At a point without a value it throws or is not finite.
+/// The right side f of x' = f(x) in the plane. At a point without a value, f throws or the result is not finite.
 using PlanarField = std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>;
 
 /// The generator X = c t d/dt + (A x + b) . d/dx of a one-parameter group that acts on time and plane.
