@@ -10,10 +10,10 @@ using std::numbers::pi;
 std::optional<AsymptoticTail> AsymptoticTail::at(const ReducedSystem& system, const LogState& state) {
   const double ln_k = state.ln_v - state.ln_w;
   const double pivoting_rate = system.r() * system.law().pivoting_moment();
-  // Pure pivoting: v is too small to change the friction. Pure sliding: pivoting takes a negligible time.
+  // Pure pivoting: v is too small to change the friction. Pure sliding: the stop time of pivoting alone is negligible.
   if (system.drive() == 0 && ln_k < std::log(1e-17)) return AsymptoticTail(system, state, true);
   if (ln_k + std::log(pivoting_rate) > std::log(1e18)) return AsymptoticTail(system, state, false);
-  // Neither limit holds, but the time left is negligible (k tends to a finite ratio, or very slowly to 0).
+  // Neither limit holds, but the time left is negligible (k tends to a finite ratio, or tends to 0 very slowly).
   const double upper_bound = (std::exp(state.ln_w) / pivoting_rate + std::exp(state.ln_v)) / (1 - system.drive());
   if (upper_bound < 1e-17 * state.s) return AsymptoticTail(system, state, ln_k < 0);
   return std::nullopt;

@@ -7,7 +7,7 @@
 
 namespace contensou::reduction {
 
-/// The state of a stepper: logarithms of the two speeds, scaled and regularised time since the start, in its units.
+/// The state of a stepper: logarithms of w = mu |u| and v, scaled time s and regularised time beta since the start.
 struct LogState {
   double ln_w;
   double ln_v;
@@ -15,12 +15,12 @@ struct LogState {
   double beta;  ///< integral of ds/((16 w + 15 pi v)(8 w + 3 pi v))
 };
 
-/// The exact limit of the end of a motion, where pivoting alone or sliding alone determines the friction.
-/// For k -> 0, w falls at the rate r Psi(0), and v falls with the exponent of the linearised law. For k -> infinity, v
-/// falls at the rate 1 - rho, and w falls with it.
+/// The exact limit of the end of a motion, at which either pivoting alone or sliding alone determines the friction. For
+/// k -> 0, w falls at the rate r Psi(0), and v is a power of w by the linearised law. For k -> infinity, v falls at the
+/// rate 1 - rho, and w is a power of v.
 class AsymptoticTail {
  public:
-  /// Returns the limit that holds at this state with an error below 1e-17 of the whole time; empty if there is none.
+  /// Returns the limit that holds at this state with an error below 1e-17 of the time s; empty if neither limit holds.
   static std::optional<AsymptoticTail> at(const ReducedSystem& system, const LogState& state);
 
   /// Returns the scaled time from the start to the stop.
@@ -37,9 +37,9 @@ class AsymptoticTail {
 
   LogState from_;
   double left_;
-  double ln_v_slope_;  ///< d ln v per d ln (time left)
+  double ln_v_slope_;  ///< d ln v/d ln (time left)
   double ln_w_slope_;
-  double beta_scale_;  ///< beta since `from` is beta_scale_ (1/f - 1); f: share of the tail's time left
+  double beta_scale_;  ///< beta since `from` is beta_scale_ (1/f - 1); f is the share left of the tail's time
 };
 
 }  // namespace contensou::reduction

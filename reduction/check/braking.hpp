@@ -8,15 +8,15 @@
 
 namespace contensou::reduction {
 
-/// The right sides of (R1), multiplied by the larger of w and v, so that a speed that vanishes is never a divisor. One
-/// division by `larger` remains:
+/// The right sides of the equations of motion (R1), multiplied by the larger of w and v, so that no divisor vanishes.
+/// Only one division, by `larger`, remains:
 ///   -d ln w/ds = r of_spin/larger,   -d ln v/ds = of_slip/larger
 struct Braking {
   double larger, of_spin, of_slip;
-  double weight;  ///< dtau/dbeta of scaled speeds
+  double weight;  ///< dtau/dbeta in units in which the speeds are w and v
 };
 
-/// Returns the right sides at scaled speeds, or NaN if the speeds are NaN, so that the run ends with its outcome.
+/// Returns the right sides at scaled speeds. If the speeds are NaN, all are NaN, and the run ends as not_finite.
 inline Braking braking(const ReducedSystem& system, double ln_w, double ln_v) {
   const double w = std::exp(ln_w), v = std::exp(ln_v), k = std::exp(ln_v - ln_w);
   if (std::isnan(k)) return {k, k, k, k};

@@ -1,8 +1,8 @@
-// Notation: v and w are the sliding and the rim speed, rho is the distance from the centre of the patch, c = sqrt(1 -
-// rho^2). psi is the angle from the point opposite to the direction in which both speeds add up. There the slip is
+// Notation: v and w are sliding and rim speed, rho is the distance from the centre of the patch, c = sqrt(1 - rho^2).
+// psi is the angle from the point opposite to the direction in which both speeds add up. The slip V at (rho, psi) is
 //   |V|^2 = (v - w rho)^2 + 4 v w rho sin^2(psi/2),   V_x = v - w rho cos(psi),   moment arm of V: w rho - v cos(psi)
-// Chords: q = k cos(theta) + t, |t| <= l, l^2 = 1 - k^2 sin^2(theta), 1 - rho^2 = l^2 - t^2. For k > 1 the angle b with
-// sin(theta) = sin(b)/k, l = cos(b), removes the root at the last chord.
+// Chords: q = k cos(theta) + t, |t| <= l, l^2 = 1 - k^2 sin^2(theta), 1 - rho^2 = l^2 - t^2. For k > 1 the variable b,
+// sin(theta) = sin(b)/k, l = cos(b), replaces theta, because l ends like a square root at the last chord.
 #include "contensou/reduction/contact_patch.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using std::numbers::pi;
 template <class Function>
 double integral(Function function, double left, double right) {
   static boost::math::quadrature::tanh_sinh<double> rule(12);
-  return left < right ? rule.integrate(function, left, right, 1e-10) : 0.0;  // the next level squares the error
+  return left < right ? rule.integrate(function, left, right, 1e-10) : 0.0;  // one more level squares the error
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ ContactPatch::ContactPatch(std::function<double(double)> pressure) : pressure_(s
 }
 
 double ContactPatch::pressure_at(double rest) const {
-  return pressure_(std::max(rest, std::numeric_limits<double>::min()));  // the pressure may be infinite at the edge
+  return pressure_(std::max(rest, std::numeric_limits<double>::min()));  // the pressure can be infinite at the edge
 }
 
 Resistance ContactPatch::over_disc(Slip slip) const {
@@ -62,7 +62,7 @@ Resistance ContactPatch::over_disc(Slip slip) const {
       const double rho = std::sqrt((1 - c) * (1 + c));
       return c * pressure_at(c * c) * around(rho, [&](double rim, double square) { return part(rho, rim, square); });
     };
-    // The ring through the centre of velocity has a logarithmic singularity, so the integral is split there.
+    // The integrand has a logarithmic singularity at the ring through the centre of velocity, so split there.
     const double edge = v < w ? std::sqrt((1 - v) * (1 + v)) : 0.0;
     return (integral(ring, 0, edge) + integral(ring, edge, 1)) / load_;
   };
@@ -72,7 +72,7 @@ Resistance ContactPatch::over_disc(Slip slip) const {
 
 double ContactPatch::chord_moment_of(int n, double centre, double half_length) const {
   return integral(
-             [&](double x) {  // t = l (1 - x): x keeps the digits of the distance from the end of the chord
+             [&](double x) {  // t = l (1 - x), because x keeps the digits of the distance from the end of the chord
                const double t = half_length * (1 - x);
                const double rest = half_length * half_length * (x * (2 - x));
                return pressure_at(rest) * (std::pow(centre + t, n) + std::pow(centre - t, n));
@@ -94,7 +94,7 @@ Resistance ContactPatch::over_chords(double k) const {
   if (k <= 1) {
     const double force = integral([&](double theta) { return std::cos(theta) * chord_moment(1, theta, k); }, 0, pi / 2);
     const double moment = integral([&](double theta) { return chord_moment(2, theta, k); }, 0, pi / 2);
-    return {2 * force, 2 * moment - k * (2 * force)};  // pi - theta gives the same chord, reversed
+    return {2 * force, 2 * moment - k * (2 * force)};  // factor 2: theta and pi - theta give one chord
   }
   const auto over = [&](int n, int power) {
     return 2 * integral(

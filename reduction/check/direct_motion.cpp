@@ -1,5 +1,5 @@
-// Equations in scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v; dbeta/ds = 1/W, W the
-// weight of beta.
+// Equations in scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W. W is the
+// weight of beta, dtau/dbeta.
 #include "contensou/reduction/direct_motion.hpp"
 
 #include <algorithm>
@@ -29,14 +29,14 @@ namespace odeint = boost::numeric::odeint;
 using Values = std::array<double, 3>;  // ln w, ln v, ln(1 + beta/beta_unit)
 using Fehlberg = odeint::runge_kutta_fehlberg78<Values>;
 
-/// Largest change of x in one step next to a kink, as a fraction of x, where x = ln k - ln k of the kink. A law may
-/// have a term x ln|x| there. Fehlberg's error estimate does not detect this term, because it uses the stages at the
-/// ends of a step.
+/// Largest change of x in one step next to a kink, divided by |x|, where x = ln k - ln k of the kink. A law can have
+/// a term x ln|x| there. Fehlberg's error estimate uses only stages at the ends of a step and does not detect this
+/// term.
 constexpr double fraction_of_distance = 0.5;
 /// Distance |x| below which x^2 is negligible and steps need not shrink any more.
 constexpr double nearest_kink = 1e-8;
 
-/// Distance from a kink below which the previous step counts as having ended on the kink.
+/// Distance |x| below which the previous step counts as having ended on the kink.
 constexpr double on_kink = 16 * std::numeric_limits<double>::epsilon();
 
 struct DirectEquations {
@@ -61,7 +61,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   if (start.u == 0 && start.v == 0) return report.finish_at_rest();
 
   LogState here = report.start();
-  // beta grows without bound. ln(1 + beta/beta_unit) starts at 0 and has the magnitude of the other variables.
+  // beta grows without bound. The variable ln(1 + beta/beta_unit) starts at 0 and is about as large as the others.
   const double speed = 16 * std::exp(here.ln_w) + 15 * pi * std::exp(here.ln_v);
   const double beta_unit = 1 / speed;
   DirectEquations equations{system, beta_unit};
@@ -73,14 +73,14 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
   Values x{here.ln_w, here.ln_v, 0};
   double s = 0;
   double step = 1e-3 * std::max(std::exp(here.ln_w), std::exp(here.ln_v)) / std::max(1.0, 0.01 * system.r());
-  // A body that begins to creep changes ln v at the rate rho/v.
+  // While a body begins to creep, ln v changes at the rate rho/v.
   if (system.drive() > 0) step = std::min(step, 0.1 * std::exp(here.ln_v) / system.drive());
   const auto log_state = [&] { return LogState{x[0], x[1], s, beta_unit * std::expm1(x[2])}; };
 
   for (long steps = 0; steps < stepping.step_limit; ++steps) {
     if (const auto tail = AsymptoticTail::at(system, here)) return report.finish(*tail, steps, equations.evaluations);
 
-    // The step ends at the next time to report. This must not shorten the steps after it.
+    // The step ends at the next time to report. The steps after it must not become shorter for this reason.
     const double wanted = report.next_time();
     Values rate;
     equations(x, rate, s);
@@ -91,7 +91,7 @@ Motion integrate_directly(const ReducedSystem& system, State start, const Eigen:
     double trial = std::min(step, limit);
     const Values before = x;
     const double s_before = s;
-    double taken = trial;  // not s - s_before, which loses all digits near the stop
+    double taken = trial;  // the difference s - s_before would lose all digits near the stop
     while (stepper.try_step(std::ref(equations), x, s, trial) == odeint::fail) {
       if (!(trial > std::numeric_limits<double>::min())) {
         return report.fail(Outcome::Kind::not_finite, steps, equations.evaluations);

@@ -1,8 +1,8 @@
 // The equations of motion (2.6) as a planar system with the scaling X = t d/dt + u d/du + v d/dv.
 //
 // First integral: ln |u| - ln w(k) of the flow and p - L(q) of README (R42) are constant along orbits, and exp(s X)
-// adds s to both. So their difference is the same on an orbit and on its copies. The orbits of a sector are copies of
-// one curve. So the two first integrals differ by a constant in each sector.
+// adds s to both. Therefore their difference is the same on an orbit and on its copies. All orbits of a sector are
+// copies of one orbit, so the two first integrals differ by a constant in each sector.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ struct FlowMotion final : PlanarOrbit::Motion {
   double side;  ///< sign of v
 };
 
-/// Returns the exponent of the power law by which D vanishes beside an axis or a ray at which its slope is 0.
+/// Returns the exponent of the power law by which D (Balance) vanishes beside an axis or a ray at which dD/dk = 0.
 double order_of_contact(const ReducedSystem& system, double k) {
   constexpr double z = 1e-3;
   const auto angular = [&](double distance) {
@@ -63,7 +63,7 @@ struct FlowSolution final : SectionSolution {
     try {
       return motions.log_first_integral(state.u, std::log(state.v));
     } catch (const std::domain_error&) {
-      return std::nullopt;  // on an axis or a ray
+      return std::nullopt;  // the start lies on an axis or a ray
     }
   }
   std::shared_ptr<const Solution> reversed() const override {
@@ -83,7 +83,7 @@ struct FlowSolution final : SectionSolution {
   Flow motions;
 };
 
-/// Returns the rays from v = 0 to u = 0, both included. With a drive, the order at v = 0 is 0, because T jumps there.
+/// Returns the rays from v = 0 to u = 0, both included. Under a drive the order at v = 0 is 0, because T jumps there.
 std::vector<PlanarRay> FlowSolution::rays_of_quadrant() const {
   const ReducedSystem& system = motions.system();
   const auto& [low, high, rays_by_k, ends] = motions.terminal();
@@ -95,7 +95,7 @@ std::vector<PlanarRay> FlowSolution::rays_of_quadrant() const {
     const auto ray = std::ranges::find(rays_by_k, point.k, &InvariantRay::k);
     const bool attracts =
         ray != rays_by_k.end() ? ray->attracts() : std::ranges::count(ends, point.k, &TerminalRatio::k) > 0;
-    // The ratio of the eigenvalues is independent of the weight of beta in (2.7) and of the coordinates.
+    // The ratio angular/radial is independent of the coordinates and of the weight of beta in (2.7).
     const double radial = section(n)->radial;
     const bool degenerate = point.kind == planar_kind("degenerate");
     quadrant.push_back({angle_of(n), attracts, true, radial, degenerate ? 0 : radial * (point.angular / point.radial),

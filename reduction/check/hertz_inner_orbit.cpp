@@ -1,6 +1,6 @@
-// Elementary orbit of the exact law, README (R12). With s = k^2, for k <= 1:
+// Elementary orbit of the exact law for k <= 1, README (R12). s = k^2; s+ > 1 and s- < 0 are zeros of Phi - r k Psi:
 //   Phi - r k Psi = (3 pi k/128) [4 (4 - s) - r (8 - 8 s + 3 s^2)] = (3 pi k/128) 3 r (s+ - s)(s - s-)
-//   w = const s^(a/2) (1 - s/s+)^(e+) (1 - s/s-)^(e-),   a = r/(2 - r)
+//   w = const s^(a/2) (1 - s/s+)^(e+) (1 - s/s-)^(e-),   a = r/(2 - r),   e+, e-: exponents by partial fractions
 #include "check/hertz_inner_orbit.hpp"
 
 #include <cmath>
@@ -16,11 +16,11 @@ double hertz_inner_ln_w(double r, double k) {
         fmt::format("hertz_inner_ln_w: 0 < r < 2 and 0 < k <= 1 required, got r = {}, k = {}", r, k));
   }
   const double root = std::sqrt(1 + r * (8 - 2 * r));
-  // The printed roots cancel for small r. s+ follows from the product of the roots, s- from a sum of equal signs.
+  // The printed formulas for s+ and s- cancel for small r. s+ follows from s+ s-, and s- from a sum of equal signs.
   const double outer = 4 * (2 - r) / (1 - 2 * r + root);      // s+ > 1
   const double negative = -2 * (1 - 2 * r + root) / (3 * r);  // s-
   const double distance = 4 * root / (3 * r);                 // s+ - s-
-  // 4 - s+ follows from 4 (4 - s) = r (8 - 8 s + 3 s^2), because s+ -> 4 as r -> 0.
+  // The numerator 4 - s+ of e+ cancels, because s+ -> 4 as r -> 0. It is replaced by r (8 - 8 s + 3 s^2)/4 at s = s+.
   const double outer_exponent = -(8 - 8 * outer + 3 * outer * outer) / (6 * outer * distance);
   const double negative_exponent = 2 * (4 - negative) / (3 * r * negative * distance);
 

@@ -2,14 +2,14 @@
 
 namespace contensou::reduction {
 
-/// Returns ln w along an orbit of the exact law for 0 < k <= 1, up to a constant. It is an elementary function there,
+/// Returns ln w along an orbit of the exact law for 0 < k <= 1, up to a constant, by elementary functions,
 /// reduction/README.md (R12).
 ///
-/// It is independent of SimilarityCurve::ln_w. Compare differences between two k, because the constants differ.
+/// The formula is independent of SimilarityCurve::ln_w. The constants differ, so compare differences between two k.
 ///
 /// @param r  gamma mu^2/chi, 0 < r < 2
 /// @param k  v/(mu |u|), 0 < k <= 1
-/// @throws std::domain_error  outside these ranges
+/// @throws std::domain_error  if r or k is outside its range
 ///
 /// Accuracy  4 eps (|ln w| + r). The formula for the roots keeps its digits as r -> 0.
 double hertz_inner_ln_w(double r, double k);

@@ -47,7 +47,7 @@ MotionRecorder::MotionRecorder(const char* caller, const ReducedSystem& system, 
   }
   time_scale_ = std::exp(start_.ln_w) / (system.r() * system.law().pivoting_moment()) + std::exp(start_.ln_v);
 
-  // Report the speeds as given, because their logarithms are rounded.
+  // Report the speeds of the start as given, because their logarithms are rounded.
   const double k = given_.u == 0 ? infinity : given_.v / (mu_ * std::abs(given_.u));
   const OrbitPoint at_start{0, given_.u, given_.v, std::log(given_.v), k, 0};
   if (every_step_) points_.push_back(at_start);
@@ -95,7 +95,7 @@ Motion MotionRecorder::finish(const AsymptoticTail& tail, long steps, long evalu
   if (every_step_) {
     for (int i = tail_instants - 1; i > 0; --i) {
       const LogState state = tail.at_fraction(static_cast<double>(i) / tail_instants);
-      if (state.s < tail.stop()) add(state);  // a tail shorter than the rounding of s has no states
+      if (state.s < tail.stop()) add(state);  // a tail shorter than the rounding of s has no states between its ends
     }
   }
   const double stop_time = std::ldexp(tail.stop() / scaled_time_rate_, exponent_);

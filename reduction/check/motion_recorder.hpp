@@ -7,19 +7,19 @@
 
 namespace contensou::reduction {
 
-/// The common part of both steppers: units, the start in logarithms, the times still to report, and the Motion that
-/// grows. It contains no equation of motion.
+/// The common part of both steppers: units, the start in logarithms, the times that are still to be reported, and the
+/// Motion, to which states are added. It contains no equation of motion.
 class MotionRecorder {
  public:
   /// @param caller  function name for error messages
   /// @throws std::domain_error  if start is not a state, or times are negative, not finite or decreasing
   MotionRecorder(const char* caller, const ReducedSystem& system, State start, const Eigen::ArrayXd& times);
 
-  /// Returns the start in the recorder's unit of speed, with -infinity as the logarithm of a speed of 0. If the start
+  /// Returns the start in the recorder's unit of speed; the logarithm of a speed 0 is -infinity. If the state at time 0
   /// was requested, it is already reported.
   const LogState& start() const { return start_; }
 
-  /// Returns an upper bound of the whole scaled time. Errors of the scaled time are relative to it.
+  /// Returns an upper bound of the scaled stop time. Errors of the scaled time are relative to this bound.
   double time_scale() const { return time_scale_; }
 
   /// Returns the next time to report, in scaled time; infinity if there is none.

@@ -57,7 +57,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     while (states_.back().t < time) extend();
     const auto after = std::ranges::upper_bound(states_, time, {}, &State::t);
     State state = *std::prev(after);
-    // This step ends inside a step whose error was accepted, so its error is smaller.
+    // This step is a part of a step whose error was accepted, so the error of this step is smaller.
     auto stepper = odeint::runge_kutta_dopri5<Pair>();
     if (time > state.t) stepper.do_step(Equations{field_}, state.x, state.t, time - state.t);
     return {state.x[0], state.x[1]};

@@ -56,7 +56,7 @@ Motion integrate_regularised(const ReducedSystem& system, State start, const Eig
   Values x{here.ln_w, here.ln_v, 0};
   const double speed = 16 * std::exp(x[0]) + 15 * pi * std::exp(x[1]);
   double step = 1e-3 / (speed * std::max(1.0, 0.01 * system.r()));
-  // A body that begins to creep changes ln v at the rate rho W/v.
+  // While a body begins to creep, ln v changes at the rate rho W/v.
   if (system.drive() > 0) {
     const double other = 8 * std::exp(x[0]) + 3 * pi * std::exp(x[1]);
     step = std::min(step, 0.1 * std::exp(x[1]) / (system.drive() * speed * other));

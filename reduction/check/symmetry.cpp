@@ -39,8 +39,8 @@ double regularised_symmetry_residual(const ReducedSystem& system, State state) {
 }
 
 double slope_symmetry_residual(const ReducedSystem& system, State state) {
-  // The two partial derivatives use other difference quotients than the derivative along the group. Steps are short,
-  // because the exact law has no third derivative at k = 1.
+  // The two partial derivatives use other difference quotients than the derivative along the group. The steps are
+  // short, because the exact law has no third derivative at k = 1.
   constexpr double h = 2e-5;
   const auto partial = [&](double du, double dv) {
     const auto at = [&](double step) { return system.slope({state.u * (1 + step * du), state.v * (1 + step * dv)}); };

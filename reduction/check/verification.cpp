@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Allowed errors of three kinds: rounding, difference quotients (symmetry.hpp), and steppers.
+// Allowed errors: of rounding, of difference quotients (symmetry.hpp), and of steppers.
 constexpr double rounding = 1e-13;
 constexpr double difference_quotient = 1e-9;
 constexpr double stepping = 1e-10;
@@ -31,11 +31,11 @@ double relative(double value, double reference) {
   return value == reference ? 0.0 : std::abs(value - reference) / std::abs(reference);
 }
 
-/// Returns the larger of two errors; NaN counts as the largest, so that it is never lost.
+/// Returns the larger of two errors. NaN counts as the largest, so that it is never overwritten.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// Returns the start in a unit of speed for which squares and sums do not overflow. The conversion is exact. A speed
-/// below 1e-200 of the other speed has no effect and becomes 0, so that the checks of an axis apply.
+/// Returns the start in a unit of speed in which squares and sums do not overflow. The conversion is exact. A speed
+/// below 1e-200 of the other speed has no effect and becomes 0; then the checks of an axis apply.
 State normalised(State start) {
   constexpr double faint = 1e-200;
   const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
@@ -91,13 +91,13 @@ class Examination {
     add("generator on (2.6)", field_symmetry_residual(system_, start_), difference_quotient);
     add("generator on (2.7)", regularised_symmetry_residual(system_, start_), difference_quotient);
 
-    // The factor is not a power of two. With a power of two all digits would agree by construction.
+    // The factor is not a power of two, because for a power of two all digits would agree by construction.
     constexpr double factor = 1e3 / 7;
     const double scaled = integrate_directly(system_, {factor * start_.u, factor * start_.v}).stop_time;
     add("stop time of the scaled start, (2.6)", relative(scaled, factor * orbit_.stop_time()), stepping);
   }
 
-  /// Returns the start, or a state beside it at a kink, where the ring and the uniform disc have no derivatives.
+  /// Returns the start, or a state beside a start at a kink: there the ring and the uniform disc have no derivatives.
   State beside_the_kink() const {
     const double k = start_.v / (system_.mu() * std::abs(start_.u));
     const bool beside =
@@ -106,11 +106,11 @@ class Examination {
   }
 
   void separated_equation() {
-    // The change of p = ln v over one unit of xi, from the start and around k = 1.
+    // The change of p = ln v is tested over one unit of xi, from the start and around k = 1.
     double worst = 0;
     const TerminalChart& chart = orbit_.chart();
     for (double xi : {orbit_.start_coordinate(), std::min(orbit_.start_coordinate(), chart.coordinate(0) + 0.5)}) {
-      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 may lie on the ray or beyond it
+      if (on_a_ray(chart.log_ratio(xi - 1))) continue;  // k = 1 can lie on a ray or beyond a ray
       const auto [bottom, top] = std::minmax({chart.log_ratio(xi - 1), chart.log_ratio(xi)});
       const double sign = std::copysign(1.0, start_.u);
       const auto slope = [&](double ln_k) {
@@ -126,7 +126,7 @@ class Examination {
         if (edges[i] > edges[i - 1]) change += Rule::integrate(slope, edges[i - 1], edges[i], 8, 1e-14);
       }
       const double along = orbit_.at_coordinate(xi).ln_v - orbit_.at_coordinate(xi - 1).ln_v;
-      // dp/dq loses the same digits as Phi - r k Psi.
+      // dp/dq = Phi/(q D) loses as many digits as D = Phi - r k Psi.
       const double digits = 1 / std::max(1.0, steepness(chart.log_ratio(xi - 1)));
       worst = worse(relative(along, std::copysign(change, along)) * digits, worst);
     }
@@ -137,8 +137,8 @@ class Examination {
   double log_ratio(const OrbitPoint& point) const { return point.ln_v - std::log(system_.mu() * std::abs(point.u)); }
 
   void first_integral(const Motion& regularised, const Motion& direct) {
-    // An error of ln k is multiplied by the slope of the curve, which is unbounded on rays and for r next to
-    // Phi'(0)/Psi(0).
+    // An error of ln k changes ln w by this error times the slope d ln w/d ln k, which is unbounded on rays and for r
+    // next to Phi'(0)/Psi(0).
     const auto drift = [&](const Motion& motion) {
       const double at_start = flow_.log_first_integral(start_.u, std::log(start_.v));
       double worst = 0;
@@ -154,20 +154,20 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). With a drive the numerator is rho + r k Psi,
-  /// because the errors of k by steps in time are that much larger next to the ray.
+  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). Under a drive the numerator is rho + r k
+  /// Psi, because steps in time give larger errors of k next to the ray, in the ratio of these numerators.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
     const Balance balance = Balance::of(system_.law(), system_.r(), system_.drive(), k);
     return balance.speeds / std::abs(balance.difference());
   }
 
-  /// Returns true on a ray, where k does not change and does not determine the state.
+  /// Returns true on a ray. There k does not change, so k does not determine the state.
   bool on_a_ray(double ln_k) const { return steepness(ln_k) > 1e9; }
 
   void times(const Motion& regularised) {
-    // Compare tau(k) and beta(k) of the similarity solution with the stepper at the same k. Next to an invariant ray k
-    // determines tau and beta badly; on the ray it does not determine them.
+    // Compare tau(k) and beta(k) of the similarity solution with those of the stepper at the same k. Next to an
+    // invariant ray k determines tau and beta badly; on the ray k does not determine them.
     const double beta_unit = 1 / (16 * system_.mu() * std::abs(start_.u) + 15 * pi * start_.v);
     double worst_tau = 0;
     double worst_beta = 0;
@@ -186,14 +186,14 @@ class Examination {
   }
 
   void limits() {
-    // Just off the axes the general formulas must give the values on the axes.
+    // Next to the axes the general formulas must give the values on the axes.
     const double speed = std::max(std::abs(start_.u), start_.v);
     const double faint = 1e-15 / std::max(1.0, system_.r());
     const State almost_pivoting{speed, faint * system_.mu() * speed};
     const double pivoting_rate = system_.r() * system_.law().pivoting_moment();
     const State almost_sliding{faint * std::min(1.0, pivoting_rate) * speed / system_.mu(), speed};
     const auto stop = [&](State start) { return flow_.orbit(start).stop_time(); };
-    // k = 0 is no limit with a drive: a body there begins to creep.
+    // Under a drive k = 0 is no limit of motions: a body at k = 0 begins to creep.
     const bool creeps = system_.drive() > 0;
     const double pivoting = creeps ? stop({speed, 0}) : system_.pivoting_limit(speed);
     add(creeps ? "start of creeping" : "limit of pure pivoting", relative(stop(almost_pivoting), pivoting), rounding);
@@ -207,7 +207,7 @@ class Examination {
     const auto [lower, upper] = system_.stop_time_bounds(start_);
     add("two-sided bound of the stop time", worse(lower / stop - 1, worse(stop / upper - 1, 0)), rounding);
 
-    // The law's bounds follow from: Phi + Psi/Psi(0) >= 1 for Coulomb friction, <= 1 for laws with m >= 1.
+    // The law's bounds follow from Phi + Psi/Psi(0) >= 1 (Coulomb friction) or <= 1 (laws with m >= 1).
     const double sign = system_.law().sliding_bounds()->min >= 1 ? 1 : -1;
     double worst = 0;
     for (int i = -200; i <= 200; ++i) {
@@ -221,7 +221,7 @@ class Examination {
   void inner_orbit() {
     if (!system_.law().as<HertzLaw>() || !(system_.r() < 2) || system_.drive() > 0) return;
     const SimilarityCurve& curve = *flow_.solution().through(0);
-    // ln w changes by r times a number of order 1, and by more as r -> 2.
+    // Errors are relative to the change of ln w, which is r times a number of order 1, and larger as r -> 2.
     double worst = 0;
     for (double k : {1e-6, 1e-3, 0.03, 0.3, 0.7, 0.99}) {
       const double elementary = hertz_inner_ln_w(system_.r(), 1) - hertz_inner_ln_w(system_.r(), k);

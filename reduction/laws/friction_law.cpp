@@ -10,7 +10,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Relative error that a limit or ratio of a user's law may have, because the law may come from a quadrature.
+/// Relative error that limits and ratios of a user's law may have, because the law may come from a quadrature.
 constexpr double noise = 1e-6;
 
 [[noreturn]] void reject(const std::string& name, const std::string& what) {
@@ -24,7 +24,7 @@ bool differ(double a, double b) { return !(std::abs(a - b) <= noise * std::max(s
 void Law::Function::read_limits() {
   pivoting_moment = resistance({0, 1}).moment;
   const double pure_sliding = resistance({1, 0}).force;
-  // Two slow slips distinguish a slope from a jump (Coulomb's Phi(0+) = 1) and from a root.
+  // Two slow slips are needed: Phi/k stays the same for a slope, but not for a jump (Phi(0+) = 1) or a square root.
   constexpr double slow = 0x1p-60;
   constexpr double slower = 0x1p-80;
   force_slope = resistance({slow, 1}).force / slow;
@@ -68,7 +68,7 @@ void Law::Function::require_degree_0() const {
 }
 
 void Law::Function::require_approach() const {
-  // Compares a quantity at two ratios, the second 64 times nearer to the limit. It must not grow like a power.
+  // Compares a quantity at two k, the second 64 times nearer to the limit. The quantity must not grow like a power.
   const auto require_bounded = [&](const char* what, double first, double second, double allowance) {
     if (std::abs(second) <= 2 * std::abs(first) + allowance) return;
     reject(name, fmt::format("{}: it is {} and, 64 times nearer to the limit, {}", what, first, second));

@@ -20,11 +20,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// Below this k the printed form is accurate to 7e-16. At this k the series needs 56 terms; at larger k, fewer.
+/// Below this k the printed form is accurate to 7e-16. At this k the series needs 56 terms, at larger k fewer terms.
 constexpr double series_from = 1.25;
 constexpr std::size_t series_terms = 64;
 
-/// Returns the Taylor coefficients of 2F1(a, b; c; x), each rounded once.
+/// Returns the Taylor coefficients of 2F1(a, b; c; x); each coefficient is rounded once.
 constexpr std::array<double, series_terms> gauss_coefficients(long double a, long double b, long double c) {
   std::array<double, series_terms> coefficients{};
   long double coefficient = 1;
@@ -51,7 +51,7 @@ Resistance fast_sliding(double inverse_k) {
   const std::size_t terms = terms_at(x);
   double force = 0;
   double moment = 0;
-  for (std::size_t n = terms; n-- > 0;) {  // the smallest terms first, so that the sum is rounded least
+  for (std::size_t n = terms; n-- > 0;) {  // sum the smallest terms first, for the least rounding
     force = force * x + force_series[n];
     moment = moment * x + moment_series[n];
   }
@@ -61,7 +61,7 @@ Resistance fast_sliding(double inverse_k) {
 Resistance just_outside(double k) {
   const double s = k * k;
   const double root = std::sqrt((k - 1) * (k + 1));
-  const double angle = std::atan2(1, root);  // asin(1/k) loses 4e-14 at k = 1
+  const double angle = std::atan2(1, root);  // asin(1/k) would lose 4e-14 at k = 1
   return {3 / (16 * k) * (s * (4 - s) * angle + (s + 2) * root),
           3.0 / 64 * ((8 - 8 * s + 3 * s * s) * angle + 3 * (2 - s) * root)};
 }

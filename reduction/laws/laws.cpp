@@ -47,7 +47,7 @@ const NamedLaw* named(std::string_view name) {
   return found == laws_with_meaning.end() ? nullptr : found;
 }
 
-/// Returns the law of a uniform pressure between the radius eta eps and the edge of the patch.
+/// Returns the law of a patch of radius eps with a uniform pressure outside the radius eta eps and none inside.
 Law annulus(double eta) {
   const Eigen::ArrayXd rho = (Eigen::ArrayXd(4) << 0, eta, eta, 1).finished();
   const Eigen::ArrayXd pressure = (Eigen::ArrayXd(4) << 0, 0, 1, 1).finished();
@@ -55,7 +55,7 @@ Law annulus(double eta) {
 }
 
 /// Returns the law of the pressure (1 - rho^K)^(1/K) (N. Xydas, I. Kao, doi:10.1177/02783649922066673) as a table. The
-/// points lie closest at the rim, where the pressure is steep. Phi and Psi are within 4e-7.
+/// points lie closest at the rim, where the pressure is steep. The errors of Phi and Psi are below 4e-7.
 Law soft(double exponent) {
   const Eigen::ArrayXd rho = Eigen::ArrayXd::LinSpaced(2001, 0, std::numbers::pi / 2).sin();
   Eigen::ArrayXd pressure = (1 - rho.pow(exponent)).max(0).pow(1 / exponent);

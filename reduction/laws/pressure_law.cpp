@@ -19,7 +19,7 @@ Wide pivoting_moment_of(Wide p) {
   return std::sqrt(std::numbers::pi_v<Wide>) / 2 * boost::math::tgamma_delta_ratio(p + 2, Wide{0.5});
 }
 
-/// The smaller speed divided by the larger, its square, and 1 minus the square without the subtraction.
+/// The smaller speed divided by the larger one, its square, and 1 - square, computed without this subtraction.
 struct Ratio {
   double ratio;
   double square;

@@ -14,24 +14,24 @@ namespace contensou::reduction {
 
 namespace {
 
-struct Values {
+struct Remembered {
   Resistance friction;
   double moment_deficit;
 };
 
-/// A law and its values so far.
+/// A law, and the values of the law that were computed so far.
 class Memory {
  public:
   explicit Memory(const Law& given) : law(given) {}
 
   const Law law;
 
-  Values at(Slip slip) {
+  Remembered at(Slip slip) {
     {
       const std::lock_guard lock(guard_);
       if (const auto found = known_.find(slip); found != known_.end()) return found->second;
     }
-    const Values made{law(slip), law.moment_deficit(slip)};  // other threads go on
+    const Remembered made{law(slip), law.moment_deficit(slip)};  // without a lock: other threads go on
     const std::lock_guard lock(guard_);
     known_.emplace(slip, made);
     return made;
@@ -50,10 +50,10 @@ class Memory {
   };
 
   std::mutex guard_;
-  std::unordered_map<Slip, Values, Hash, Same> known_;
+  std::unordered_map<Slip, Remembered, Hash, Same> known_;
 };
 
-/// @tparam StatesForceDeficit  Law::states_force_deficit of the law given
+/// @tparam StatesForceDeficit  Law::states_force_deficit of the given law
 template <bool StatesForceDeficit>
 class RememberedLaw {
  public:

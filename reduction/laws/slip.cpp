@@ -16,7 +16,7 @@ Slip slip_of_ratio(double k) {
 
 namespace {
 
-/// Throws. It is a function of its own, so that the test in require_slip, which runs in every call of a law, is short.
+/// Throws. It is a separate function to keep the test in require_slip short, which runs in every call of a law.
 [[noreturn, gnu::noinline]] void reject(const char* law, Slip slip) {
   if (slip.sliding == 0 && slip.pivoting == 0) {
     throw std::domain_error(

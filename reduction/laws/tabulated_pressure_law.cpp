@@ -1,6 +1,6 @@
-// Notation (README (R32) to (R34)): s = rho^2. A ring has the radius a and the load dL = p ds. q < 1 is the smaller of
-// k and a divided by the larger; y = 1 - q^2. The force of the ring is Phi dL and its moment a Psi dL, with
-//   Phi = q A/2,  Psi = 1 - q^2 D  for k <= a;   Phi = 1 - q^2 D,  Psi = q A/2  for k >= a
+// Notation (README (R32) to (R34)): s = rho^2. A ring has the radius a and the load dL = pressure ds. q <= 1 is the
+// smaller of k and a divided by the larger; y = 1 - q^2. The ring has the force Phi dL and the moment a Psi dL, with
+//   Phi = q A/2,  Psi = 1 - q^2 D  for k <= a;   Phi = 1 - q^2 D,  Psi = q A/2  for k >= a;   A, D: functions of y
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 
 #include <algorithm>
@@ -28,10 +28,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Several functions of y in [0, 1] that are smooth except at y = 0, in one table of polynomials.
+/// Several functions of y in [0, 1] that are smooth except at y = 0, stored in one table of polynomials.
 ///
 /// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of its distance from y = 0. The last
-/// panel begins at y = 0; there a singular part like y ln y is below the last bit.
+/// panel begins at y = 0. Terms like y ln y are below the last bit there.
 template <int functions>
 class FunctionTable {
  public:
@@ -41,7 +41,7 @@ class FunctionTable {
   explicit FunctionTable(Function function) : panels_(panels) {
     using Matrix = Eigen::Matrix<double, terms, terms>;
     using Rows = Eigen::Matrix<double, terms, functions, functions == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-    Eigen::Array<double, terms, 1> nodes;  // Chebyshev's points
+    Eigen::Array<double, terms, 1> nodes;  // Chebyshev points
     for (int j = 0; j < terms; ++j) nodes[j] = std::cos(std::numbers::pi * (2 * j + 1) / (2 * terms));
     Matrix powers;
     for (int n = 0; n < terms; ++n) powers.col(n) = nodes.pow(terms - 1 - n);
@@ -59,7 +59,7 @@ class FunctionTable {
   }
 
   Values operator()(double y) const {
-    // The exponent and the first bits of the mantissa give the panel's number. The other bits give the place in it.
+    // The exponent and first bits of the mantissa give the panel's number. The other bits give the place in the panel.
     constexpr int fraction_bits = 52;
     constexpr std::uint64_t fraction = (std::uint64_t{1} << fraction_bits) - 1;
     constexpr auto first = std::bit_cast<std::uint64_t>(lowest) >> (fraction_bits - cut_bits);
@@ -96,7 +96,7 @@ class FunctionTable {
   std::vector<std::array<Values, terms>> panels_;  ///< powers of (distance from the centre)/(half width), highest first
 };
 
-/// Returns the table of A and D of a thin ring, functions of y = 1 - q^2.
+/// Returns the table of the functions A and D of a thin ring (Notation), of y = 1 - q^2.
 const FunctionTable<2>& ring_functions() {
   static const GaussFunction weaker(0.5L, 0.5L, 2), stronger(-0.5L, 0.5L, 1);
   static const FunctionTable<2> table([](double y) {
@@ -105,10 +105,10 @@ const FunctionTable<2>& ring_functions() {
   return table;
 }
 
-/// The integrals of (R34) over rings of neighbouring radii, among them k; u = s/k^2 - 1.
+/// The integrals of (R34) over rings whose radii are close to k; u = s/k^2 - 1.
 class NearRings {
  public:
-  /// Integrals of Phi and of a Psi/k of a ring from 0 to u, and the integrals of these integrals.
+  /// Integrals over u, from 0, of Phi and of a Psi/k of a ring; and (again) the integrals of these integrals over u.
   struct Integrals {
     double force, force_again, moment, moment_again;
   };
@@ -117,7 +117,7 @@ class NearRings {
     static const NearRings instance;
     if (u == 0) return {0, 0, 0, 0};
     std::array<double, columns> sum{};
-    // Powers below 2^-56 are left out. 2^(-n distance) is a bound of the power n.
+    // Powers u^n below 2^-56 are left out. 2^(-n distance) is a bound of u^n.
     const int distance = -std::ilogb(u);
     const std::size_t count = distance > 1 ? std::min<std::size_t>(terms, 56 / (distance - 1) + 2) : terms;
     for (const auto& coefficients : std::span(instance.powers_).last(count)) {
@@ -134,7 +134,7 @@ class NearRings {
   static constexpr std::size_t columns = 8;
   static constexpr int terms = 36;
 
-  /// Coefficient of (-u)^n (plain + log ln|u|). `integrated` does not contain the factor u.
+  /// Coefficient of (-u)^n (plain + log ln|u|). The result of `integrated` leaves out a factor u.
   struct Term {
     double plain;
     double log;
@@ -142,7 +142,7 @@ class NearRings {
   };
 
   NearRings() {
-    // E(1 - y) = sum of y^n E_n, K(1 - y) = sum of y^n K_n.
+    // Elliptic integrals of the parameter 1 - y: E = sum of y^n E_n, K = sum of y^n K_n.
     double square = 1;                   // ((1/2)_n/n!)^2
     double digamma = std::numbers::ln2;  // (psi(1 + n) - psi(1/2 + n))/2
     Term elliptic_e{1, 0};
@@ -176,11 +176,11 @@ struct Ring {
   double load;
 };
 
-/// A few rings that replace all rings between two radii: a Gauss rule in s whose weight is the pressure.
+/// A few rings that replace all rings between two radii: the points of a Gauss rule in s, weighted by the pressure.
 using Rule = std::vector<Ring>;
 constexpr int rule_order = 10;
 
-/// The part of the patch between two rows of the table. The pressure divided by the whole load is linear in s there.
+/// The part of the patch between two rows of the table. In it the pressure divided by the whole load is linear in s.
 struct Piece {
   double inner, outer;  ///< radii
   double inner_pressure, outer_pressure;
@@ -204,7 +204,7 @@ Rule rule_of(const Piece& piece) {
   return rule;
 }
 
-/// Returns the Gauss rule that replaces two rules, by Lanczos' recurrence.
+/// Returns the Gauss rule that replaces two rules together, by Lanczos' recurrence.
 Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   Rule all = left;
   all.insert(all.end(), right.begin(), right.end());
@@ -233,7 +233,7 @@ Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
     }
     beside[order] = vector.norm();
     ++order;
-    if (!(beside[order - 1] > 1e-14)) break;  // the two rules have no more different radii
+    if (!(beside[order - 1] > 1e-14)) break;  // the two rules have no further radius
     vector /= beside[order - 1];
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
@@ -247,13 +247,13 @@ Rule merged(const Rule& left, const Rule& right, double inner, double outer) {
   return rule;
 }
 
-/// Neighbouring pieces. Their Gauss rule replaces them if k is at least one width of the block away.
+/// Neighbouring pieces. A Gauss rule replaces the pieces if k is at least one width of the block away from the block.
 struct Block {
   double inner_square, outer_square, width;
-  Rule rule;                   ///< empty if the block reaches too near to the centre
+  Rule rule;                   ///< empty if the block comes too near to the centre
   Piece piece;                 ///< the first piece
-  double pivoting_moment = 0;  ///< moment of pure pivoting of a block of one piece
-  std::size_t next;            ///< the first block behind this one and its parts; for one piece the next block
+  double pivoting_moment = 0;  ///< moment of pure pivoting; only if the block has one piece
+  std::size_t next;            ///< next block that is no part of this one; for a block of one piece the following block
 
   bool far_from(double square) const { return square <= inner_square - width || square >= outer_square + width; }
 };
@@ -311,14 +311,14 @@ std::vector<double> sharpest_bends(const Eigen::ArrayXd& rho, const Eigen::Array
 
 }  // namespace
 
-/// The patch as a disc up to the second row and rings around the disc.
+/// The patch: a disc inside the second row of the table, and rings around this disc.
 class TabulatedPressureLaw::Rings {
  public:
   struct Sum {
     double force;
     double moment;
-    double deficit;  ///< moment of pure pivoting - moment
-    double missing;  ///< load - force
+    double deficit;  ///< moment of pure pivoting minus moment
+    double missing;  ///< load minus force
   };
 
   Rings(const Eigen::ArrayXd& given_rho, const Eigen::ArrayXd& given_pressure)
@@ -346,7 +346,7 @@ class TabulatedPressureLaw::Rings {
     const Sum pivoting = sum(0);
     load_ = sliding.force;
     pivoting_moment_ = pivoting.moment;
-    // Curves are sampled from k = 4e-18. For smaller k the library treats Phi as linear.
+    // Curves are sampled from k = 4e-18 on. For smaller k the library treats Phi as linear.
     constexpr double slow = 0x1p-57;
     constexpr double slower = 0x1p-100;
     if (!(std::abs(sum(slow).force * (slower / slow) / sum(slower).force - 1) < 1e-13)) refuse_centre();
@@ -387,7 +387,7 @@ class TabulatedPressureLaw::Rings {
     }
   }
 
-  /// Appends the block of these pieces and, after it, the blocks of its two halves.
+  /// Appends the block of these pieces, then the blocks of the two halves of these pieces.
   void add_blocks(std::span<const Piece> pieces) {
     const double inner = pieces.front().inner;
     const double outer = pieces.back().outer;
@@ -429,7 +429,7 @@ class TabulatedPressureLaw::Rings {
     return total;
   }
 
-  /// Returns the sum over the disc inside the second row: a uniform disc and a paraboloid.
+  /// Returns the sum over the disc inside the second row, the sum of a uniform disc and a paraboloid.
   Sum disc(double k) const {
     static const PressureLaw flat = PressureLaw::uniform(), round(1);
     Sum total{0, 0, 0, 0};
@@ -486,7 +486,7 @@ class TabulatedPressureLaw::Rings {
     total.force += force;
     total.missing += piece.load() - force;
     total.moment += moment;
-    // Psi is nearly 2/pi, its value at k = a, so the subtraction loses no digits.
+    // Psi is nearly 2/pi, its value at k = a, so this difference loses no digits.
     total.deficit += pivoting_moment - moment;
   }
 

@@ -10,9 +10,9 @@
 
 namespace contensou::reduction {
 
-/// Uses second-order differences in the smaller speed divided by the larger; next to 0 the differences are one-sided.
+/// Uses second-order differences in the ratio smaller/larger speed; next to a ratio of 0 the differences are one-sided.
 kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& slip) const {
-  constexpr double step = 6e-6;  // rounding and the third derivative give about the same error
+  constexpr double step = 6e-6;  // with this step, rounding and third derivative give about equal errors
   const bool pivots = slip.p <= slip.r;
   const double ratio = pivots ? slip.p : slip.r;
   const auto at = [&](double x) { return law(pivots ? Slip{x, 1} : Slip{1, x}); };
@@ -25,7 +25,7 @@ kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& s
     return change / (2 * step) * (pivots ? 1 : -1);
   };
   const double force_slope = slope(&Resistance::force), moment_slope = -slope(&Resistance::moment);
-  constexpr double least = 1e-300;  // for a smaller number a quotient equals its limit
+  constexpr double least = 1e-300;  // for a smaller p or r, the quotient equals its limit
   return {slip.p > least ? here.force / slip.p : force_slope, slip.r > least ? here.moment / slip.r : moment_slope,
           force_slope, moment_slope};
 }

@@ -31,7 +31,7 @@ void require_two(const Aim& aim) {
     throw std::domain_error(fmt::format("aim: two of time, distance and turning are needed, got {}", given));
 }
 
-/// Returns the start with that k whose larger speed, v or w, is 1.
+/// Returns the start with the given k at which the larger of the speeds v and w is 1.
 State unit_start(const Flow& flow, double ln_k) {
   return {std::exp(std::min(0.0, -ln_k)) / flow.system().mu(), std::exp(std::min(0.0, ln_k))};
 }
@@ -52,7 +52,7 @@ State axis_start(const Flow& flow, const Aim& aim) {
   return aim.distance ? sliding_over(flow, *aim.distance) : pivoting_through(flow, *aim.turned);
 }
 
-/// Returns true if a motion fulfils the demands to 1e-6.
+/// Returns true if the numbers of a motion equal the demands to 1e-6.
 bool comes_to(const Reached& here, const Aim& aim) {
   const auto same = [](double got, const std::optional<double>& asked) {
     constexpr double close = 1e-6;
@@ -61,7 +61,7 @@ bool comes_to(const Reached& here, const Aim& aim) {
   return same(here.tau, aim.tau) && same(here.distance, aim.distance) && same(here.turned, aim.turned);
 }
 
-/// Returns the start as `aimed`, but does not test that it fulfils the demands.
+/// Returns the same start as `aimed`, without a test of whether it fulfils the demands.
 std::optional<State> best_start(const Flow& flow, const Aim& aim) {
   // If one demand is 0, the motion lies on an axis.
   const bool in_place = aim.distance && *aim.distance == 0;
@@ -79,8 +79,8 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     if (straight) return sliding_over(flow, *aim.distance);
   }
 
-  // The ratio is distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of the ratio divided by
-  // the demanded ratio. It is independent of the scale of the start, and it grows with k.
+  // A ratio of the demands is used: distance/turned, distance/tau^2 or tau^2/turned. The residual is the logarithm of
+  // this ratio divided by the demanded one. It is independent of the start's scale, and it grows with k.
   const auto residual = [&](double ln_k) {
     const Reached here = reached(flow, unit_start(flow, ln_k));
     const double time = aim.tau ? 2 * std::log(here.tau / *aim.tau) : 0;
@@ -88,7 +88,7 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     const double turned = aim.turned ? std::log(here.turned / *aim.turned) : 0;
     return aim.distance ? distance - (aim.tau ? time : turned) : time - turned;
   };
-  constexpr double widest = 640;  // at this |ln k| the speeds and their product are still doubles
+  constexpr double widest = 640;  // up to this |ln k| the speeds and their product are doubles
   double low = 0, high = 0;
   double at_low = residual(0), at_high = at_low;
   for (double step = 1; at_low > 0 && low > -widest; step *= 2) {
@@ -99,7 +99,7 @@ std::optional<State> best_start(const Flow& flow, const Aim& aim) {
     low = high, at_low = at_high;
     high = std::min(high + step, widest), at_high = residual(high);
   }
-  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // no double lies between the start and the axis
+  if (at_low > 0 || at_high < 0) return axis_start(flow, aim);  // no double lies between this start and the axis
   const State start = unit_start(flow, root_between(residual, low, high, at_low, at_high));
   const Reached here = reached(flow, start);
   if (aim.distance) return scaled(start, square_root_of_ratio(*aim.distance, here.distance));

@@ -33,7 +33,7 @@ struct Flow::Solved {
     return terminal_.made([this] { return terminal_ratios(system.law(), system.r(), system.drive()); });
   }
 
-  /// Returns the derivatives of m along the curve with this k.
+  /// Returns the derivatives of m along the curve that contains this k.
   const SlidingDerivatives& derivatives(double ln_k) const {
     const auto& all = derivatives_.made([this] {
       std::vector<SlidingDerivatives> made;
@@ -61,10 +61,10 @@ struct Flow::Arrays {
 
 namespace {
 
-/// Returns true if two ln k* are equal within the accuracy of a ray.
+/// Returns true if two values of ln k* are equal within the accuracy of a ray.
 bool same_ratio(double a, double b) { return a == b || std::abs(a - b) < 1e-6; }
 
-/// Returns a ln k between two ratios, each of which may be 0 or infinity.
+/// Returns some ln k between two ratios k, each of which can be 0 or infinity.
 double between(double k, double other) {
   const auto [low, high] = std::minmax({std::log(k), std::log(other)});
   if (std::isinf(low)) return std::isinf(high) ? 0 : high - 1;
@@ -150,7 +150,7 @@ double Flow::log_first_integral(double u, double ln_v) const {
         fmt::format("Flow::log_first_integral: it has no value on the axes, got u = {}, ln v = {}", u, ln_v));
   }
   const double ln_k = ln_v - std::log(system().mu()) - ln_u;
-  // The curves on both sides of a ray differ, and the ray belongs to neither.
+  // The curves on both sides of a ray differ, and none of them contains the ray.
   const double k = std::exp(ln_k);
   for (const InvariantRay& ray : terminal().rays) {
     if (std::abs(k / ray.k - 1) > 4 * eps) continue;
@@ -178,11 +178,11 @@ void Flow::stop_times(std::span<const double> u0, std::span<const double> v0, st
 
 double Flow::refused(std::size_t whole) const { return by_table(whole) ? table().refused() : 0; }
 
-// The table stores m, which is not bounded with a drive.
+// The table stores m, which grows without bound under a drive.
 bool Flow::by_table(std::size_t starts) const { return starts >= many_starts && system().drive() == 0; }
 
 const StopTimeTable& Flow::table() const {
-  // The table gets a copy of the flow. A flow that is referred to by its own table would never be released.
+  // The table contains a copy of the flow. If it shared this flow, the two would keep each other alive for ever.
   return arrays_->table.made([this] { return StopTimeTable(Flow(solved_)); });
 }
 

@@ -1,4 +1,4 @@
-// README (R61): if the start moves along itself, the motion is scaled; along the field, it is delayed.
+// README (R61): moving the start along (u, v) scales the motion; moving the start along the field delays the motion.
 #include "contensou/reduction/instant_gradient.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ InstantGradient instant_gradient(const Flow& flow, State start, double tau) {
   const double D = start.u * first.v - start.v * first.u;
   constexpr double clear = 1e-5;
   if (!(std::abs(D) > clear * std::max(std::abs(start.u * first.v), std::abs(start.v * first.u)))) {
-    // Across a ray the state is as smooth as the law, so the mean of two starts beside the ray is used.
+    // Across a ray the state is as smooth as the law, so the gradient is the mean of two gradients beside the ray.
     for (double aside = 3 * clear; aside < 0.01; aside *= 3) {
       const State below{start.u, start.v * (1 - aside)}, above{start.u, start.v * (1 + aside)};
       const auto is_clear = [&](State beside) {
@@ -43,7 +43,7 @@ InstantGradient instant_gradient(const Flow& flow, State start, double tau) {
         "instant_gradient: under law {} every k near that of u = {}, v = {} keeps what it is: no gradient by k",
         system.law().name(), start.u, start.v));
   }
-  // Two directional derivatives are known: along the start (scaling) and along its field (delay).
+  // Two derivatives by the start are known: along (u, v), a scaling, and along the field, a delay.
   const auto part = [&](double value, int degree, double rate, double later) {
     const double scaled = degree * value - tau * rate;
     return InstantGradient::Part{value, (scaled * first.v - start.v * later) / D,

@@ -1,4 +1,4 @@
-// Notation (README (R1) to (R7)): w = mu |u|, s = scaled time; ln w, m, n, o, b and c are functions of the curve at xi:
+// Notation (README (R1) to (R7)): w = mu |u|, s: scaled time, index 0: start; m, n, o, b and c: SimilarityCurve, at xi:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
 //   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
 //   slip left = v (v/(2 (1 - rho)) + n w)                         (R13), (R50)
@@ -28,18 +28,18 @@ namespace {
 
 using std::numbers::pi;
 
-/// Returns ln k, even if k = v/w overflows or underflows; w = mu |u|. v_scaled, w_scaled are v, w times one factor.
+/// Returns ln k, even if k = v/w overflows or underflows; w = mu |u|. v_scaled, w_scaled are v and w times one factor.
 double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled) {
   const double k = v_scaled / w_scaled;
   return std::isnormal(k) && std::isnormal(w_scaled) ? std::log(k) : std::log(v) - std::log(mu) - std::log(u);
 }
 
-/// Returns a/b; 0 for a = 0 even if b has underflowed.
+/// Returns a/b, but 0 for a = 0, even if b has underflowed.
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
 /// Returns the root of an increasing function of xi in [low, high] by Newton's method, with bisection if a step leaves
-/// the interval. The function changes by a factor over a unit of xi. So after a small_step the error, which is its
-/// square, is negligible.
+/// the interval. The function changes by a factor over a unit of xi. The error is the square of the last step, so after
+/// a small_step it is negligible.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);
@@ -97,7 +97,7 @@ Orbit::Orbit(const ReducedSystem& system, State start, const SimilaritySolution&
   m0_ = curve_->sliding_coefficient(xi0_);
 }
 
-/// Computes ln w at the start at its first use, because a stop time and a slip length do not need the panels of ln w.
+/// Computes ln w at the start at the first use of ln w, because a stop time and a slip length do not need its panels.
 double Orbit::log_start() const {
   double ln_w = ln_w0_.value.load(std::memory_order_relaxed);
   if (std::isnan(ln_w)) ln_w0_.value.store(ln_w = curve_->ln_w(xi0_), std::memory_order_relaxed);
@@ -140,8 +140,8 @@ Orbit::Progress Orbit::progress(double xi) const {
 }
 
 Orbit::Progress Orbit::progress(double xi, double left) const {
-  // Both speeds follow from k and left = P w/w0 + S m v/v0. `ratio` is the smaller of w/w0 and v/v0 divided by the
-  // larger.
+  // Both speeds follow from k and the time left, left = P w/w0 + S m v/v0. `ratio` is the smaller of w/w0 and v/v0
+  // divided by the larger one.
   const double change = curve_->chart().log_ratio(xi) - ln_k0_;
   const double ratio = std::exp(-std::abs(change));
   const double sliding = v_ * curve_->sliding_coefficient(xi);
@@ -207,7 +207,7 @@ OrbitPoint Orbit::rest(double tau) const {
 }
 
 OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
-  // On an axis the speed falls linearly, and dtau = weight dbeta with a weight proportional to the square of the speed.
+  // On an axis the speed falls linearly. In dtau = weight dbeta, the weight is proportional to the square of the speed.
   if (fraction_left == 0) return rest(tau);
   const double rate = system_.scaled_time_rate();
   const double spent = (1 - fraction_left) / fraction_left;
@@ -222,7 +222,7 @@ OrbitPoint Orbit::on_axis_at(double tau, double fraction_left) const {
 
 double Orbit::beta(double xi, const Progress& now) const {
   // Next to a ray k hardly changes, w falls linearly, and dtau/dbeta falls like w^2. If the law has a term x ln|x|
-  // there, the distance from the ray is squared while w is halved. So xi is inaccurate at distances below sqrt(eps).
+  // there, the distance from the ray is squared while w is halved. Then xi is inaccurate at distances below sqrt(eps).
   constexpr double beside = 1e-3;
   constexpr double unchanged = 3e-7;
   const TerminalChart& chart = curve_->chart();
@@ -239,7 +239,7 @@ double Orbit::beta(double xi, const Progress& now) const {
   const auto elapsed = [&](double there, const Progress& then) {
     return curve_->beta_coefficient(there) / (w_ * then.w + v_ * then.v) - curve_->beta_coefficient(xi0_) / (w_ + v_);
   };
-  // On the ray at small k of a drive, w falls by any factor while k stays equal to the last bit.
+  // On the ray that a drive causes at small k, w falls by any factor while k keeps all its bits.
   constexpr double there_already = 1e-9;
   if (system_.drive() > 0 && std::abs(ln_k - ln_k_star) < there_already) {
     const double xi_then = chart.coordinate(ln_k_star + std::copysign(there_already, ln_k0_ - ln_k_star));
@@ -259,7 +259,7 @@ OrbitPoint Orbit::point(double tau, double xi, const Progress& now) const {
           .beta = std::ldexp(std::max(0.0, beta(xi, now)) / system_.scaled_time_rate(), -exponent_)};
 }
 
-/// Computes the speeds from the time left. Next to a ray they fall while k hardly changes, so xi does not suffice.
+/// Computes the speeds from the time left. Next to a ray the speeds fall while k hardly changes: xi does not suffice.
 OrbitPoint Orbit::point_with_left(double tau, double xi, double left) const {
   return point(tau, xi, progress(xi, left));
 }
@@ -325,7 +325,7 @@ Orbit::Instant Orbit::instant(double tau) const {
 
 double Orbit::coordinate_of_fall(double Progress::*ln_speed, double ln_fraction, double from) const {
   const auto rest = [&](double xi) { return fallen(xi).*ln_speed - ln_fraction; };
-  // Below linear_below() both logarithms are linear.
+  // Below linear_below() both logarithms, ln w and ln v, are linear.
   const double limit = std::min(curve_->linear_below(), from);
   const double at_limit = rest(limit);
   if (at_limit >= 0) return limit - at_limit / (at_limit - rest(limit - 1));
@@ -339,7 +339,7 @@ double Orbit::coordinate_of_fastest() const {
   };
   const double at_begin = on_axis() ? 0 : excess(ln_k0_);
   if (at_begin >= 0) return xi0_;
-  // k grows towards its limit, at which friction exceeds the drive.
+  // k grows towards its limit at the stop, and there friction exceeds the drive.
   constexpr double far = 60;
   const double end = std::min(chart().log_terminal_ratio(), far);
   const double at_end = excess(end);
@@ -355,7 +355,7 @@ double Orbit::time_of_fall(double Progress::*ln_speed, double speed, double star
   const double ln_fraction = std::isnormal(fraction) ? std::log(fraction) : std::log(speed) - std::log(start);
   if (from != xi0_ && fallen(from).*ln_speed <= ln_fraction) return 0;
   const double xi = coordinate_of_fall(ln_speed, ln_fraction, from);
-  // Both speeds follow from the speed that is known and from k.
+  // Both speeds follow from k and the speed whose fall is given.
   Progress now = fallen(xi);
   const double correction = ln_fraction - now.*ln_speed;
   now.ln_w += correction;
@@ -378,7 +378,7 @@ double Orbit::time_of_u(double u) const {
 
 double Orbit::integral(const std::function<double(double)>& of_v, double tau, const std::vector<double>& edges) const {
   if (!(tau >= 0)) throw std::domain_error(fmt::format("Orbit::integral: tau must be >= 0, got {}", tau));
-  // Split into the integral of the value at v = 0 and the integral of the difference, which vanishes with v.
+  // Split into the integral of the value at v = 0 and the integral of the difference from it, which vanishes with v.
   const double end = std::min(tau, stop_time());
   const double last_value = of_v(0);
   const double at_rest = last_value * end;
@@ -419,7 +419,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   for (std::size_t i = 1; i < panels.size(); ++i) {
     const double left = panels[i - 1], width = panels[i] - left;
     if (width == 0) continue;
-    // Next to a kink the curve contains roots of the distance; 3 s^2 - 2 s^3 in place of s makes whole powers.
+    // Next to a kink the integrand has roots of the distance; 3 s^2 - 2 s^3 in place of s turns them to whole powers.
     const bool bends = std::ranges::any_of(kinks, [&](double kink) { return kink == left || kink == panels[i]; });
     const auto along = [&](double s) {
       return bends ? integrand(left + width * s * s * (3 - 2 * s)) * 6 * s * (1 - s) : integrand(left + width * s);

@@ -24,7 +24,7 @@ double excess_slope(const Law& law, double r, double k) {
 
   constexpr double at_kink = 1e-6;
   if (std::abs(ln_k) < at_kink) {
-    // A difference across the kink that grows as the step shrinks shows an infinite slope.
+    // The slope is infinite if the difference across the kink grows as the step shrinks.
     const double fine = central(at_kink);
     const double coarse = central(100 * at_kink);
     return fine > 1.01 * coarse ? infinity : fine / k;
@@ -40,7 +40,7 @@ double excess_slope(const Law& law, double r, double k) {
   return slope / k;
 }
 
-/// Returns the kind from the signs of the eigenvalues, which are known even if the eigenvalues underflow.
+/// Returns the kind by the signs of the eigenvalues, which are known even if the eigenvalues underflow.
 std::string_view kind_of(bool attracts_radially, double attracts_angularly) {
   if (attracts_angularly == 0) return planar_kind("degenerate");
   if (attracts_radially != (attracts_angularly > 0)) return planar_kind("saddle");
@@ -75,9 +75,9 @@ PhasePlane phase_plane(const Flow& flow) {
 
   const double body_scale = std::sqrt(chi / gamma);
   PhasePlane plane{terminal, body_scale * std::sqrt(terminal.low), body_scale * std::sqrt(terminal.high), {}, {}};
-  // Adds the two points of a half-line, and the tangent if orbits end there. Let rate be the relative rate of the speed
-  // along the half-line: this is fall. order is the relative rate of the angle next to it, divided by fall. attraction
-  // is the sign of order.
+  // Adds the two singular points of a half-line, and the tangent if orbits end there. fall is the rate at which the
+  // speed along the half-line falls, relative to the speed. order is the relative rate of the angle beside the
+  // half-line, divided by fall. attraction is the sign of order.
   const auto add = [&](InvariantDirection direction, double k, double fall, double order, double attraction) {
     for (SingularPlace place : {SingularPlace::origin, SingularPlace::infinity}) {
       const bool at_origin = place == SingularPlace::origin;
@@ -89,7 +89,7 @@ PhasePlane phase_plane(const Flow& flow) {
     }
   };
 
-  // Rates by README (R16), (R17). mu may underflow in the rates, but not in the orders.
+  // Rates by README (R16), (R17). They underflow if mu is tiny, but the orders do not.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
   const double moment = law.pivoting_moment();

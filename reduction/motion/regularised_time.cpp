@@ -22,8 +22,8 @@ OrbitPoint at_beta(const Orbit& orbit, double mu, State start, double beta) {
   OrbitPoint found = orbit.at_time_left(0);
   if (std::isinf(beta) || stop == 0) return found;
   if (orbit.on_axis()) {
-    // The speed that is not 0 falls linearly, and dtau = weight dbeta with a weight proportional to its square. If the
-    // share f of the time is left, beta is (1 - f)/f times its value at f = 1/2.
+    // The speed that is not 0 falls linearly. In dtau = weight dbeta the weight is proportional to the square of this
+    // speed. If the share f of the time is left, beta is (1 - f)/f times its value at f = 1/2.
     const double spent = beta / orbit.at_time_left(stop / 2).beta;
     if (std::isfinite(spent)) found = orbit.at_time_left(stop / (1 + spent));
   } else {
@@ -31,7 +31,7 @@ OrbitPoint at_beta(const Orbit& orbit, double mu, State start, double beta) {
     const double unit = 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v);
     const auto at = [&](double ln_share) { return orbit.at_time_left(std::min(stop * std::exp(ln_share), stop)); };
     const auto missing = [&](double ln_share) { return std::log(beta + unit) - std::log(at(ln_share).beta + unit); };
-    constexpr double last = -700;  // smaller shares of the time are not doubles
+    constexpr double last = -700;  // a smaller share of the time underflows
     double low = -1;
     while (low > last && missing(low) > 0) low = std::max(2 * low, last);
     found = at(root_between(missing, low, 0, missing(low), std::log(beta + unit) - std::log(unit)));

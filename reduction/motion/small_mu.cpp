@@ -1,4 +1,4 @@
-// Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi, q = k Psi/Phi,
+// Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi, q = k Psi/Phi; m0 = first, m1 = second of the expansion:
 //   k m0 = integral of g dk over (0, k),   k m1 = integral of q (g - m0) dk over (0, k)
 // and of (R46) I = integral of Psi/(Psi(0) Phi) dk, here 0 at min_ln_k. In y = ln k each integrand gains a factor k.
 #include "contensou/reduction/small_mu.hpp"
@@ -33,7 +33,7 @@ double coefficient_rate(const Law& law, double k) {
   return law.moment_deficit(slip) / law(slip).force;
 }
 
-/// Returns the edges of panels of width 1, halved repeatedly towards y = 0 (k = 1), where a law may have a kink.
+/// Returns the edges of panels of width 1, halved repeatedly towards y = 0 (k = 1), at which a law can have a kink.
 std::vector<double> panel_edges(double low, double high) {
   constexpr int halvings = 40;
   std::vector<double> edges{low};
@@ -66,7 +66,7 @@ CoefficientExpansion coefficient_expansion(const Law& law, double ln_k) {
     throw std::domain_error(fmt::format("coefficient_expansion: ln k must be finite, got {}", ln_k));
   }
   const double top = std::min(ln_k, max_ln_k);
-  // Below min_ln_k the integral is so small that its rate counts as constant.
+  // Below min_ln_k the derivative of the integral by k counts as constant, because the integral is so small.
   const double k_low = std::exp(std::clamp(top, std::log(std::numeric_limits<double>::min()), min_ln_k));
   double first = k_low * coefficient_rate(law, k_low);
   double second = 0;
@@ -99,7 +99,7 @@ std::optional<FarCoefficient> far_coefficient(const Law& law) {
   constexpr double fastest = 0x1p100;
   const double c = fastest * law(slip_of_ratio(fastest)).moment / law.pivoting_moment();
 
-  // From here on g - 1 + c/k equals its last term, in 1/k^2. At smaller k its rounding error is small enough.
+  // From this k on, g - 1 + c/k equals its leading term, in 1/k^2. At smaller k the rounding of the sum is negligible.
   constexpr double ln_top = 11;
   const auto rest = [&](double k) { return coefficient_rate(law, k) - 1 + c / k; };
   double integral = 0;
@@ -132,7 +132,7 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   std::vector<StopEstimate> estimates;
   const auto far = far_coefficient(law);
   if (far && (start.u == 0 || ln_k > 0)) {
-    // S/k0 is the time of pure sliding with a start at the rim speed.
+    // S/k0 is the time of pure sliding from the rim speed to 0.
     const double rim = on_axis ? 0 : sliding * std::exp(-ln_k) * (far->logarithm * ln_k + far->constant);
     estimates.push_back({"log", "E1 for k0 >> 1, P + S (1 - (c ln k0 + d)/k0)", pivoting + sliding - rim});
   }
@@ -144,7 +144,7 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   return estimates;
 }
 
-/// k m0 and the integral I of (R46) for all k up to k0, and the inverse function of their sum.
+/// k m0 and the integral I of (R46) for all k up to k0, and the inverse of the function k m0 + I of k.
 class SmallMuMotion::Layer {
  public:
   Layer(const Law& law, double ln_k0)
@@ -210,12 +210,12 @@ class SmallMuMotion::Layer {
     Values at_end() const { return {gain.at_end(), pivoting.at_end()}; }
   };
 
-  /// Returns the values at a k so small that Psi = Psi(0).
+  /// Returns the values at a k so small that Psi = Psi(0) and Phi is linear.
   Values below(double ln_k) const { return {std::exp(ln_k) * rate_low_, (ln_k - min_ln_k) / force_slope_}; }
 
   double ln_k0_;
   double force_slope_;
-  double rate_low_;  ///< derivative of k m0 by k at small k
+  double rate_low_;  ///< d(k m0)/dk at small k
   std::vector<Panel> panels_;
   Values start_{};
   double start_coefficient_;
@@ -229,7 +229,7 @@ SmallMuMotion::SmallMuMotion(const ReducedSystem& system, State start)
   require_state("SmallMuMotion", start);
   require_free("SmallMuMotion", system);
   if (start.u == 0 || start.v == 0) return;
-  // A slower rim has no effect on the sliding.
+  // A rim speed below v exp(-max_ln_k) has no effect on the sliding.
   const double ln_w0 = std::max(std::log(system.mu()) + std::log(std::abs(start.u)), std::log(start.v) - max_ln_k);
   ln_k0_ = std::log(start.v) - ln_w0;
   unit_rate_ = std::exp(std::log(system.scaled_time_rate()) - ln_w0);
@@ -251,7 +251,7 @@ SmallMuMotion::Speeds SmallMuMotion::at_time(double tau) const {
   if (pivoting_rate_ * theta <= -1) return {0, 0, -infinity};
   const double clock = theta >= 0 ? theta : std::log1p(pivoting_rate_ * theta) / pivoting_rate_;
   const auto [ln_k, now] = layer_->where(pivoting0 + clock);
-  // For theta >= 0 both formulas are equal, but theta - k m0 cancels.
+  // For theta >= 0 both formulas are equal, but the difference theta - k m0 loses digits.
   const double fall = theta >= 0 ? now.pivoting - pivoting0 : theta - now.gain;
   const double ln_v_ratio = ln_k - ln_k0_;
   return {start_.u * std::max(1 + pivoting_rate_ * fall, 0.0), start_.v * std::exp(ln_v_ratio),

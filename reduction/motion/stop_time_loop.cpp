@@ -15,7 +15,7 @@ using Panels = StopTimePanels;
 constexpr int index_shift = std::numeric_limits<double>::digits - 1 - Panels::cut_bits;
 constexpr std::uint64_t left_mask = ~std::uint64_t{0} << index_shift;
 
-/// Usable stop times lie from 2^-511 to 2^513. Their bits minus min_ordinary begin with two zeros.
+/// Usable stop times lie from 2^-511 to 2^513. The bits of such a double minus min_ordinary begin with two zeros.
 constexpr std::uint64_t min_ordinary = std::bit_cast<std::uint64_t>(0x1p-511);
 constexpr std::uint64_t not_ordinary = std::uint64_t{3} << 62;
 
@@ -24,7 +24,7 @@ bool usable(double tau, double v0) {
   return ((std::bit_cast<std::uint64_t>(tau) - min_ordinary) & not_ordinary) == 0 && !std::signbit(v0);
 }
 
-/// The panel of a start, and its distance in y + lowest from the panel's left edge.
+/// The panel of a start, and the distance of the start from the left edge of the panel, in y + lowest.
 struct PlaceInPanels {
   std::size_t panel;
   double t;
@@ -66,20 +66,20 @@ constexpr std::size_t width = 4;
 using Numbers [[gnu::vector_size(width * sizeof(double))]] = double;
 using Bits [[gnu::vector_size(width * sizeof(double))]] = std::uint64_t;
 
-// Vectors that are stored at any address of an array.
+// Types of vectors that are stored in an array at any address.
 using StoredNumbers [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = double;
 using StoredBits [[gnu::vector_size(width * sizeof(double)), gnu::may_alias, gnu::aligned(8)]] = std::uint64_t;
 const StoredNumbers* at(const double* first) { return reinterpret_cast<const StoredNumbers*>(first); }
 StoredNumbers* at(double* first) { return reinterpret_cast<StoredNumbers*>(first); }
 StoredBits* at(std::uint64_t* first) { return reinterpret_cast<StoredBits*>(first); }
 
-/// The loop for every instruction set: it is inlined into functions that are compiled for one set each. It handles some
-/// vectors at a time in two steps, because a division and a polynomial are a long chain of operations, and a processor
+/// The loop for every instruction set. It is inlined into functions that are each compiled for one set. It handles
+/// several vectors at a time in two steps: a division and a polynomial are a long chain of operations, and a processor
 /// looks ahead by few vectors only.
 [[gnu::always_inline]] inline void run(const Panels& table, const double* u0, const double* v0, double* tau,
                                        std::size_t size) {
   constexpr std::size_t vectors = 8, starts = width * vectors;
-  constexpr std::size_t ahead = 256;  // memory is prefetched by this number of starts
+  constexpr std::size_t ahead = 256;  // memory is fetched this number of starts in advance
   constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
   std::array<Numbers, vectors> u, v, t;
   std::array<double, starts> t4, found;

@@ -35,7 +35,7 @@ double ratio(std::size_t panel, double y) {
   return (panel & Panels::above_one) != 0 ? 1 / up_to_one : up_to_one;
 }
 
-/// The left edge of a panel in y + lowest, and its width.
+/// The left edge of a panel in y + lowest, and the width of the panel.
 struct Span {
   double left;
   double width;
@@ -48,8 +48,8 @@ Span span(std::size_t panel) {
   return {octave + width * static_cast<double>(index % cuts), width};
 }
 
-/// Least-squares polynomials on [0, 1] through values at Chebyshev's points. There are twice as many points as terms,
-/// so that the noise of the values is halved.
+/// Least-squares polynomials on [0, 1] through values at Chebyshev points. There are twice as many points as terms, so
+/// that the noise of the values is halved.
 class Fit {
  public:
   static constexpr std::size_t points = std::size_t{2} * Panels::terms;
@@ -73,9 +73,9 @@ class Fit {
     }
   }
 
-  /// Returns the coefficients of powers of width x.
+  /// Returns the coefficients of powers of the distance width x from the left edge, 0 <= x <= 1.
   Panel panel(const Values& values, double width) const {
-    // Without the constant the other coefficients are small, and so is their rounding.
+    // Subtract the constant first: then the other coefficients are small, and so is their rounding.
     const double constant = values[0];
     Panel fitted{};
     for (std::size_t n = 0; n < Panels::terms; ++n) {
@@ -95,8 +95,8 @@ class Fit {
   Values x{};
 
  private:
-  std::array<Values, Panels::terms> analysis_{};  ///< maps values to coefficients of Chebyshev's polynomials
-  /// Coefficients of powers of x in these polynomials.
+  std::array<Values, Panels::terms> analysis_{};  ///< matrix from values to coefficients of Chebyshev polynomials
+  /// Coefficients of powers of x in the Chebyshev polynomials.
   std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};
 };
 
@@ -121,7 +121,7 @@ Panel fitted_panel(std::size_t panel, const std::function<double(double k)>& fun
   return fit.panel(values, span(panel).width);
 }
 
-/// Number of starts that a thread takes at least: whole cache lines.
+/// A thread takes at least this number of starts: whole cache lines.
 constexpr std::size_t grain = 64;
 
 void run_shared(const Panels& panels, std::span<const double> u0, std::span<const double> v0, std::span<double> tau,
@@ -168,7 +168,7 @@ struct StopTimeTable::Stored {
     return fitted_panel(index, [&](double k) { return sliding * sliding_coefficient(flow, k); });
   }
 
-  /// Compares some stop times of each panel with those of the flow, and disables the panels that fail.
+  /// Compares some stop times of each panel with those of the flow, and disables the panels with too large errors.
   void prove() {
     std::vector<bool> fails(storage.size());
     for (std::size_t i = 0; i < storage.size(); ++i) {
@@ -181,7 +181,7 @@ struct StopTimeTable::Stored {
         if (error <= tolerance) {
           worst = std::max(worst, error);
         } else {
-          fails[panel_of(loop, start.u, start.v)] = true;  // k is rounded, so the start may lie in a neighbouring panel
+          fails[panel_of(loop, start.u, start.v)] = true;  // k is rounded, so the start can lie in a neighbouring panel
         }
       }
     }
@@ -196,7 +196,7 @@ struct StopTimeTable::Stored {
     if (!std::isfinite(u0) || !std::isfinite(v0) || v0 < 0) return not_a_number;
     const double largest = std::max(std::abs(u0), v0);
     if (largest == 0) return 0;
-    // A start out of the range of the table may have a multiple in this range.
+    // A start outside the table's range of speeds can have a multiple inside this range.
     const int exponent = std::ilogb(largest);
     const State start{std::ldexp(std::abs(u0), -exponent), std::ldexp(std::abs(v0), -exponent)};
     const double tau = from_panels(loop, start.u, start.v);

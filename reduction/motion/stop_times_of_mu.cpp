@@ -1,4 +1,4 @@
-// Notation (README (R18), (R50), (R58)): tau* = P + m S,  y = m k/(1 + k),  s = w/(r Psi(0)) + (w + v) y
+// Notation (README (R18), (R50), (R58)): tau* = P + m S, y = m k/(1 + k), s = w/(r Psi(0)) + (w + v) y (tau* scaled).
 // A function f(k, r) is interpolated at Chebyshev's points r_j:  f = sum_j l_j(r) f_j(k)
 #include "contensou/reduction/stop_times_of_mu.hpp"
 
@@ -31,7 +31,7 @@ namespace {
 
 using Place = SlidingDerivatives::Place;
 
-/// Chebyshev's points of an interval of r.
+/// The Chebyshev points of an interval of r.
 class PointsOfR {
  public:
   PointsOfR(double low, double high) : points_(high < steep ? few : many) {
@@ -49,13 +49,13 @@ class PointsOfR {
   std::size_t size() const { return points_.size(); }
   double operator[](std::size_t j) const { return points_[j].r; }
 
-  /// Values of N functions at one r, and the larger of the last two coefficients of each in Chebyshev's polynomials.
+  /// Values of N functions at one r. errors[i]: the larger of the last two Chebyshev coefficients of function i in r.
   template <std::size_t N>
   struct Found {
     std::array<double, N> values{}, errors{};
   };
 
-  /// @param functions  returns the values of the functions at a point
+  /// @param functions  returns the values of all N functions at point number j
   template <std::size_t N, class Functions>
   Found<N> at(double x, Functions functions) const {
     std::array<double, N> sum{}, last{}, last_but_one{};
@@ -84,17 +84,17 @@ class PointsOfR {
  private:
   struct Point {
     double r;
-    double weight;              ///< barycentric
-    double last, last_but_one;  ///< share of the value in the last two coefficients
+    double weight;              ///< weight of barycentric interpolation
+    double last, last_but_one;  ///< factors of a value at this point in the last two Chebyshev coefficients
   };
 
-  /// The nearest r at which a function may be singular is 1/2 or more, far from a small r.
+  /// The nearest r at which a function can be singular is 1/2 or more. Small r are far from it and need fewer points.
   static constexpr double steep = 0.05;
   static constexpr std::size_t many = 16, few = 12;
   std::vector<Point> points_;
 };
 
-/// One function of the place on each curve of a system.
+/// One function of k (Place) at one r, on each curve of the system with this r.
 template <class Curve>
 class CurvesAtR {
  public:
@@ -119,11 +119,11 @@ class CurvesAtR {
   std::vector<OnChart> curves_;
 };
 
-/// N functions of k and r. `Kind` makes them at one r and judges errors:
+/// N functions of k and r. `Kind` makes the functions at one r and judges their errors:
 ///   AtR              type of the functions at one r: (const Place&) -> std::array<double, N>
-///   at_r(r)          makes them
+///   at_r(r)          makes the functions at r
 ///   place(k)         returns a place
-///   allowed(place, r, values, errors)  returns true if such errors of the functions may pass
+///   allowed(place, r, values, errors)  returns true if these errors of the functions are small enough
 template <class Kind>
 class FunctionsOfR {
  public:
@@ -138,7 +138,7 @@ class FunctionsOfR {
 
   const Kind& kind() const { return kind_; }
 
-  /// Returns the functions; nothing if an error is not allowed.
+  /// Returns the values of the functions; empty if an error is not allowed.
   std::optional<Values> operator()(double r, const Place& place) const {
     const auto above = std::ranges::upper_bound(intervals_, r, {}, [](const auto& each) { return each->low; });
     if (above == intervals_.begin() || r > intervals_.back()->high) return {};
@@ -156,7 +156,7 @@ class FunctionsOfR {
 
  private:
   struct Interval;
-  /// The functions at the points; or the halves of an interval on which an error is too large; or nothing.
+  /// The functions at the points of an interval; or the interval's halves, if an error is too large; or nothing.
   struct Solved {
     std::vector<typename Kind::AtR> at;
     std::unique_ptr<const Interval> lower, upper;
@@ -180,7 +180,7 @@ class FunctionsOfR {
     const std::size_t size = interval.points.size();
     try {
       for (std::size_t j = 0; j < size; ++j) made.at.push_back(kind_.at_r(interval.points[j]));
-      // Between two points, where the error of the interpolation is largest, the functions themselves are known.
+      // The error of the interpolation is largest between two points. Compute the functions themselves there, too.
       const double r = (interval.points[size / 2 - 1] + interval.points[size / 2]) / 2;
       const auto exact = kind_.at_r(r);
       bool told = false, silent = false;
@@ -201,7 +201,7 @@ class FunctionsOfR {
       }
       if (halved || silent) made.at.clear();
     } catch (const std::domain_error&) {
-      made.at.clear();  // a start that is solved alone throws the error again
+      made.at.clear();  // the error is thrown again for a start that is solved alone
     } catch (const std::runtime_error&) {
       made.at.clear();
     }
@@ -212,7 +212,7 @@ class FunctionsOfR {
   std::vector<std::unique_ptr<const Interval>> intervals_;
 };
 
-/// Law and drive of all r.
+/// Law and drive of the systems of all r.
 struct System {
   Law law;
   double drive;
@@ -220,7 +220,7 @@ struct System {
   double pivoting(double r) const { return 1 / (r * law.pivoting_moment()); }
 };
 
-/// m without a drive; r y with a drive, where y grows like 1/r as r -> 0.
+/// m without a drive; r y under a drive, because y grows like 1/r as r -> 0.
 struct StopTimes {
   static constexpr std::size_t count = 1;
   using Values = std::array<double, count>;
@@ -250,8 +250,8 @@ struct StopTimes {
   }
 };
 
-/// The numbers of SlidingDerivatives::Values, by_w times r. Under a drive by_r grows like 1/r^2 as r -> 0, and by_drive
-/// like 1/r; so does by_drive without a drive unless Psi'(0) = 0.
+/// The numbers of SlidingDerivatives::Values, but by_w times r. Under a drive by_r grows like 1/r^2 as r -> 0, and
+/// by_drive like 1/r. Without a drive by_drive grows like 1/r, too, unless Psi'(0) = 0.
 struct Derivatives {
   static constexpr std::size_t count = 4;
   using Values = std::array<double, count>;
@@ -278,7 +278,7 @@ struct Derivatives {
 
   Place place(double k) const { return Place::at(system.law, k); }
 
-  /// Returns true if by_w and by_v follow from m.
+  /// Returns true if by_w and by_v follow from m with enough digits.
   bool by_m(const Place& place, double r) const {
     return system.drive == 0 && place.k <= SlidingDerivatives::fast_slide &&
            SlidingDerivatives::is_clear(place.friction.force, r * place.k * place.friction.moment);
@@ -292,9 +292,9 @@ struct Derivatives {
   bool allowed(const Place& place, double r, const Values& values, const Values& errors) const {
     const auto value = unscaled(r, values), error = unscaled(r, errors);
     const double k = place.k, time = value.by_w + k * value.by_v;
-    // Laws with slopes by differences have few digits where m' has few.
+    // If a law has slopes by differences, they limit the error wherever by_w and by_v do not follow from m.
     const double share = 64 * eps / (1 - system.drive) + (by_m(place, r) ? 0 : slope_error);
-    // Beside a fast slide by_w is a small part of the time, and has a relative error of its own.
+    // In a fast slide w by_w is a small part of the time, so the error of by_w is relative to by_w itself.
     const double share_of_w =
         k > SlidingDerivatives::fast_slide ? std::max(1e-11, slope_error) * value.by_w : share * time;
     const bool speeds = by_m(place, r) || (error.by_w <= share_of_w && k * error.by_v <= share * time);
@@ -303,14 +303,14 @@ struct Derivatives {
   }
 };
 
-/// Returns r from which on a law has a ray without a drive.
+/// Returns Phi'(0)/Psi(0), the r from which on a law has a ray if there is no drive.
 double first_ray(const Law& law) { return law.force_slope() / law.pivoting_moment(); }
 
-/// Returns the edges of the intervals, up to max_r. If there is a pole at r = 0, an interval must not be long, or the
-/// error of its far end would be felt at the near one.
+/// Returns the edges of the intervals, up to max_r. If there is a pole at r = 0 an interval must not be long, because
+/// the error at its upper end would be felt at its lower end.
 std::vector<double> edges(const Law& law, bool pole, double max_r) {
   constexpr double ratio = 16, least = 1e-20;
-  // Beside the first ray the functions are smooth, but their series converge slowly.
+  // Next to the first ray the functions are smooth in r, but their series converge slowly.
   const double low = first_ray(law);
   std::vector<double> edges;
   for (double r = low / 2; r < max_r; r += low / 4) edges.push_back(r);
@@ -339,7 +339,7 @@ struct StopTimesOfMu::Tables {
     return drive > 0 || law.moment_deficit({slow, 1}) > 1e-3 * slow;
   }
 
-  /// Beside a ray, slopes by differences have too few digits.
+  /// Next to a ray, slopes by differences have too few digits.
   static double max_r_of_derivatives(const Law& law, double drive) {
     return tangent_error(law) > 0 && drive == 0 ? std::min(max_r, 0.875 * first_ray(law)) : max_r;
   }
@@ -393,7 +393,7 @@ struct StopTimesOfMu::Tables {
     return stop_time_gradient(at(mu), start, *tau, [&](double) { return by; });
   }
 
-  ReducedSystem unit;  ///< law, body and drive, with mu = 1
+  ReducedSystem unit;  ///< law, body and drive, and mu = 1
   bool closed;         ///< true if stop times have a closed form
   Law shared;
   FunctionsOfR<StopTimes> stop_times;

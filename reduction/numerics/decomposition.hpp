@@ -2,15 +2,15 @@
 
 #include <Eigen/Core>
 
-/// Linear algebra of matrices of any size. Only one source compiles Eigen's templates, which takes seconds.
+/// Linear algebra of matrices of any size. One source alone compiles Eigen's templates, because this takes seconds.
 namespace contensou::reduction {
 
 /// The singular value decomposition U diag(values) V^T of a matrix, with thin U and V.
 struct SingularValues {
   explicit SingularValues(const Eigen::MatrixXd& matrix);
 
-  /// Returns the least-squares solution of least norm, using the largest singular values only.
-  /// @param rank  number of singular values used
+  /// Returns the least-squares solution of least norm that uses the largest singular values only.
+  /// @param rank  number of singular values that are used
   Eigen::VectorXd solution(const Eigen::VectorXd& right, Eigen::Index rank) const;
 
   Eigen::VectorXd values;  ///< decreasing
@@ -20,7 +20,7 @@ struct SingularValues {
 /// Returns the solution of matrix x = right, by LU with partial pivots.
 Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
-/// Returns the least-squares solution of matrix x = right, of least norm if there are several.
+/// Returns the least-squares solution of matrix x = right; if there are several, the one of least norm.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);

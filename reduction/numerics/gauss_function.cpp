@@ -1,5 +1,5 @@
-// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. The equation of F has the same form in y, with a + b + 1 - c for c:
-//   x (1 - x) F'' + [c - (a + b + 1) x] F' - a b F = 0
+// Notation: F(x) = 2F1(a, b; c; x), y = 1 - x. F satisfies an equation that has the same form in y if c is replaced by
+// a + b + 1 - c:   x (1 - x) F'' + [c - (a + b + 1) x] F' - a b F = 0
 // Taylor coefficients f_n about a point x, starting with f_0 = F, f_1 = F':
 //   x (1 - x) (n + 1)(n + 2) f_(n+2) = (n + a)(n + b) f_n - (n + 1) [n (1 - 2 x) + c - (a + b + 1) x] f_(n+1)
 // The half width of panel j, 2^-(j+2) to 2^-(j+1), is a third of the distance from its centre to the singular point.
@@ -13,7 +13,7 @@ namespace contensou::reduction {
 
 namespace {
 
-/// A solution of the equation, given by its value and slope at one point.
+/// A solution F of the equation, given by its value and slope at one point.
 struct Continuation {
   static constexpr int terms = 48;
 
@@ -50,7 +50,7 @@ struct Continuation {
     x = target;
   }
 
-  /// Returns the series of the panel from here to `end`, in powers of its half width, and moves to `end`.
+  /// Returns the series of the panel from this point to `end`, in powers of the panel's half width, and moves to `end`.
   GaussFunction::Panel cross_to(Wide end) {
     const Wide half = std::abs(end - x) / 2;
     move_to((x + end) / 2);
@@ -69,7 +69,7 @@ double polynomial(std::span<const double> coefficients, double t) {
   return sum;
 }
 
-/// Returns the value at x by the panel that contains x, in [2^-(panels + 1), 1/2], or by the nearest panel.
+/// Returns the value at x by the panel that contains x, or by the nearest panel outside [2^-(panels + 1), 1/2].
 double on_panel(std::span<const GaussFunction::Panel> panels, double x) {
   const int last = static_cast<int>(panels.size()) - 1;
   const int panel = x > 0 ? std::clamp(-std::ilogb(x) - 2, 0, last) : last;
@@ -80,7 +80,7 @@ double on_panel(std::span<const GaussFunction::Panel> panels, double x) {
 }  // namespace
 
 GaussFunction::GaussFunction(Wide a, Wide b, Wide c) {
-  // The terms begin to grow if (|a| + n)(|b| + n) x exceeds (c + n)(1 + n).
+  // The terms grow with n if (|a| + n)(|b| + n) x exceeds (c + n)(1 + n).
   while (std::max(std::abs(a), std::abs(b)) > std::ldexp(2 * std::max(c, Wide{1}), near_exponent_)) ++near_exponent_;
 
   Continuation at{a, b, c, std::ldexp(Wide{1}, -near_exponent_), 0, 0};

@@ -5,7 +5,7 @@
 
 namespace contensou::reduction {
 
-/// A part of an object that is made by the first thread that needs it.
+/// A part of an object that the first thread that needs it computes.
 template <class Part>
 class Later {
  public:

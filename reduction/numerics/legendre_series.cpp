@@ -12,14 +12,14 @@ namespace {
 
 using GaussRule = boost::math::quadrature::gauss<long double, LegendreSeries::order>;
 
-/// The Gauss points, the matrix from samples to coefficients (discrete orthogonality of the Gauss rule) and its
-/// inverse. They are computed in long double, because errors of the matrix add up at the ends, where all P_j are 1.
+/// The Gauss points, the matrix from samples to coefficients (discrete orthogonality of the Gauss rule) and the inverse
+/// matrix. All are computed in long double, because their errors add up at the ends, where all P_j are +-1.
 struct Transform {
   static constexpr int order = LegendreSeries::order;
   LegendreSeries::Samples points;
   Eigen::Matrix<double, order, order> analysis;
   Eigen::Matrix<double, order, order + 1> synthesis;
-  Eigen::Matrix<double, 1, order> end;  ///< samples -> value at 1; the samples in reverse -> value at -1
+  Eigen::Matrix<double, 1, order> end;  ///< samples -> value at 1; samples in reverse order -> value at -1
 
   Transform() {
     const auto& half_points = GaussRule::abscissa();
@@ -63,7 +63,7 @@ LegendreSeries LegendreSeries::through(const Samples& samples) {
 }
 
 LegendreSeries LegendreSeries::antiderivative() const {
-  // The integral of P_j from -1 to t is (P_{j+1} - P_{j-1})/(2j + 1), and t + 1 for j = 0. The highest term is dropped.
+  // The integral of P_j from -1 to t is (P_{j+1} - P_{j-1})/(2j + 1), but t + 1 for j = 0. The highest term is dropped.
   LegendreSeries integral;
   integral.coefficients_[0] = coefficients_[0];
   integral.coefficients_[1] = coefficients_[0];

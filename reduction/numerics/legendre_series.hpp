@@ -22,10 +22,10 @@ class LegendreSeries {
 
   LegendreSeries derivative() const;
 
-  /// Returns the series divided by x = (1 + t)/2, without its value at x = 0.
+  /// Returns the series divided by x = (1 + t)/2, after subtraction of its value at x = 0.
   LegendreSeries divided_by_x() const;
 
-  /// Returns the series truncated after its last coefficient above a bound.
+  /// Returns the series without the coefficients after the last one above a bound.
   LegendreSeries without_noise(double bound) const;
 
   double operator()(double t) const;
@@ -39,7 +39,7 @@ class LegendreSeries {
   /// Returns the values at points().
   Samples samples() const;
 
-  /// Returns the larger of the last two coefficients, a measure of convergence in the unit of the samples.
+  /// Returns the larger of the last two coefficients: a measure of the error, in the unit of the samples.
   double tail() const;
 
   /// Returns through(samples).tail().

@@ -12,8 +12,8 @@ constexpr int order = LegendreSeries::order;
 using Samples = LegendreSeries::Samples;
 using Matrix = Eigen::Matrix<double, order, order>;
 
-/// Returns true if exp of the integral of h/d is a polynomial of that order to the last bit. Near a zero of d it is a
-/// power of the distance, which is no polynomial, however small h is.
+/// Returns true if exp of the integral of h/d is a polynomial of the degree of a series, to the last bit. Near a zero
+/// of d it is a power of the distance from the zero, which is no polynomial, however small h is.
 bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   if (!(rate <= 1.5 * advection).all() || !(advection.minCoeff() > 0)) return false;
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
@@ -21,7 +21,7 @@ bool factor_is_polynomial(const Samples& advection, const Samples& rate) {
   return ratio.maxCoeff() - ratio.minCoeff() <= 1 && LegendreSeries::tail(ratio) <= rounding;
 }
 
-/// Returns true if d y' is small compared with h y for every polynomial y of that order.
+/// Returns true if d y' is small compared with h y for every polynomial y of the degree of a series.
 bool forgets_start(const Samples& advection, const Samples& rate) {
   return advection.maxCoeff() * (order * order) < rate.minCoeff();
 }
@@ -55,7 +55,7 @@ Samples slope_by_factor(const Samples& rate, const Samples& source) {
 
 /// Returns z' at the points for d z' + h z = g, z(-1) = 0.
 Samples slope_by_collocation(const Samples& advection, const Samples& rate, const Samples& source) {
-  // z is the integral of z', so (d + h A) z' = g with the matrix A of integration. `unit` scales rows with d = 0.
+  // z is the integral A z' of z', so (d + h A) z' = g with the matrix A. `unit` scales the rows, also those with d = 0.
   const Samples unit = advection + rate.abs() * (LegendreSeries::points() + 1);
   Matrix system = (rate / unit).matrix().asDiagonal() * integration();
   system.diagonal().array() += advection / unit;
@@ -65,7 +65,7 @@ Samples slope_by_collocation(const Samples& advection, const Samples& rate, cons
 }  // namespace
 
 LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, const Samples& source, double start) {
-  // Solve for z = y - start. Noise that h and g have in common cancels in g/h and so in y. Rounding is relative to z.
+  // Solve for z = y - start. Noise that h and g share cancels in g/h and so in y. Rounding is relative to z.
   const Samples change = source - rate * start;
   LegendreSeries y;
   if (forgets_start(advection, rate)) {
@@ -73,8 +73,8 @@ LegendreSeries solve_linear_ode(const Samples& advection, const Samples& rate, c
     system.diagonal().array() += 1;
     y = LegendreSeries::through(system.partialPivLu().solve((change / rate).matrix()).array());
   } else {
-    // A series for z itself would amplify its rounding at the ends, at which one panel continues the other. So z is the
-    // antiderivative of a series for z'.
+    // A series for z itself would amplify its rounding at the ends, at which one panel continues the other. Therefore z
+    // is the antiderivative of a series for z'.
     const Samples slope = factor_is_polynomial(advection, rate) ? slope_by_factor(rate / advection, change / advection)
                                                                 : slope_by_collocation(advection, rate, change);
     y = LegendreSeries::through(slope).antiderivative();

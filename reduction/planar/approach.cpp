@@ -17,34 +17,34 @@ namespace {
 
 constexpr double accurate = 1e-13;  ///< error of a series, relative to the largest sample
 
-/// A series in x from 0 to 1, times x^order. Its value at x = 0 is not 0, unless the series vanishes.
+/// A series in x from 0 to 1, times x^order. The series at x = 0 is not 0, unless the function vanishes.
 struct PowerSeries {
   double order = 0;
   LegendreSeries rest;
 };
 
-/// Splits a function into x^order and a smooth factor; the result is empty if no order leaves a smooth factor.
+/// Splits a function into x^order and a smooth factor. The result is empty if no order gives a smooth factor.
 ///
-/// @param values    at x = (1 + points())/2
+/// @param values    values of the function at x = (1 + points())/2
 /// @param rounding  absolute errors of the values
-/// @param shift     error of x
+/// @param shift     error of all x
 std::optional<PowerSeries> split(const Samples& values, const Samples& rounding, double shift) {
   const Samples x = (1 + LegendreSeries::points()) / 2;
   constexpr int poles = 8, zeros = 12;
   Samples power = Samples::Ones();
   for (int pole = 0; pole <= poles; ++pole, power *= x) {
     const Samples finite = values * power;
-    const Samples shifted = pole * shift * finite.abs() / x;  // an error of its place changes a pole much
+    const Samples shifted = pole * shift * finite.abs() / x;  // an error of x changes the values near a pole much
     const double largest = finite.abs().maxCoeff(), noise = (rounding * power + shifted).maxCoeff();
     if (largest <= 32 * noise) return PowerSeries{infinity, {}};
     if (LegendreSeries::tail(finite) > accurate * largest + 4 * noise) continue;
-    // Errors of samples grow in the k-th derivative at the end of a series of degree n as n^(2 k + 1)/(2^k k!).
+    // In a series of degree n, errors of samples grow like n^(2 k + 1)/(2^k k!) in the k-th derivative at the end.
     LegendreSeries rest = LegendreSeries::through(finite).without_noise(8 * noise);
     double amplified = std::max(32 * noise, 32 * shift * largest);
     for (int zero = 0; zero <= zeros; ++zero, amplified *= 100) {
       if (std::abs(rest(-1)) > amplified) {
         if (zero > 0 && pole > 0) return std::nullopt;
-        // The quotient magnifies structure that lies close to x = 0.
+        // Division by x^zero magnifies structure close to x = 0, so the quotient must be smooth, too.
         const Samples quotient = finite / x.pow(zero);
         const Samples errors = (rounding * power + shifted + shift * largest) / x.pow(zero);
         if (LegendreSeries::tail(quotient) > accurate * quotient.abs().maxCoeff() + 4 * errors.maxCoeff()) {
@@ -63,7 +63,7 @@ struct Sample {
   double z, value, rounding;
 };
 
-/// Returns the power on which values at three distances agree: the slopes of ln |values| between them are equal.
+/// Returns the power through values at three distances. The two slopes of ln |value| between them must be equal.
 std::optional<LeadingPower> power_through(const std::array<Sample, 3>& samples, double allowed) {
   if (std::ranges::all_of(samples, [](const Sample& at) { return at.value == 0; })) return LeadingPower{infinity, 0};
   const auto clear = [=](const Sample& at) { return std::abs(at.value) * allowed > at.rounding; };
@@ -73,7 +73,7 @@ std::optional<LeadingPower> power_through(const std::array<Sample, 3>& samples, 
   };
   const double first = slope(1), second = slope(2);
   if (!(std::abs(first - second) <= allowed)) return std::nullopt;
-  // Orders of functions that are given as formulas are simple fractions.
+  // If functions are given as formulas, their orders are simple fractions.
   constexpr double parts = 12;
   const double near = std::round(second * parts) / parts;
   const bool simple = std::abs(near - second) <= allowed;
@@ -88,7 +88,7 @@ std::optional<LeadingPower> power_through(const std::array<Sample, 3>& samples, 
 Approach::Approach(const SectionField& field, const Place& place, double side, double length, double noise)
     : n_(place.n), side_(side), error_(place.error) {
   constexpr double widest = 0.4, near = 1e-6;
-  const double narrowest = error_ > 0 ? 1e-9 : near;  // next to an axis, smaller distances are used
+  const double narrowest = error_ > 0 ? 1e-9 : near;  // an axis is exact, so smaller distances can be used
   exists_ = field(turned(n_, side * std::min(near, length / 8))).has_value();
   if (!exists_) return;
   for (int root = 1; root <= 3; ++root) {
@@ -101,7 +101,7 @@ Approach::Approach(const SectionField& field, const Place& place, double side, d
   find_slopes(field, length, noise);
 }
 
-/// @param componentwise  true: `noise` is relative to each component of the field; false: to the field
+/// @param componentwise  true: `noise` is relative to each component of the field; false: to the field's magnitude
 bool Approach::find_series(const SectionField& field, double width, int root, double noise, bool componentwise) {
   Samples angular, radial, angular_noise, radial_noise;
   for (int i = 0; i < LegendreSeries::order; ++i) {
@@ -122,7 +122,7 @@ bool Approach::find_series(const SectionField& field, double width, int root, do
   radial_rest_ = r->rest;
   angular_ = {t->order / root, t->rest(-1) / std::pow(width, t->order / root)};
   radial_ = {r->order / root, r->order == infinity ? 0 : r->rest(-1) / std::pow(width, r->order / root)};
-  // Between the direction and the nearest sample the field may be given by another formula.
+  // Between the direction and the nearest sample the field could follow another formula, so the series is tested there.
   decided_ = true;
   for (double z = width / 10; z > 1e-15 && decided_; z /= 10) {
     const auto rates = field(turned(n_, side_ * z));
@@ -148,11 +148,11 @@ Approach::Rates Approach::series(double z) const {
 }
 
 void Approach::find_slopes(const SectionField& field, double length, double noise) {
-  // On an axis the angle has all its digits, however small it is, unless the addition of the centre loses them.
+  // On an axis even tiny angles have all digits, unless the addition of the centre of the scaling loses them.
   const bool on_axis = n_[0] == 0 || n_[1] == 0;
   const std::array<std::pair<double, std::array<double, 3>>, 3> tries{{
       {1e-8, {1e-20, 1e-28, 1e-36}},
-      {1e-8, {1e-180, 1e-210, 1e-240}},  // terms of nearly equal orders differ only at tiny angles
+      {1e-8, {1e-180, 1e-210, 1e-240}},  // orders that are nearly equal differ only at tiny angles
       {1e-3, {1e-4, 1e-5, 1e-6}},
   }};
   for (const auto& [allowed, distances] : tries) {
@@ -179,12 +179,12 @@ void Approach::find_slopes(const SectionField& field, double length, double nois
 
 namespace {
 
-/// A value of a function of the direction, with the magnitude of its terms, which may cancel.
+/// The value of a function of the direction, and the magnitude of the terms of this value, which can cancel.
 struct Sized {
   double value, size;
 };
 
-/// Returns the zero near a direction, if its order is at least 2, as a simple zero of a derivative of the function.
+/// Returns the zero near a direction, if its order is at least 2: it is a simple zero of a derivative of the function.
 template <class Function>
 std::optional<Vector2d> multiple_zero(const Function& function, const Vector2d& n, double widest, double noise) {
   for (double width = widest; width > widest * 1e-3; width /= 4) {
@@ -207,7 +207,7 @@ std::optional<Vector2d> multiple_zero(const Function& function, const Vector2d& 
       double t = 0;
       for (int step = 0; step < 20; ++step) t -= derivatives[order - 1](t) / derivatives[order](t);
       if (!(std::abs(t) < 0.5)) continue;
-      // An error of the samples is multiplied by n^k in the k-th derivative within (-1/2, 1/2).
+      // In derivative k within (-1/2, 1/2), errors of samples are multiplied by up to n^k, n = LegendreSeries::order.
       double allowed = 32 * noise * size;
       bool zero = true;
       for (std::size_t k = 0; k + 1 < order; ++k, allowed *= LegendreSeries::order) {
@@ -234,7 +234,7 @@ Place sharpened_zero(const SectionField& field, const Vector2d& n, double noise)
 }
 
 Place sharpened_pole(const SectionField& field, const Vector2d& n, double noise) {
-  // A pole of g is a zero of g/|g|^2. Its values are the more accurate, the nearer they are to the pole.
+  // A pole of g is a zero of g/|g|^2. Values of g/|g|^2 become more accurate towards the pole, so search twice.
   Place best{n};
   for (const double width : {0.1, 1e-3}) {
     const auto beside = field(turned(best.n, width / 10));

@@ -10,13 +10,13 @@
 
 namespace contensou::reduction {
 
-/// A function that begins with a power: factor z^order (1 + ...) for small z > 0.
+/// A function that is a power to leading order: factor z^order (1 + ...) for small z > 0.
 struct LeadingPower {
   double order = 0;
-  double factor = 0;  ///< 0 for a function that vanishes identically
+  double factor = 0;  ///< 0 if the function vanishes identically
 };
 
-/// A direction with the error of its angle; 0 for an axis.
+/// A direction with the error of its angle. The error is 0 for an axis.
 struct Place {
   Place(const Eigen::Vector2d& at) : Place(at, at[0] == 0 || at[1] == 0 ? 0 : 2 * eps) {}
   Place(const Eigen::Vector2d& at, double known_to) : n(at), error(known_to) {}
@@ -25,19 +25,19 @@ struct Place {
   double error;
 };
 
-/// The rates R and T of README (R42) next to a direction, on one side of it, as functions of the angle z > 0 from it
-/// (R62).
-/// The leading orders come from a series through samples (in powers of z, of its square root or of its cube root, poles
-/// included). If no series converges, the orders are slopes of logarithms, which must agree at several distances.
+/// The rates R and T of README (R42) beside a direction, on one side, as functions of the angle z > 0 from it (R62).
+/// The leading orders come from a series through samples, in powers of z, of its square root or of its cube root,
+/// poles included. If no series converges, the orders are slopes of logarithms. These slopes must agree at several
+/// distances.
 class Approach {
  public:
   using Rates = SectionField::Rates;
 
-  /// Makes a side on which the field has no values.
+  /// Makes the object for a side on which the field has no values.
   Approach() = default;
 
-  /// @param side    1: the side counter-clockwise of the direction; -1: clockwise
-  /// @param length  angle to the next direction where R or T may not be smooth
+  /// @param side    1: the side counter-clockwise of the direction; -1: the side clockwise of it
+  /// @param length  angle to the next direction at which R or T might not be smooth
   /// @param noise   relative error of the field's values
   Approach(const SectionField& field, const Place& place, double side, double length, double noise);
 
@@ -49,10 +49,10 @@ class Approach {
   /// True if the leading orders of R and T are known.
   bool decided() const { return decided_; }
 
-  /// Declares the orders unknown.
+  /// Marks the orders as unknown.
   void leave_open() { decided_ = false; }
 
-  /// T times side: positive if the motion leads away from the direction.
+  /// T times side; positive if the motion on this side leads away from the direction.
   const LeadingPower& angular() const { return angular_; }
   const LeadingPower& radial() const { return radial_; }
 
@@ -61,12 +61,12 @@ class Approach {
   /// True if R and T have limits and the limit of T is not 0.
   bool regular() const { return decided_ && angular_.order == 0 && radial_.order >= 0; }
 
-  /// The exponent gamma in dp/dz ~ z^(gamma - 1). p stays bounded if gamma > 0.
+  /// The exponent gamma in dp/dz ~ z^(gamma - 1) along orbits. p stays bounded if gamma > 0.
   double growth() const { return radial_.order - angular_.order + 1; }
 
-  /// Largest distance up to which series represent T and R to all digits; 0 if there are none.
+  /// Largest angle z up to which the series give T and R to all digits; 0 if there are no series.
   double width() const { return width_; }
-  /// T times side and R at a distance up to width().
+  /// Returns T times side, and R, at an angle z up to width().
   Rates series(double z) const;
 
  private:
@@ -80,14 +80,14 @@ class Approach {
   LeadingPower angular_, radial_;
   double width_ = 0;
   double root_ = 1;
-  LegendreSeries angular_rest_, radial_rest_;  ///< T/z^order and R/z^order, in z^(1/root)
+  LegendreSeries angular_rest_, radial_rest_;  ///< T/z^order and R/z^order as series in z^(1/root)
 };
 
-/// Moves a direction onto a multiple zero of T beside it, at which values lose half of their digits or more. The result
-/// is the simple zero of a derivative of T; the direction itself if there is none.
+/// Moves a direction onto a multiple zero of T beside it. Values of T lose half of their digits or more there, so the
+/// result is the simple zero of a derivative of T. Without a multiple zero the result is the given direction.
 Place sharpened_zero(const SectionField& field, const Eigen::Vector2d& n, double noise);
 
-/// Moves a direction onto a pole of even order beside it; returns the direction itself if there is none.
+/// Moves a direction onto a pole of even order beside it. Without such a pole the result is the given direction.
 Place sharpened_pole(const SectionField& field, const Eigen::Vector2d& n, double noise);
 
 }  // namespace contensou::reduction

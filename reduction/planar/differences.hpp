@@ -18,7 +18,7 @@ struct Slope {
 };
 
 /// Returns df/dx_i by central differences over halved steps, extrapolated to 0 (C. Ridders, Adv. Eng. Softw. 4 (1982)
-/// 75). The result is the entry of the table that differs least from its neighbours. Empty without a value there.
+/// 75). The result is the table entry that differs least from its neighbours; empty if there is no value.
 ///
 /// @param field  function of a point that returns an std::optional<Eigen::Vector2d>
 template <class Field>
@@ -45,7 +45,7 @@ std::optional<Slope> slope(Field&& field, const Eigen::Vector2d& x, int i, doubl
       if (error < best.error) best = {table[row][column], error};
     }
   }
-  if (!std::isfinite(best.error)) return std::nullopt;  // best.error is not finite if its squares overflow
+  if (!std::isfinite(best.error)) return std::nullopt;  // the error is not finite if its squares overflow
   return best;
 }
 

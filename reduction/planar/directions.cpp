@@ -49,7 +49,7 @@ class Scan {
   }
 
  private:
-  /// A sample at an angle from an anchor. Kept apart, both give the direction to more digits than their sum.
+  /// A sample at an angle from an anchor. Anchor and angle are stored apart, because their sum has fewer digits.
   struct Probe {
     double offset;
     Vector2d anchor;
@@ -115,14 +115,14 @@ void Scan::sample() {
     throw std::domain_error("PlanarReduction: the field has no values on the curve about the centre");
   }
   star_ = std::ranges::all_of(probes_, [&](const Probe& probe) { return !probe.rates || is_zero(*probe.rates); });
-  // Next to a multiple zero off the axes, T is only rounding, and so is its sign.
+  // Next to a multiple zero of T off the axes, T and its sign are only rounding.
   std::erase_if(probes_, [&](const Probe& probe) {
     const bool on_axis = probe.anchor[0] == 0 || probe.anchor[1] == 0;
     return !on_axis && probe.rates && is_zero(*probe.rates);
   });
 }
 
-/// Returns the direction between three samples at which a function of the rates is least; it is infinite without rates.
+/// Returns the direction between three samples at which a function of the rates is least. Without rates it is infinite.
 Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
                      const std::function<double(const Rates&)>& size) const {
   const auto function = [&](double offset) {
@@ -137,7 +137,7 @@ Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
   return turned(here.anchor, offset);
 }
 
-/// Adds a sample of the other sign of T between three samples of one sign, if there is one.
+/// Adds a sample between three samples of one sign of T, if T has the other sign there.
 bool Scan::add_pairs_of_zeros() {
   const std::size_t known = between_.size();
   for (std::size_t i = 1; i + 1 < probes_.size(); ++i) {
@@ -152,7 +152,7 @@ bool Scan::add_pairs_of_zeros() {
     const auto rates = field_(n);
     if (!rates) continue;
     const double size = std::max(before.rates->size, after.rates->size), value = std::abs(rates->angular);
-    // The place of the least |T| is accurate to half of the digits only.
+    // Only half of the digits of the place of the least |T| are accurate.
     constexpr double nearly = 1e-12;
     const Place place = value <= nearly * size ? sharpened_zero(field_, n, noise_) : Place(n);
     if (place.n != n || value <= 16 * noise_ * size) {
@@ -182,7 +182,7 @@ void Scan::add_zero_or_pole(const Probe& here, const Probe& next) {
   candidates_.push_back(sharpened_zero(field_, turned(here.anchor, root), noise_));
 }
 
-/// Adds a pole that does not change the sign of T: the field is largest there.
+/// Adds a pole at which T does not change its sign: the field is largest there.
 void Scan::add_pole(const Probe& before, const Probe& here, const Probe& after) {
   constexpr double large = 1e3;
   const Vector2d n = least(before, here, after, [](const Rates& rates) { return 1 / rates.size; });
@@ -206,7 +206,7 @@ void Scan::find_candidates() {
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     const Probe &here = probes_[i], &next = probes_[(i + 1) % probes_.size()];
     if (across_anchor(here, next)) {
-      // Look for a zero between the anchor and its nearest sample.
+      // Look for a zero between the anchor and the sample nearest to it.
       const auto on = field_(next.anchor);
       if (!here.rates || !next.rates || !on || is_zero(*on)) continue;
       if (std::signbit(here.rates->angular) == std::signbit(next.rates->angular)) continue;
@@ -229,7 +229,7 @@ void Scan::find_candidates() {
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     order.emplace_back(angle_between(anchors_[0], candidates_[i].n), i);
   std::ranges::sort(order);
-  // Rounding may turn one direction into several. An anchor is exact, so the anchor is kept.
+  // Rounding can turn one direction into several. If an anchor is among them it is kept, because it is exact.
   constexpr double same = 1e-11;
   std::vector<Place> kept;
   bool last_is_anchor = false;
@@ -262,7 +262,7 @@ void Scan::divide(std::size_t i, Directions& found) const {
     if (left.decided() && right.decided()) {
       return left.regular() && right.regular() && (left.angular().factor < 0) == (right.angular().factor > 0);
     }
-    // A logarithm and the like is not crossed: only a finite change is.
+    // Orbits cross a finite change of the field, but not a singular one such as a logarithm.
     constexpr double far = 1e-3, nearer = 1e-6;
     const auto step = std::min({far, before / 4, after / 4});
     std::array<std::optional<Rates>, 4> steps;

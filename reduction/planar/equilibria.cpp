@@ -18,16 +18,16 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Returns the i-th of a sequence of points spread evenly over the square [-1, 1] x [-1, 1] (M. Roberts' R2).
+/// Returns point i of a sequence of points spread evenly over the square [-1, 1] x [-1, 1] (M. Roberts' R2).
 Vector2d spread(int i) {
   constexpr double plastic = 1.32471795724474602596;
   const auto side = [](double x) { return 2 * (x - std::floor(x)) - 1; };
   return {side(i / plastic), side(i / (plastic * plastic))};
 }
 
-/// True if other zeros lie arbitrarily near to this one, at which the Jacobian has the null vector `along`.
+/// Returns true if other zeros lie arbitrarily near to `zero`, at which the Jacobian has the null vector `along`.
 bool on_curve_of_zeros(const SmoothField& field, const Vector2d& zero, const Vector2d& along) {
-  // Newton's method reaches a simple zero in a few steps, a multiple one in many.
+  // Newton's method reaches a simple zero in a few steps, but a multiple zero only in many.
   constexpr int steps = 3;
   constexpr double left = 1e-12, apart = 0.5;
   Vector2d x = zero + along;
@@ -96,7 +96,7 @@ std::string_view Equilibrium::kind() const {
 }
 
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2d& low, const Vector2d& high) {
-  constexpr int across = 40, most = 100;  // near multiple zeros steps are only halved
+  constexpr int across = 40, most = 100;  // near a multiple zero a step only halves the distance
   constexpr double same = 1e-6, exact = 1e-13;
   const Vector2d sides = high - low;
   const auto place = [&](const Vector2d& x) { return Vector2d((x - low).cwiseQuotient(sides)); };
@@ -108,7 +108,7 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
       const auto here = jet_of(field, x);
       if (!here) break;
       const Vector2d way = here->f.isZero(0) ? Vector2d(0, 0) : Vector2d(here->slopes.fullPivLu().solve(here->f));
-      // A farther zero is found from the starts in its own cell.
+      // Zeros farther away are found from the grid points in their own cell.
       constexpr double reach = 0.1;
       if (!((place(x - way) - from).norm() <= reach)) break;
       x -= way;
@@ -119,7 +119,7 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
           std::ranges::any_of(found, [&](const Equilibrium& other) { return (place(other.x) - there).norm() < same; });
       const auto at = jet_of(field, x);
       if (!inside || known || !at || !at->slopes.allFinite()) break;
-      // A singular Jacobian may give a step of length 0 at a point that is no zero. So check the field itself.
+      // A singular Jacobian can give a step of length 0 at a point that is no zero. Therefore test the field itself.
       constexpr double zero = 1e-9;
       if (at->f.norm() <= zero * (at->slopes * sides.asDiagonal()).norm()) found.push_back({x, at->slopes});
       break;

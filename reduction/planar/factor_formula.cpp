@@ -1,6 +1,6 @@
-// V and H as formulas. The null vectors of V's equation (R64), in functions that have names, are brought to a row
-// echelon form. Its entries are rational if V has rational coefficients. Then the coefficients are rounded, and the
-// misfit (R66) is computed with the rounded ones.
+// V and H as formulas. The functions of V's form have names. The null vectors of V's equation (R64) in these functions
+// are brought to row echelon form. The entries are rational if V has rational coefficients. They are rounded to
+// fractions, and the misfit (R66) is computed with the fractions.
 #include "planar/factor_formula.hpp"
 
 #include <algorithm>
@@ -28,13 +28,13 @@ using Whole = long long;
 
 constexpr double exact = 1e-12;
 
-/// A sum of functions with whole coefficients, divided by a whole number.
+/// The coefficients of a sum of functions: whole numbers `above`, all divided by the whole number `below`.
 struct Coefficients {
   std::vector<Whole> above;
   Whole below = 1;
 };
 
-/// Returns the fraction with the least denominator within the error.
+/// Returns the fraction with the smallest denominator that differs from x by at most the error.
 std::optional<std::pair<Whole, Whole>> fraction(double x, double error) {
   constexpr Whole largest = 1000;
   constexpr double highest = 1e6;
@@ -104,7 +104,7 @@ class Polynomial {
     return value;
   }
 
-  /// Divides by a polynomial if no remainder is left. The divisor's last term, by u, then v, is not 0.
+  /// Divides by a polynomial if no remainder is left. The divisor's last term (by powers of u, then of v) is not 0.
   bool divide(const Polynomial& by) {
     const auto [m, n] = by.last();
     Polynomial rest = *this, quotient;
@@ -169,7 +169,7 @@ class Polynomial {
   std::array<Whole, side* side> terms_ = {};
 };
 
-/// Returns the polynomial in factors with small coefficients, except for its sign.
+/// Returns the polynomial, up to its sign, as a product of factors with small coefficients.
 std::string factorised(Polynomial rest) {
   std::vector<std::pair<std::string, int>> found;
   constexpr int large = 10;
@@ -201,10 +201,10 @@ std::string factorised(Polynomial rest) {
   return text;
 }
 
-/// Values and derivatives of functions at a point: a row of value, d/du, d/dv for each function.
+/// Values and derivatives of functions at a point. Each function has a row: value, d/du, d/dv.
 using Functions = std::function<Eigen::MatrixX3d(const Vector2d& x, const Jet& jet)>;
 
-/// Returns the functions of a form of V in u and v, not in the coordinates of a box.
+/// Returns the functions of a form of V in the coordinates u and v, not in those of a box.
 Functions terms_of(FactorForm form) {
   return [form](const Vector2d& x, const Jet& jet) -> Eigen::MatrixX3d {
     return InverseFactor::terms(form, {Vector2d::Zero(), Vector2d::Ones()}, x, jet);
@@ -222,7 +222,7 @@ MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
   return rows;
 }
 
-/// Returns the rational combination with the fewest functions that satisfies V's equation (R64).
+/// Returns the combination with rational coefficients and the fewest functions that satisfies V's equation (R64).
 std::optional<Coefficients> null_combination(const Functions& functions, const FieldSamples& samples) {
   MatrixXd rows = rows_of(functions, samples);
   VectorXd sizes = VectorXd::Zero(rows.cols());
@@ -310,7 +310,7 @@ constexpr Known known[]{{"{}", 1, [](double) { return 1.; }},
                         {"{}^-2", -2, [](double x) { return 1 / (x * x * x); }}};
 constexpr std::size_t known_count = std::size(known);
 
-/// Returns the integral of a function of one variable as text, if the function is a sum of at most three known ones.
+/// Returns the integral of a function of one variable as text, if the function is a sum of at most three of `Known`.
 std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, char name) {
   if (values.isZero(0)) return "";
   MatrixXd columns(x.size(), static_cast<Index>(known_count));
@@ -353,7 +353,7 @@ std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, c
   return std::nullopt;
 }
 
-/// Returns H of a field with F/V = a(v) and G/V = b(u).
+/// Returns H of a field f = (F, G) with F/V = a(v) and G/V = b(u).
 std::string separated_integral(const SmoothField& field, const Polynomial& v, const FieldSamples& samples) {
   const Index count = 40;
   VectorXd us(count), vs(count), of_u(count), of_v(count);
@@ -386,7 +386,7 @@ std::string separated_integral(const SmoothField& field, const Polynomial& v, co
 FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
   const Box about = box_about(start);
   const double scale = start.lpNorm<Eigen::Infinity>();
-  // Prefer the box in which powers of u and v differ most. Take the next one if the field has no values there.
+  // Prefer the box in which powers of u and v differ most. If the field has no values there, take the next box.
   std::optional<FieldSamples> samples;
   for (const Box& box : {Box{start / 4, Vector2d::Constant(2 * scale)}, Box{start, 4 * about.radii}, about}) {
     if (!samples) samples = sample(field, box);

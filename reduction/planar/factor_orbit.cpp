@@ -1,6 +1,6 @@
-// An orbit as a level line of H, dH = (F dv - G du)/V, part by part, README (R67), (R68). There are no steps in time. A
-// part is a curve w(s) of one coordinate as a function of the other, moved onto the level by Newton's method. Its time
-// is the integral of ds/F.
+// An orbit of f = (F, G) is a level line of H, dH = (F dv - G du)/V, computed part by part, README (R67), (R68). There
+// are no steps in time. A part is a curve w(s): one coordinate w as a function of the other, s, moved onto the level by
+// Newton's method. The time is the integral of ds/F (ds/G if s is v).
 #include "planar/factor_orbit.hpp"
 
 #include <algorithm>
@@ -27,11 +27,11 @@ namespace {
 
 /// A motion along a level line of H.
 struct FactorMotion final : PlanarOrbit::Motion {
-  /// A part of the orbit, along which one coordinate grows or falls.
+  /// A part of the orbit, on which the coordinate `along` grows or falls.
   struct Panel {
-    int along;            ///< index of this coordinate
-    double from, length;  ///< start and length of the piece
-    double begin;         ///< time at the start of the piece
+    int along;            ///< index of the coordinate s: 0 for u, 1 for v
+    double from, length;  ///< coordinate at the start of the part, and its change
+    double begin;         ///< time at the start of the part
     LegendreSeries other, time;
 
     Vector2d at(double t) const {
@@ -57,8 +57,8 @@ struct FactorMotion final : PlanarOrbit::Motion {
   Vector2d start;
   std::vector<Panel> panels = {};
   double followed = 0;                  ///< time up to which the orbit is computed
-  double turn_begin = 0, turn_end = 0;  ///< times of the last turn
-  // Near an equilibrium, for times after `followed`, the state is rest + exp(t flow) offset.
+  double turn_begin = 0, turn_end = 0;  ///< times at the beginning and end of the last turn
+  // Near an equilibrium the state at the time `followed` + t, t > 0, is rest + exp(t flow) offset.
   Vector2d rest = Vector2d::Zero(), offset = rest;
   Matrix2d flow = Matrix2d::Zero();
 };
@@ -87,7 +87,7 @@ Vector2d FactorMotion::at(double time) const {
   return in_panels(time);
 }
 
-/// Follows an orbit from panel to panel and from box to box.
+/// Follows an orbit from part to part and from box to box.
 class Follower {
   using Samples = LegendreSeries::Samples;
   using Panel = FactorMotion::Panel;
@@ -147,7 +147,7 @@ class Follower {
 
   void stop(std::string_view reason) { motion_.undecided = fmt::format("{} about ({}, {})", reason, x_[0], x_[1]); }
 
-  /// True if the orbit tends to a zero of the field: from here on the linear flow is exact except for rounding.
+  /// Returns true if the orbit tends to a zero of the field, so near that the linear flow is exact except for rounding.
   bool rests(const Jet& here) {
     motion_.rest = x_;
     motion_.offset.setZero();
@@ -155,7 +155,7 @@ class Follower {
       end(PlanarEnd::equilibrium, motion_.followed);
       return true;
     }
-    // The distance falls to the smallest numbers, and every further part of the orbit takes longer.
+    // The distance from the origin falls to the smallest numbers, while every part of the orbit takes longer.
     constexpr double tiny = 1e-30, longer = 0.01;
     if (x_.norm() <= tiny * size_ && motion_.panels.back().time.at_end() > longer * motion_.followed) {
       motion_.rest.setZero();
@@ -169,7 +169,7 @@ class Follower {
     constexpr double clear = 1e-10;
     const auto step_to_rest = [](const Jet& at) {
       const double norm = at.slopes.norm();
-      const bool line = std::abs(at.slopes.determinant()) <= clear * norm * norm;  // a line of points at rest
+      const bool line = std::abs(at.slopes.determinant()) <= clear * norm * norm;  // zeros of the field form a line
       return line ? Vector2d(at.f / at.slopes.trace()) : newton_step(at);
     };
     Vector2d way = step_to_rest(here);
@@ -189,7 +189,7 @@ class Follower {
     if (!(left <= found * here.f.norm())) return false;
     const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
     const bool saddle = determinant < -clear * norm * norm;
-    // Components of the offset along the two lines of a saddle.
+    // Components of the offset along the two eigenvectors of a saddle.
     const double root = std::sqrt(std::max(trace * trace / 4 - determinant, 0.)), in = trace / 2 - root,
                  out = trace / 2 + root;
     const Vector2d stable = (slopes * offset - out * offset) / (in - out), unstable = offset - stable;
@@ -219,10 +219,10 @@ class Follower {
     return true;
   }
 
-  /// True if the orbit goes to infinity: |x'| ~ |x|^p along it.
+  /// Returns true if the orbit goes to infinity; |x'| ~ |x|^p along the orbit.
   bool escapes(const Jet& here) {
     constexpr double farther = 1e12;
-    const Vector2d direction = here.f.stableNormalized();  // squares may overflow
+    const Vector2d direction = here.f.stableNormalized();  // the squares in norm() can overflow
     const double distance = x_.stableNorm(), growth = (x_ / distance).dot(here.f / distance);
     if (!(distance > far_ * size_) || !(growth > 0)) return false;
 
@@ -239,7 +239,7 @@ class Follower {
     return true;
   }
 
-  /// True at a pole or at the end of the values, if the last part took only some rounding errors of the time.
+  /// Returns true at a pole or a border of the field, if the last part took only a few rounding errors of the time.
   bool at_border(const Jet& here, double roundings) const {
     constexpr double overflows = 1e100;
     const double rounding = roundings * eps * motion_.followed;
@@ -249,15 +249,15 @@ class Follower {
     const Vector2d way = rounding * here.f;
     if (!(way.norm() < short_way * size_)) return false;
     if (!value_of(field_, x_ + way)) return true;
-    // The field has a pole if it changes by its own size within rounding, though an orbit may be smooth: v' = -v tan u.
+    // At a pole the field changes by its own size within rounding, even if the orbit is smooth there: v' = -v tan u.
     if (here.slopes.norm() * way.norm() > here.f.norm()) return true;
-    // If the speed grows over a longer way, the orbit may go to infinity as a logarithm.
+    // A speed that grows only over a longer way is no pole: the orbit can go to infinity like a logarithm.
     const Vector2d direction = here.f.normalized();
     const double speed = here.f.norm(), growth = direction.dot(here.slopes * direction);
     return speed > singular * first_->f.norm() && speed < short_way * size_ * growth;
   }
 
-  /// Returns the estimated distance to an equilibrium, in units of the box; infinity if there is none.
+  /// Returns the estimated distance to an equilibrium in units of the box; infinity if no estimate is finite.
   static double rest_in(const Jet& here, const Box& box) {
     const double distance = newton_step(here).cwiseQuotient(box.radii).norm();
     return std::isfinite(distance) ? distance : infinity;
@@ -269,7 +269,7 @@ class Follower {
   bool enter(const Jet& here) {
     scale_ = x_.cwiseAbs().cwiseMax(scale_ / 2);
     box_ = {x_, box_about(scale_).radii};
-    // Near an equilibrium V is small. The box is made as small as the distance to the equilibrium.
+    // Near an equilibrium V is small. The box is made so small that the equilibrium lies outside the box.
     constexpr double part = 0.7;
     const double distance = rest_in(here, box_);
     box_.radii *= std::min(1., part * distance) * fraction_;
@@ -288,7 +288,7 @@ class Follower {
       return true;
     }
 
-    // Do not fit V if the rounding of x alone hides the form of V: the orbit no longer needs V there.
+    // If the rounding of x alone hides the form of V, do not fit V: the rest of the orbit does not need V.
     constexpr double hidden = 1e-12;
     if (noise_.norm() > hidden * here.f.norm()) return true;
     constexpr int halvings = 10;
@@ -309,7 +309,7 @@ class Follower {
     return lasts;
   }
 
-  /// Adds one panel, as long as its series converge.
+  /// Adds one part (panel), as long as its series converge. Returns false if they do not.
   bool step(const Jet& here) {
     const Vector2d speed = here.f.cwiseQuotient(box_about(scale_).radii).cwiseAbs();
     const int along = speed[0] >= speed[1] ? 0 : 1;
@@ -325,8 +325,8 @@ class Follower {
     return false;
   }
 
-  /// Finds the other coordinate w at the points of a panel. q approximates dw/ds. Along w = w_0 + integral of q, H
-  /// changes by the integral of (q - G/F) F/V, and dH/dw = F/V. This is Newton's method, README (R67).
+  /// Finds the coordinate w (across) at the points of a panel of s (along). q approximates dw/ds. Along w = w_0 +
+  /// integral of q ds, H changes by the integral of (q - G/F) F/V ds, and dH/dw = F/V. Newton's method, README (R67).
   bool solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
     const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
@@ -369,7 +369,7 @@ class Follower {
     }
     constexpr double accurate = 1e-14, timed = 1e-13, smooth = 1e-3, little = 1e-6, varied = 100;
     const double largest = std::abs(half) * q.abs().maxCoeff();
-    // Poles that the orbit would pass smoothly show in ln V, or as zeros of the rate of time.
+    // Poles that the orbit would pass smoothly show in ln V (growth) or as zeros of dt/ds (rate).
 
     const bool resolved = rate.abs().maxCoeff() <= varied * rate.abs().minCoeff() &&
                           LegendreSeries::tail(q) * std::abs(half) <=
@@ -392,7 +392,7 @@ class Follower {
     return true;
   }
 
-  /// Moves the point onto the curve V = 0.
+  /// Moves the point onto the curve V = 0, along which the orbit runs.
   void return_to_curve() {
     const auto here = jet_of(fitted_, x_);
     if (!here) return;
@@ -404,7 +404,7 @@ class Follower {
       x_[across] -= step;
   }
 
-  /// Makes this point the one to which a return is looked for from now on.
+  /// Makes this point the anchor: from now on, a return of the orbit to this point is looked for.
   void anchor(const Vector2d& f) {
     anchor_ = passed_ = x_;
     forward_ = f;
@@ -412,7 +412,7 @@ class Follower {
     motion_.turn_end = motion_.followed;
   }
 
-  /// True if the orbit has returned to its position one turn ago.
+  /// Returns true if the orbit has returned to its position one turn ago.
   bool returns() {
     extent_ = std::max(extent_, (x_ - passed_).norm());
     const double before = std::exchange(along_, (x_ - anchor_).dot(forward_));
@@ -445,13 +445,13 @@ class Follower {
   Box box_;
   std::optional<InverseFactor> factor_ = {};
   std::optional<Jet> first_ = {};       ///< jet at the start
-  bool on_curve_ = false;               ///< V = 0
-  double size_;                         ///< size of the start
-  Vector2d scale_;                      ///< scale of the orbit's coordinates
+  bool on_curve_ = false;               ///< the orbit runs along V = 0
+  double size_;                         ///< distance of the start from the origin plus the radius of its box
+  Vector2d scale_;                      ///< typical size of both coordinates
   Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x
-  double fraction_ = 1;                 ///< fraction of the largest box
+  double fraction_ = 1;                 ///< radius of boxes divided by their largest allowed radius
   double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
-  Vector2d anchor_, forward_, passed_;  ///< returns are looked for across the line through the anchor
+  Vector2d anchor_, forward_, passed_;  ///< returns are sought on the line through anchor_ normal to forward_
   double extent_ = 0, along_ = 0;
   int fits_ = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace contensou::reduction {
 
-/// Follows the level line of the first integral H through the start to its end.
+/// Follows the orbit through the start, a level line of the first integral H, to its end.
 /// @param fitted  field with the same orbits, for which V has its form
 /// @param factor  inverse integrating factor in a box about `start`
 std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,

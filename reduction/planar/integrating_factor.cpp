@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// False if V fails in wider boxes. In a small box every smooth V is close to a polynomial, so the form proves nothing.
+/// Returns false if V fails in wider boxes. In a small box every smooth V is close to a polynomial: it proves no form.
 bool holds_widely(const SmoothField& field, const FactorFit& fit) {
   const bool of_basis = fit.factor.form() == FactorForm::basis;
   return std::ranges::all_of(std::array{4., of_basis ? 2. : 64.}, [&](double factor) {
@@ -39,7 +39,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
       : Solution(given.value, ""), smooth(given), fitted(given), start(from) {}
 
   SmoothField smooth;
-  SmoothField fitted;  ///< field for which V has its form: the given field, or its product with its denominator
+  SmoothField fitted;  ///< field for which V has its form: the field, or its product with the denominator
   Vector2d start;
   bool cleared = false;
   std::vector<TriedForm> tried = {};
@@ -70,7 +70,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
     return *v;
   }
 
-  /// Returns V at a point of the box, and the field there.
+  /// Returns V at a point of the box, and the field at this point.
   std::pair<double, Vector2d> at(const Vector2d& x) const {
     const InverseFactor& fit = found();
     if (!holds_everywhere(fit.form()) && !(fit.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
@@ -92,7 +92,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
     return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
   }
 
-  /// Returns the integral of dH along a straight line.
+  /// Returns the integral of dH along a straight line between two points.
   double integral(const Vector2d& from, const Vector2d& to, double sign, int depth) const {
     const Vector2d way = to - from;
     LegendreSeries::Samples samples;
@@ -115,7 +115,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
 void FactorReduction::Solved::look_for_factor() {
   Box box = box_about(start);
   std::optional<FieldSamples> samples;
-  // Boxes are not made smaller: in a small box every smooth V is close to a polynomial.
+  // If the field has no values, halve the box at most 4 times: in a small box every smooth V is close to a polynomial.
   constexpr int halvings = 4;
   for (int i = 0; i <= halvings && !samples; ++i, box.radii /= 2) samples = sample(fitted, box);
   constexpr double large = 1e4;
@@ -134,7 +134,7 @@ FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
   if (!start.allFinite() || !value) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
-  // V may vanish at an equilibrium, so the search begins beside it.
+  // V can vanish at an equilibrium, so the search begins beside an equilibrium.
   const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
   auto solved = std::make_shared<Solved>(field, value->isZero(0) ? beside : start);
   solved->look_for_factor();
@@ -162,7 +162,7 @@ std::shared_ptr<const PlanarReduction::Solution> FactorReduction::Solved::revers
   auto other = std::make_shared<Solved>(back(smooth), start);
   other->fitted = back(fitted);
   other->cleared = cleared;
-  other->v = v;  // V is the same for the reversed field
+  other->v = v;  // V of the reversed field is the same
   other->form = form;
   return other;
 }
@@ -187,7 +187,7 @@ std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& 
   }
   std::vector<FactorPiece> pieces;
   const auto add = [&](const auto& add_part, const Vector2d& from, const Vector2d& to, int halvings) -> void {
-    // Equilibria often lie in the middle of a rectangle, so the box is placed beside the middle.
+    // Equilibria often lie in the middle of a rectangle, so the box is centred beside the middle.
     constexpr double aside = 0.03;
     const Vector2d radii = (to - from) / 2;
     const Vector2d middle = from + radii + aside * Vector2d(radii[0], -radii[1] / 2);

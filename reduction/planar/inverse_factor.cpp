@@ -1,8 +1,8 @@
 // The equation of V, README (R64), in a basis of functions: f . grad V - V div f = 0, one row for each point.
-//   If [X, f] = g f for a generator X of the orbits, V = f ^ X is a solution, because areas grow at the rate div f.
-// Rows are divided by |F|/radius + |G|/radius + |div f|, and the basis is made orthonormal over the points. Then the
-// singular values are the misfits (R66) of all V of the form. The terms of f . grad V do not scale the rows, because
-// they vanish for V = 1 and a conservative field.
+//   If [X, f] = g f for a generator X of the orbits (g a function), f ^ X is a solution: areas grow at the rate div f.
+// Rows are divided by |F|/radius + |G|/radius + |div f|, with f = (F, G), and the basis is made orthonormal over the
+// points. Then the singular values are the misfits (R66) of all V of the form. The terms of f . grad V are not used for
+// this division, because they vanish for V = 1 and a conservative field.
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 constexpr int series_terms = 15;
 
-/// Returns true if a form has the term of these powers. A product has sums of powers of one coordinate, for ln V.
+/// Returns true if a form has the term u^i v^j. For a product, ln V has these terms: powers of u alone or of v alone.
 bool has_term(FactorForm form, int i, int j) {
   switch (form) {
     case FactorForm::constant:
@@ -189,7 +189,7 @@ std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
   const auto centre = jet_of(field, box.centre);
   if (!centre || centre->f.isZero(0)) return std::nullopt;
   FieldSamples samples{box, *centre};
-  // The points are a low-discrepancy sequence (M. Roberts' R2), denser at the edges, as Chebyshev's points are.
+  // The points are a low-discrepancy sequence (M. Roberts' R2), denser at the edges, like Chebyshev points.
   constexpr double plastic = 1.32471795724474602596;
   const auto fold = [](double x) { return std::cos(std::numbers::pi * (x - std::floor(x))); };
   int left_out = 0;
@@ -221,7 +221,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     const Jet& jet = samples.jets[static_cast<std::size_t>(i)];
     const double scale = weight(samples.box, jet);
     InverseFactor::Terms<3> terms = terms_at(static_cast<std::size_t>(i));
-    if (form == FactorForm::affine) terms /= jet.f.norm();  // X divided by |f|, so that all points have the same weight
+    if (form == FactorForm::affine) terms /= jet.f.norm();  // divided by |f|, so that all points have the same weight
     divergence[i] = scale * jet.slopes.trace();
     values.row(i) = terms.col(0).transpose();
     changes.row(i) = scale * (terms.rightCols<2>() * jet.f).transpose();
@@ -243,7 +243,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     tried.singular_value = missed.head(rows).norm() / mean;
     tried.gap = divergence.head(rows).norm() / mean / std::max(tried.singular_value, smallest);
   } else {
-    // Make the functions of the form orthonormal over the points, so that V = 0 is no solution.
+    // Make the functions of the form orthonormal over the points. This excludes the solution V = 0.
     constexpr double dependent = 1e-13;
     const SingularValues functions(values.topRows(rows));
     const Index rank = (functions.values.array() > dependent * functions.values[0]).count();
@@ -264,7 +264,7 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     tried.singular_value = sigma[0];
     unique = nullity == 1;
     const MatrixXd null = product(orthonormal, MatrixXd(svd.V.rightCols(nullity)));
-    // Take the V that is largest at the centre. If all vanish there, take the V that changes most across the orbit.
+    // Take the V that is largest at the centre. If all V vanish there, take the V that changes most across the orbit.
     const double mean = 1 / std::sqrt(static_cast<double>(rows));
     VectorXd part = null.transpose() * here.col(0);
     vanishes = part.norm() <= vanishing * mean;

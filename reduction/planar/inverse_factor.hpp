@@ -16,11 +16,11 @@ namespace contensou::reduction {
 struct Jet {
   Eigen::Vector2d f;
   Eigen::Matrix2d slopes;
-  double error = 0;  ///< error of the derivatives, if they are differences
+  double error = 0;  ///< error of the derivatives, if they are computed as differences
   Eigen::MatrixX3d basis = {};
 };
 
-/// Return f, and f with its derivatives; empty if the field has no value there.
+/// Return f, or f with its derivatives; empty if the field has no value at x.
 std::optional<Eigen::Vector2d> value_of(const SmoothField& field, const Eigen::Vector2d& x);
 std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
 
@@ -34,16 +34,16 @@ struct Box {
   Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
 };
 
-/// Returns the scale of a row of V's equation (R64): 1/(|F|/radius + |G|/radius + |div f|), or 0 if that is infinite.
+/// Returns the factor of a row of V's equation (R64): 1/(|F|/radius + |G|/radius + |div f|), or 0 if this is infinite.
 double weight(const Box& box, const Jet& jet);
 
 /// Returns the box about x in which V is fitted.
 Box box_about(const Eigen::Vector2d& x);
 
 enum class FactorForm { constant, affine, polynomial, linear_v, quadratic_v, linear_u, quadratic_u, product, basis };
-inline constexpr int factor_forms = 8;  ///< number of forms that are tried; a basis of the field replaces them
+inline constexpr int factor_forms = 8;  ///< number of forms that are tried; a basis of the field replaces all of them
 
-/// Returns true if the coefficients of a box are valid everywhere.
+/// Returns true if coefficients that were fitted in a box are valid everywhere.
 inline bool holds_everywhere(FactorForm form) { return form == FactorForm::affine || form == FactorForm::basis; }
 
 std::string_view name(FactorForm form);
@@ -64,16 +64,16 @@ class InverseFactor {
   InverseFactor(FactorForm form, Box box, Terms<1> coefficients)
       : form_(form), box_(std::move(box)), coefficients_(std::move(coefficients)) {}
 
-  /// Returns the functions of the form, with their derivatives. V is a sum of them; for a product, ln V is.
+  /// Returns the functions of the form, with their derivatives. V is a sum of these functions; for a product, ln V is.
   static Terms<3> terms(FactorForm form, const Box& box, const Eigen::Vector2d& x, const Jet& jet);
 
-  /// @param jet  its derivatives are used only for the derivatives of an affine form; its basis for the form `basis`
+  /// @param jet  jet.slopes is used only for the derivatives of an affine form, jet.basis only for the form `basis`
   Value operator()(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns the misfit (R66) at one point, divided by V there instead of the mean square of V over the box.
+  /// Returns the misfit (R66) at one point, but divided by V at this point, not by the mean square of V over the box.
   double residual(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns the magnitude of V before the cancellation of its terms.
+  /// Returns the magnitude of V: the sum of the absolute values of its terms, which cancel in V.
   double size(const Eigen::Vector2d& x, const Jet& jet) const;
 
   FactorForm form() const { return form_; }
@@ -82,7 +82,7 @@ class InverseFactor {
   /// True if the centre of the box lies on the invariant curve V = 0.
   bool vanishes = false;
 
-  /// Relative error of the coefficients, which are scaled so that size() is 1.
+  /// Relative error of the coefficients, if they are scaled so that size() is 1.
   double error = 0;
 
  private:
@@ -91,18 +91,18 @@ class InverseFactor {
   Terms<1> coefficients_;
 };
 
-/// Values of f at points of a box: some for the fit of V and some to test it.
+/// Values of f at points of a box. The first points are for the fit of V, the others test the fit.
 struct FieldSamples {
   Box box;
   Jet centre;
   std::vector<Eigen::Vector2d> points = {};
   std::vector<Jet> jets = {};
-  double error = 0;  ///< error of the derivatives, relative to the divisor of (R66)
+  double error = 0;  ///< error of the derivatives, relative to the divisor of the misfit (R66)
 
   int fitted() const { return static_cast<int>(points.size()) * 8 / 11; }
 };
 
-/// Returns the samples; empty if a fifth of the box is without values.
+/// Returns the samples; empty if the field has no values in a fifth of the box or more.
 std::optional<FieldSamples> sample(const SmoothField& field, const Box& box);
 
 struct FactorFit {

@@ -36,11 +36,11 @@ double root_below(const std::function<double(double)>& function, double high) {
   return root_between(function, low, high);
 }
 
-/// The place of a point among the orbits: its strip and xi. An orbit with constant q has no strip.
+/// The place of a point among the orbits: its strip, and xi in this strip. An orbit with constant q has no strip.
 struct StripPlace {
   const Strip* strip = nullptr;
   double xi = 0;
-  double radial = 0;  ///< R, only without a strip
+  double radial = 0;  ///< R; used only without a strip
 };
 
 /// The solution by a scaling: README (R42) to (R45).
@@ -94,8 +94,8 @@ ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, 
   kind = classify();
 }
 
-/// Makes the end of orbits undecided that join a ray in finite time, if the field does not determine their
-/// continuation: orbits leave it to the other side as well, or the field on the ray is not the limit of its values.
+/// Makes the end undecided for orbits that join a ray in finite time, if the field does not determine how they
+/// continue: other orbits leave the ray, too, or the field on the ray is not the limit of its values beside the ray.
 void ScalingSolution::leave_branching_open() {
   constexpr double close = 1e-6;
   for (Direction& end : directions.dividing) {
@@ -245,7 +245,7 @@ PlanarEnd ScalingSolution::end(const StripPlace& place) const {
   return PlanarEnd::undecided;
 }
 
-/// Returns the time until the orbit reaches its end, which may be a border; infinity if it never does.
+/// Returns the time until the orbit reaches its end (possibly a border); infinity if it never reaches an end.
 double ScalingSolution::end_time(const StripPlace& place, double p) const {
   const double c = section.time_degree();
   if (place.strip != nullptr)
@@ -253,7 +253,7 @@ double ScalingSolution::end_time(const StripPlace& place, double p) const {
   return c * place.radial < 0 ? std::exp(c * p) / (-c * place.radial) : infinity;
 }
 
-/// Moves the point with canonical coordinate p along the ray n for a time.
+/// Moves the point with the canonical coordinate p along the ray with the direction n for a time.
 Vector2d ScalingSolution::along_ray(const Vector2d& n, double radial, double p, double time) const {
   const double c = section.time_degree(), way = time * std::exp(-c * p), growth = c * radial;
   return section.point(n, p + (growth == 0 ? radial * way : std::log1p(growth * way) / c));
@@ -276,12 +276,12 @@ std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {
   return p - at.strip->ln_rho(at.xi);
 }
 
-/// A walk along an orbit in the direction of the motion, against xi, and the time that it takes.
+/// A walk along an orbit in the direction of the motion, that is, of falling xi; it also computes the time.
 struct Walk {
   const Strip& strip;
   double c, integral;  ///< p - L(q)
   double xi;
-  double passed = 0;  ///< time spent so far
+  double passed = 0;  ///< time since the start of the walk
 
   double elapsed(double left, double right) const {
     using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
@@ -290,8 +290,8 @@ struct Walk {
     return Rule::integrate(rate, left, right, halvings, 1e-13);
   }
 
-  /// Continues until the time `wanted` has passed or xi is `last`, in steps on which the integrand changes moderately.
-  /// @return true if the time has passed
+  /// Continues until the time `wanted` has passed or xi is `last`, in steps that change the integrand moderately.
+  /// @return true if the time `wanted` has passed
   bool go(double wanted, double last) {
     while (xi > last) {
       constexpr double longest = 1, change = 4;
@@ -318,7 +318,7 @@ struct ScalingMotion final : PlanarOrbit::Motion {
     return solution->section.point(strip.to().n(), p + (strip.ln_rho(-infinity) - strip.ln_rho(place.xi)));
   }
 
-  /// Returns the time of a turn, for orbits that turn for ever.
+  /// Returns the time of one turn, for orbits that turn for ever.
   double turn_time() const {
     const Strip& strip = *place.strip;
     Walk turn{strip, solution->section.time_degree(), p - strip.ln_rho(place.xi), place.xi};
@@ -358,20 +358,20 @@ Vector2d ScalingMotion::at(double time) const {
                                time_there);
   };
   if (time == 0) return at_coordinate(place.xi);
-  constexpr double early = 0.02;  // from this share on the time left has all its digits
+  constexpr double early = 0.02;  // from this fraction of end_time on, the time left has all its digits
   if (strip.timed() && time > early * end_time) {
     const double left = end_time - time, ln_left = std::log(left);
     if (strip.joins_ray()) {
       const double on_arrival = std::exp(c * (integral + strip.ln_rho(-infinity))) * strip.time_left(-infinity);
       if (left < on_arrival) return on_ray(on_arrival - left);
     }
-    // The logarithm of the time left falls with xi, so xi is a root.
+    // The logarithm of the time left falls along the orbit, so xi is the root of a monotone function.
     return at_coordinate(root_below(
         [&](double xi) { return c * (integral + strip.ln_rho(xi)) + std::log(strip.time_left(xi)) - ln_left; },
         place.xi));
   }
   Walk walk{strip, c, integral, place.xi};
-  // the sum of the first `count` terms of a geometric series with the ratio exp(growth)
+  // Returns the sum of the first `count` terms of a geometric series that begins with 1 and has the ratio exp(growth).
   const auto terms = [](double growth, double count) {
     return growth == 0 ? count : std::expm1(growth * count) / std::expm1(growth);
   };
@@ -383,8 +383,8 @@ Vector2d ScalingMotion::at(double time) const {
   }
   const bool decided = strip.to().decided(), joins = strip.joins_ray();
   const bool linear = decided && !joins && strip.to().angular().order == 1;
-  constexpr double farthest = -1e4;  // z is 0 at this xi
-  // On a ray that orbits join, the rest of the time is proportional to z^(1 - a).
+  constexpr double farthest = -1e4;  // at this xi the angle z from the end underflows to 0
+  // Near a ray that orbits join in finite time, the time left is proportional to z^(1 - a), with a of PlanarRay::order.
   const double last = joins                ? Strip::first / (1 - strip.to().angular().order)
                       : linear || !decided ? Strip::first
                                            : farthest;
@@ -395,7 +395,7 @@ Vector2d ScalingMotion::at(double time) const {
   }
   if (joins) return on_ray(time - walk.passed);
   if (!linear) return at_coordinate(walk.xi);
-  // Beyond this xi, s is constant. R is constant if p has no bound.
+  // Beyond this xi, the rate s at which xi falls is constant. R is constant, too, if p has no bound.
   const double rate = std::abs(strip.to().angular().factor);
   const double growth = strip.to().radial().order == 0 ? c * strip.to().radial().factor : 0;
   const double sigma = (time - walk.passed) * std::exp(-c * (integral + strip.ln_rho(walk.xi)));

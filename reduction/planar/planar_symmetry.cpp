@@ -35,12 +35,12 @@ Unknowns unknowns_of(const Generator& g) {
   return (Unknowns() << g.matrix(0, 0), g.matrix(0, 1), g.matrix(1, 0), g.matrix(1, 1), g.shift, g.time).finished();
 }
 
-/// The field, with a count of its failures: points without a value, and the first message.
+/// The field, with a count of its failures (points without a value) and the message of the first failure.
 class Sampler {
  public:
   explicit Sampler(const PlanarField& field) : field_(field) {}
 
-  /// Sets the units of its points and values from now on: powers of 2, so that no rounding occurs.
+  /// Sets the units of the points and of the values. They are powers of 2, so that no rounding occurs.
   void set_units(double length, double value) {
     length_ = length;
     value_ = value;
@@ -72,8 +72,8 @@ class Sampler {
 
 constexpr int tried = 128;
 
-/// Returns the i-th point at which the field is sampled. Even points are spread evenly about the origin, at 1/3 to 3
-/// times `around`. Odd points lie nearer to the axes, down to a ratio of 1e-5.
+/// Returns point i of those at which the field is sampled. Points with even i are spread evenly about the origin, at
+/// 1/3 to 3 times `around`. Points with odd i lie nearer to the axes, down to a ratio of 1e-5.
 Vector2d sample_point(int i, const Vector2d& around) {
   const auto fraction = [](double x) { return x - std::floor(x); };
   const double turn = fraction(i * std::numbers::phi);
@@ -92,7 +92,7 @@ struct Equations {
   Eigen::VectorXd row_scale;
   Unknowns column_scale;
   std::vector<Vector2d> points = {};
-  double error = 0;  ///< Frobenius norm of the error of the matrix that comes from the derivatives
+  double error = 0;  ///< Frobenius norm of the matrix's error, which comes from the derivatives
   double range = 1;  ///< largest |f| at the samples divided by the smallest
 };
 
@@ -101,7 +101,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   struct Sample {
     Vector2d x;
     Eigen::Matrix<double, 2, 7> rows, errors;
-    Eigen::Matrix<double, 2, 7> sizes;  ///< absolute sums of the rows' terms, which may cancel
+    Eigen::Matrix<double, 2, 7> sizes;  ///< sums of the absolute values of each row's terms, which can cancel
   };
   std::vector<Sample> samples;
   bool all_zero = true;
@@ -137,7 +137,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
   }
   if (all_zero) throw std::domain_error("the field is 0 at every point that was tried");
 
-  // Scale rows and columns in turn; then again without the points next to a kink, whose errors are the largest.
+  // Scale rows and columns in turn. Then repeat without the points next to a kink, whose errors are the largest.
   const auto inverse = [](double length) { return length > 0 ? 1 / length : 1; };
   const auto scaled = [&] {
     const auto count = static_cast<Eigen::Index>(2 * samples.size());
@@ -180,7 +180,7 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
 /// The finite transformation phi = exp(s X): x -> L x + d.
 struct Transformation {
   Transformation(const Generator& g, double s) : linear(matrix_exponential(s * g.matrix)), shift(Vector2d::Zero()) {
-    constexpr int terms = 60;  // terms of the integral of exp(s A) over s; A has no entry above 1, and s is small
+    constexpr int terms = 60;  // terms of the integral of exp(s A) over s; no entry of A is above 1, and s is small
     Vector2d term = s * g.shift;
     for (int n = 2; n <= terms && !term.isZero(0); ++n) {
       shift += term;
@@ -193,8 +193,8 @@ struct Transformation {
   Vector2d shift;
 };
 
-/// Tests f(phi x) = exp(-c s) L f(x) for a finite phi. Unlike derivatives, it crosses kinks. phi moves each point
-/// forwards and backwards by about twice its distance from the origin.
+/// Tests f(phi x) = exp(-c s) L f(x) for a finite phi. This test crosses kinks; derivatives do not. phi moves each
+/// point, forwards and backwards, by about twice the point's distance from the origin.
 ///
 /// @param scale    typical size of u and v
 /// @param allowed  largest error, relative to f
@@ -207,15 +207,15 @@ bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vect
     return std::ranges::all_of(std::array{-s, s}, [&](double step) {
       const Transformation phi(g, step);
       const auto here = field(x), moved = field(phi(x));
-      if (!here || !moved) return true;  // x or phi x lies where the field has no value
+      if (!here || !moved) return true;  // the field has no value at x or phi x
       const Vector2d expected = std::exp(-g.time * step) * (phi.linear * *here);
       return size(*moved - expected) <= allowed * std::max(size(*moved), size(expected));
     });
   });
 }
 
-/// Largest value over the points of |f(phi x) - exp(s (A - c)) f(x)|/|f|, where phi is the finite transformation with s
-/// = ln 2; and this difference divided by s, as a right side of the determining equations.
+/// The residual: the largest |f(phi x) - exp(s (A - c)) f(x)|/|f| over the points x, with the finite transformation phi
+/// for s = ln 2. `difference`: this difference divided by s, in the form of a right side of the determining equations.
 struct Finite {
   double residual = 0;
   Eigen::VectorXd difference;
@@ -229,7 +229,7 @@ Finite finite_transformation(Sampler& field, const Generator& g, const std::vect
   Finite finite{.difference = Eigen::VectorXd::Zero(rows)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto here = field(points[i]), moved = field(phi(points[i]));
-    if (!here || !moved) continue;  // x or phi x lies where the field has no value
+    if (!here || !moved) continue;  // the field has no value at x or phi x
     const Vector2d difference = back * *moved - *here;
     finite.residual = std::max(finite.residual, difference.norm() / here->norm());
     finite.difference.segment<2>(static_cast<Eigen::Index>(2 * i)) = difference / s;
@@ -237,12 +237,12 @@ Finite finite_transformation(Sampler& field, const Generator& g, const std::vect
   return finite;
 }
 
-/// Returns X or -X: the one that moves points away from the centre.
+/// Returns X or -X, whichever moves points away from the centre.
 Generator growing(const Generator& g) {
   return g.matrix.trace() > 0 ? g : generator_of(Unknowns::Zero() - unknowns_of(g));
 }
 
-/// Returns true if X moves all points away from its centre, at a rate well above 0.
+/// Returns true if X moves all points away from its centre at a rate clearly above 0.
 /// @param scale  typical size of u and v
 bool scales(const Generator& g, const Vector2d& scale) {
   const double growth = g.growth();
@@ -250,7 +250,7 @@ bool scales(const Generator& g, const Vector2d& scale) {
   return growth > 1e-6 * std::max({largest, std::abs(g.time), g.shift.cwiseQuotient(scale).cwiseAbs().maxCoeff()});
 }
 
-/// Finds a jump of the field between two points by bisection. Each step keeps the half with the larger difference.
+/// Finds a jump of the field between two points by bisection. Each step keeps the half with the larger change.
 std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d right) {
   constexpr double least = 1e-3;  // smallest jump, relative to the field
   auto at_left = field(left), at_right = field(right);
@@ -268,15 +268,15 @@ std::optional<Vector2d> jump_between(Sampler& field, Vector2d left, Vector2d rig
   return (left + right) / 2;
 }
 
-/// Adds an equation for each line on which the field jumps. If the symmetry holds across the line, X is tangent to it:
-/// (A x + b) x (direction of the line) = 0.
+/// Adds an equation for each line at which the field jumps. If the symmetry holds across the line, X is tangent to the
+/// line: the cross product of A x + b and the direction of the line is 0.
 void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
   std::vector<Unknowns> rows;
   for (std::size_t i = 1; i < equations.points.size(); ++i) {
     const Vector2d way = equations.points[i] - equations.points[i - 1];
     const auto jump = jump_between(field, equations.points[i - 1], equations.points[i]);
     if (!jump) continue;
-    // Find the jump on parallel lines: its position along the line, in units of `along`, for each offset across.
+    // Find the jump on parallel lines: its position along each line, in units of `along`, for each offset across.
     const double part = 0.1 * scale.minCoeff() / way.norm();
     const Vector2d along = part * way, across(-along[1], along[0]);
     const PlanarField line = [&](const Vector2d& offset) {
@@ -298,7 +298,7 @@ void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
   equations.matrix.conservativeResize(known + added, 7);
   for (Eigen::Index i = 0; i < added; ++i) equations.matrix.row(known + i) = rows[static_cast<std::size_t>(i)];
   equations.row_scale.conservativeResize(known + added);
-  equations.row_scale.tail(added).setZero();  // Newton's method uses only the rows of the samples
+  equations.row_scale.tail(added).setZero();  // 0: Newton's method uses only the rows of the samples
 }
 
 /// Returns x divided by its largest entry. An entry within `error` of a simple fraction becomes that fraction.
@@ -314,8 +314,8 @@ Unknowns normalised(const Unknowns& x, double error) {
   });
 }
 
-/// Returns a basis of the kernel with as many zeros as elimination gives. The scaling replaces the basis vector that
-/// contributes most to it.
+/// Returns a basis of the kernel with as many zeros as elimination can produce. The scaling replaces the basis vector
+/// that has the largest part in it.
 std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::optional<Generator>& scaling) {
   const Eigen::Index count = kernel.cols();
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -339,8 +339,8 @@ std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::option
   return basis;
 }
 
-/// Finds the simplest scaling in the null space that holds in the whole plane. It tries subspaces in turn, the simplest
-/// first, and takes from each subspace the scaling that is nearest to A = 1.
+/// Finds the simplest scaling in the null space that holds in the whole plane. Subspaces are tried in turn, the
+/// simplest one first. From a subspace, the scaling nearest to A = 1 is taken.
 ///
 /// @param largest  largest singular value of the equations
 template <class Everywhere>
@@ -359,7 +359,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
   for (const MatrixXd& subspace :
        {spanned({identity, c}), spanned({identity, b1, b2, c}), spanned({unit(0), unit(3), c}),
         spanned({unit(0), unit(3), b1, b2, c}), MatrixXd(MatrixXd::Identity(7, 7))}) {
-    // Express the subspace in the unknowns of the matrix, each of its vectors with length 1.
+    // Express the subspace in the unknowns of the matrix. Each vector of the subspace gets the length 1.
     MatrixXd inner = equations.column_scale.cwiseInverse().asDiagonal() * subspace;
     const Eigen::VectorXd lengths = inner.colwise().norm();
     inner = (inner * lengths.cwiseInverse().asDiagonal()).eval();
@@ -372,7 +372,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
     Unknowns x = product(kernel, least_squares(kernel, identity));
     if (!scales(generator_of(x), scale)) continue;
 
-    // Refine x by finite transformations, which need no derivative: Newton's method with the matrix computed before.
+    // Refine x by finite transformations, which need no derivatives, in Newton's method with one matrix for all steps.
     Finite finite = transformed(x);
     for (int step = 0; step < 4; ++step) {
       const Eigen::VectorXd correction =
@@ -390,7 +390,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
   return std::nullopt;
 }
 
-/// Converts the shift of a generator from units to the field's own lengths. The largest entry becomes 1 again.
+/// Converts the shift of a generator from units to the field's own lengths, and scales the largest entry to 1 again.
 Generator in_lengths(Generator g, double unit) {
   if (unit == 1 || g.shift.isZero(0)) return g;
   g.shift *= unit;
@@ -407,7 +407,7 @@ double Generator::growth() const {
 }
 
 Vector2d Generator::centre() const {
-  return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // the addition turns -0 into 0
+  return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // the addition to 0 turns -0 into 0
 }
 
 PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
@@ -416,7 +416,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     throw std::domain_error(fmt::format(
         "a finite point other than 0 is needed, about which the field is sampled, got ({}, {})", around[0], around[1]));
   }
-  constexpr double large = 1e100;  // squares of numbers above this, or below its inverse, may overflow or underflow
+  constexpr double large = 1e100;  // squares of numbers above this or below its inverse can overflow or underflow
   const double unit = size < large && size > 1 / large ? 1 : std::ldexp(1, std::ilogb(size));
   const Vector2d scale = around.cwiseAbs().unaryExpr([&](double x) { return (x > 0 ? x : size) / unit; });
   Sampler sampler(field);
@@ -439,7 +439,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
     nullity += result.singular_values[i] <= result.level;
   }
   constexpr double hidden = 1e-2;
-  // If magnitudes differ so much, a few samples decide alone; but all samples should contribute.
+  // If magnitudes differ that much, only a few samples have an influence, and the result is not reliable.
   constexpr double widest = 1e140;
   if (result.level > hidden || !(equations.range < widest)) result.verdict = PlanarSymmetries::Verdict::undecided;
   const double zero = std::max(result.level, nullity > 0 ? result.singular_values[nullity - 1] : 0);
@@ -459,7 +459,7 @@ PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& aroun
   };
   find_generators();
   if (!result.scaling && !std::ranges::all_of(result.generators, &Generator::everywhere)) {
-    // If several generators hold within sectors only, one that maps the jumps onto themselves may hold everywhere.
+    // If several generators hold within sectors only, a combination that maps jumps to themselves can hold everywhere.
     add_jumps(equations, sampler, scale);
     const double largest_now = SingularValues(equations.matrix).values[0];
     result.scaling = simplest_scaling(sampler, equations, largest_now, result.level, scale, everywhere);

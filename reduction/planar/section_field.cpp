@@ -20,7 +20,7 @@ double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] *
 
 namespace {
 
-/// Returns the frame S in which |n| grows along the scaling everywhere: Q = S^-T S^-1 with A^T Q + Q A = 1.
+/// Returns the frame S in which |n| grows along the scaling everywhere: S = L^-T with Q = L L^T and A^T Q + Q A = 1.
 Matrix2d frame_of(const Matrix2d& a) {
   Eigen::Matrix3d equations;                 // equations for Q11, Q12, Q22
   equations << 2 * a(0, 0), 2 * a(1, 0), 0,  //
@@ -30,7 +30,7 @@ Matrix2d frame_of(const Matrix2d& a) {
   if (!(q[0] > 0 && q[0] * q[2] > q[1] * q[1])) {
     throw std::domain_error("PlanarReduction: all eigenvalues of the scaling's matrix must have positive real parts");
   }
-  // S = L^-T with Q = L L^T is upper triangular.
+  // S = L^-T is upper triangular, because L in Q = L L^T is lower triangular.
   const double l11 = std::sqrt(q[0]), l21 = q[1] / l11, l22 = std::sqrt(q[2] - l21 * l21);
   return (Matrix2d() << 1 / l11, -l21 / (l11 * l22), 0, 1 / l22).finished();
 }
@@ -79,12 +79,12 @@ bool SectionField::regular() const {
 std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {
   const Vector2d z = frame_inverse_ * (x - centre_);
   const double length = z.stableNorm();
-  // Eigenvalues of the symmetric part of A': the least and the largest rate at which ln |z| grows along the scaling.
+  // The eigenvalues of the symmetric part of A' are the least and largest rate at which ln |z| grows along the scaling.
   const double mean = matrix_.trace() / 2;
   const double spread = std::hypot((matrix_(0, 0) - matrix_(1, 1)) / 2, (matrix_(0, 1) + matrix_(1, 0)) / 2);
   const double ends[] = {std::log(length) / (mean - spread), std::log(length) / (mean + spread)};
   auto [low, high] = std::minmax(ends[0], ends[1]);
-  // Move in several steps, so that none overflows.
+  // Move z in several steps, so that no step overflows.
   constexpr double longest = 300;
   const double largest = matrix_.cwiseAbs().rowwise().sum().maxCoeff();
   const auto moved = [&](double p) -> Vector2d {

@@ -9,14 +9,14 @@
 
 namespace contensou::reduction {
 
-/// The field f on the closed curve x_0 + S n(q) (the section). The scaling moves it over the plane (README (R42)).
+/// The field f on the section, the closed curve x_0 + S n(q), which the scaling moves over the plane (README (R42)).
 class SectionField {
  public:
-  /// The rates p' = R and q' = T of the canonical coordinates in the time sigma.
+  /// The rates p' = R (radial) and q' = T (angular) of the canonical coordinates in the time sigma.
   struct Rates {
     double radial, angular;
     double size;                         ///< |S^-1 f|
-    double radial_terms, angular_terms;  ///< sums of the absolute terms of R and of T, whose terms may cancel
+    double radial_terms, angular_terms;  ///< sums of the absolute values of the terms of R and of T; terms can cancel
   };
 
   /// @throws std::domain_error  unless all eigenvalues of the scaling's matrix have positive real parts
@@ -33,9 +33,9 @@ class SectionField {
   const Eigen::Vector2d& centre() const { return centre_; }
   const Eigen::Matrix2d& frame() const { return frame_; }  ///< S
 
-  /// Returns n and p of a point other than the centre.
+  /// Returns n and p of a point x other than the centre.
   std::pair<Eigen::Vector2d, double> canonical(const Eigen::Vector2d& x) const;
-  /// Returns n at the point where the curve meets a direction seen from the centre.
+  /// Returns n of the point at which the curve meets a ray from the centre in the given direction.
   Eigen::Vector2d on_section(const Eigen::Vector2d& direction) const;
   Eigen::Vector2d point(const Eigen::Vector2d& n, double p) const;
 
@@ -48,7 +48,7 @@ class SectionField {
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
-/// Returns n turned counter-clockwise; for small angles each component is accurate to its last bits.
+/// Returns n turned counter-clockwise. Also for small angles each component is accurate to its last bits.
 Eigen::Vector2d turned(const Eigen::Vector2d& n, double angle);
 
 }  // namespace contensou::reduction

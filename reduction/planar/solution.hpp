@@ -16,7 +16,7 @@
 
 namespace contensou::reduction {
 
-/// One way of solving a planar system. PlanarReduction checks the arguments, then calls these functions.
+/// A method that solves a planar system. PlanarReduction checks the arguments, then calls these functions.
 struct PlanarReduction::Solution {
   Solution(PlanarField of, std::string_view way) : field(std::move(of)), form(way) {}
   Solution(const Solution&) = delete;
@@ -31,8 +31,8 @@ struct PlanarReduction::Solution {
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
 
-  /// Returns the canonical coordinates of the scaling. A solution without a scaling throws, also in `point`.
-  /// @param x  finite, not the centre
+  /// Returns the canonical coordinates of the scaling. A solution without a scaling throws here, and in `point`.
+  /// @param x  finite, and not the centre
   virtual PlanarCanonical canonical(const Eigen::Vector2d&) const { throw without_scaling(); }
   virtual Eigen::Vector2d point(double, double) const { throw without_scaling(); }
 
@@ -79,7 +79,7 @@ struct SectionSolution : PlanarReduction::Solution {
   SectionField section;
 };
 
-/// Solves a system by its scaling. Arguments and exceptions as the constructor of PlanarReduction.
+/// Solves a system by its scaling. Arguments and exceptions are those of the constructor of PlanarReduction.
 std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(PlanarField field, const Generator& scaling,
                                                                    const Eigen::Vector2d& around, double noise);
 
@@ -91,7 +91,7 @@ struct PlanarOrbit::Motion {
 
   virtual std::optional<double> period() const { return std::nullopt; }
 
-  /// Returns the point at which the orbit stays from end_time on, if there is one.
+  /// Returns the point at which the orbit stays from end_time on; it is used only if the orbit has such a point.
   virtual Eigen::Vector2d at_end() const = 0;
 
   PlanarEnd end = PlanarEnd::centre;

@@ -1,5 +1,5 @@
-// Notation (README (R42) to (R44)): p' = R, q' = T in sigma, dt = exp(c p) d sigma; xi falls at the rate s >= 0;
-//   dL/dxi = -R/s,   s dM/dxi - c R M = 1
+// Notation (README (R42) to (R44)): p' = R, q' = T in sigma, dt = exp(c p) dsigma; xi falls at a rate s >= 0. p = L(xi)
+// on one orbit; exp(c p) M(xi) is the time left:   dL/dxi = -R/s,   s dM/dxi - c R M = 1
 #include "planar/strip.hpp"
 
 #include <algorithm>
@@ -25,11 +25,11 @@ namespace {
 
 constexpr double same_order = 1e-9;
 
-/// Returns the limit of p at an end. `sign` is 1 if the motion goes towards the end and -1 if it comes from there.
+/// Returns the limit of p at an end. `sign` is 1 if the motion goes towards the end, and -1 if it comes from the end.
 Limit limit_at(const Approach& end, double sign) {
   if (!end.decided()) return Limit::undecided;
   const double radial = sign * end.radial().factor;
-  const bool along = end.ray() && end.radial().order == 0;  // p is unbounded at least on the ray
+  const bool along = end.ray() && end.radial().order == 0;  // p has no bound at least on the ray itself
   if (radial == 0 || (end.growth() > same_order && !along)) return Limit::point;
   return radial < 0 ? Limit::centre : Limit::infinity;
 }
@@ -42,7 +42,7 @@ Strip::Strip(const SectionField& field, const Approach& to, const Approach& from
   constexpr double last = -first, middle = 8, width = 2;
   const double start = first_time();
   std::vector<double> edges;
-  // Farther from the middle R and T are nearly their leading powers, so panels may be wider.
+  // Far from the middle R and T are nearly their leading powers, so panels can be wider.
   for (double edge = first; edge <= last; edge += edge < -middle || edge >= middle ? 2 * width : width)
     edges.push_back(edge);
   for (const Vector2d& n : breaks) {
@@ -68,7 +68,7 @@ Strip::Strip(const SectionField& field, const std::vector<Vector2d>& breaks, dou
   if (std::abs(turn_) < 1e-13) turn_ = 0;
   timed_ = turn_ != 0 && change < 0;
   if (!timed_) return;
-  // M is the solution that is the same after a turn: M(2 pi) = M_0(2 pi) + exp(change) M(0).
+  // M is the solution that repeats after a turn: M(2 pi) = M_0(2 pi) + exp(change) M(0) = M(0), where M_0(0) = 0.
   const double first_time = last_time_ / -std::expm1(change);
   solve(edges, first_time);
 }
@@ -80,7 +80,7 @@ bool Strip::joins_ray() const {
   return !closed() && to_->ray() && to_->radial().order == 0 && to_->angular().order < 1;
 }
 
-/// Returns M, the time left divided by exp(c p), at the first edge (README (R63)); sets its power of exp(xi) below it.
+/// Returns M, the time left divided by exp(c p), at the first edge (README (R63)). Below it M is a power of exp(xi).
 double Strip::first_time() {
   if (!to_->decided()) return 0;
   const double c = field_->time_degree(), a = to_->angular().order, b = to_->radial().order;
@@ -113,7 +113,7 @@ std::optional<double> Strip::locate(const Vector2d& n) const {
     return turn < 0 ? turn + 2 * pi : turn;
   };
   if (closed()) return angle(sense_, Vector2d(1, 0), n);
-  // On a ray off the axes, n is rounded.
+  // If n lies on a ray off the axes, n is rounded.
   const auto on = [&](const Vector2d& end) {
     const double distance = std::abs(cross(end, n));
     return end.dot(n) > 0 && distance <= (end[0] == 0 || end[1] == 0 ? 0 : 4 * eps);
@@ -126,7 +126,7 @@ std::optional<double> Strip::locate(const Vector2d& n) const {
 }
 
 double Strip::sector_angle(double xi, bool from_far) const {
-  const double growth = std::exp(from_far ? xi : -xi);  // z = l e/(l + e), l - z = l^2/(l + e), e = exp(xi)
+  const double growth = std::exp(from_far ? xi : -xi);  // z = l e/(l + e), l - z = l^2/(l + e), e = exp(xi), l = length
   return from_far ? length_ / (1 + growth / length_) : 1 / (1 / length_ + growth);
 }
 
@@ -147,7 +147,7 @@ Strip::Terms Strip::terms(double xi) const {
       return {std::abs(rates.angular) * (length_ / (z * y)), rates.radial, eps};
     }
     factor = length_ / (z * y);
-    constexpr double located = 1e-9;  // largest error of the angle of an end
+    constexpr double located = 1e-9;  // largest error of the angle of an end of the strip
     inside = std::min(z, y) > located;
   }
   const Vector2d n = direction(xi);
@@ -155,7 +155,7 @@ Strip::Terms Strip::terms(double xi) const {
   if (!rates) return {infinity, 0, 1};
   const double rate = -sense_ * rates->angular * factor;
   const double rounding = rates->size * factor * eps, crossed = -2 * tolerance_ * rates->size * factor;
-  constexpr double nearly = 1e-9;  // share of its terms below which T has lost most of its digits
+  constexpr double nearly = 1e-9;  // below this share of its terms, T has lost most of its digits
   const bool missed = rate < crossed || (closed() && rate < nearly * rates->angular_terms * factor);
   if (inside && missed) throw MissedRay{n, rate < crossed};
   return {std::max(rate, rounding), rates->radial, rounding / std::max(rate, rounding)};
@@ -165,7 +165,7 @@ void Strip::solve(std::vector<double> edges, double first_time) {
   panels_.clear();
   last_time_ = first_time;
   for (std::size_t i = 1; i < edges.size(); ++i) march(edges[i - 1], edges[i], 0);
-  // Sum L from xi = 0 to both sides, because L may be large next to the ends.
+  // Sum L from xi = 0 to both sides, because L can be large next to the ends.
   const auto zero = std::ranges::lower_bound(panels_, 0.0, {}, &Panel::left);
   double level = 0;
   for (auto panel = zero; panel != panels_.end(); ++panel) level = (panel->ln_rho += level).at_end();
@@ -201,7 +201,7 @@ void Strip::march(double left, double right, int depth) {
                          time.tail() / std::max(std::abs(time.at_end()), 1 / largest)});
   }
   left_out *= std::min(right - left, 1.0);
-  // A jump beyond the outermost samples shows only at the ends.
+  // A jump of R or s beyond the outermost samples shows only in the values at the ends.
   const auto jumps_at = [&](int end) {
     constexpr double inside = 1 - 1e-12;
     const Terms there = terms(left + half * (1 + inside * end));
@@ -223,7 +223,7 @@ void Strip::march(double left, double right, int depth) {
   panels_.push_back({left, right, ln_rho, time});
 }
 
-/// Finds a jump of R or s between two places by bisection. Each step keeps the half whose ends differ more.
+/// Finds a jump of R or s between two xi by bisection. Each step keeps the half between whose ends R or s differs more.
 std::optional<double> Strip::jump(double left, double right) const {
   Terms at_left = terms(left), at_right = terms(right);
   const double largest_rate = std::max(at_left.rate, at_right.rate);
@@ -268,7 +268,7 @@ double Strip::ln_rho(double xi) const {
   const Panel& panel = find(xi);
   const double inside = std::clamp(xi, panel.left, panel.right);
   if (xi != inside) {
-    // dL/dz = -+R/T by the leading powers of R and T.
+    // dL/dz = -R/T or R/T, with the leading powers of R and T.
     const Approach& end = xi < inside ? *to_ : *from_;
     const double slope = end.radial().factor / std::abs(end.angular().factor), gamma = end.growth();
     const auto distance = [&](double at) { return xi < inside ? std::exp(at) : length_ * length_ * std::exp(-at); };

@@ -13,30 +13,30 @@
 
 namespace contensou::reduction {
 
-/// Thrown for a direction at which T has the other sign within a sector, or T of a turn is 0 within its errors.
+/// Thrown if T has the other sign in a direction within a sector, or if T within a turn is 0 within its errors.
 struct MissedRay {
   Eigen::Vector2d n;
-  bool crossed;  ///< true: T has the other sign
+  bool crossed;  ///< true: T has the other sign; false: T is 0 within its errors
 };
 
-/// The limit of p at an end of a sector.
+/// The limit of p at an end of a sector, or its being unknown.
 enum class Limit { centre, infinity, point, undecided };
 
 /// The orbits of one sector between two dividing directions, or of the whole plane if there are none: copies of one
-/// curve p = L(xi).
-/// xi falls along every orbit. In a sector exp(xi) = z/(1 - z/length), where z is the angle from the end to which the
-/// orbit tends. Without dividing directions xi is the angle against the motion, and L and M continue over the turns.
+/// curve p = L(xi). xi falls along every orbit. In a sector exp(xi) = z/(1 - z/length), where z is the angle from the
+/// end to which orbits tend. Without dividing directions xi is the angle against the motion; L and M, the time left
+/// divided by exp(c p), then continue over the turns.
 class Strip {
  public:
-  /// @param breaks     directions within the strip at which R and T may not be smooth
-  /// @param sense      direction of growing xi: 1 if counter-clockwise
+  /// @param breaks     directions within the strip at which R and T might not be smooth
+  /// @param sense      direction in which xi grows: 1 for counter-clockwise, else -1
   /// @param length     angle between the ends
   /// @param tolerance  relative error of the panels
   /// @throws MissedRay
   Strip(const SectionField& field, const Approach& to, const Approach& from, const std::vector<Eigen::Vector2d>& breaks,
         double sense, double length, double tolerance);
 
-  /// Makes a strip without ends.
+  /// Makes the strip of the whole plane, without ends.
   Strip(const SectionField& field, const std::vector<Eigen::Vector2d>& breaks, double sense, double tolerance);
 
   bool closed() const { return !to_; }
@@ -45,28 +45,28 @@ class Strip {
   /// Return the limits of p at the end of the orbit and at its beginning.
   Limit limit() const;
   Limit origin() const;
-  /// Growth of p in one turn.
+  /// Returns the growth of p in one turn.
   double turn() const { return turn_; }
   double turn_sigma() const;
 
-  /// The xi in a sector below which R and T equal their leading powers.
+  /// In a sector, below this xi, R and T equal their leading powers.
   static constexpr double first = -40;
 
-  /// Returns xi of a direction; -infinity or infinity at the ends of the strip; empty outside it.
+  /// Returns xi of a direction; -infinity or infinity at the ends of the strip; empty for a direction beyond the ends.
   std::optional<double> locate(const Eigen::Vector2d& n) const;
   Eigen::Vector2d direction(double xi) const;
 
   /// Returns L(xi), which is 0 at xi = 0.
   double ln_rho(double xi) const;
 
-  /// Returns true if orbits reach their end in finite time. Then time_left is this time divided by exp(c p).
+  /// Returns true if orbits reach their end in finite time. time_left is then the time left divided by exp(c p).
   bool timed() const { return timed_; }
   double time_left(double xi) const;
 
-  /// True if orbits come to a ray in finite time and continue along it.
+  /// Returns true if orbits come to a ray in finite time and then continue along the ray.
   bool joins_ray() const;
 
-  /// Returns the largest panel edge below xi, or -infinity. Between this edge and xi, s and R are smooth.
+  /// Returns the largest panel edge below xi, or -infinity if there is none. Between the edge and xi, s, R are smooth.
   double smooth_from(double xi) const;
 
   /// Returns the rate s(xi) at which xi falls: d sigma = -d xi/s(xi).
@@ -97,7 +97,7 @@ class Strip {
   double length_;
   double tolerance_;
   bool timed_ = false;
-  double time_order_ = 0;  ///< order of the time function M next to the end
+  double time_order_ = 0;  ///< exponent a in M ~ exp(a xi) next to the end
   double turn_ = 0;
   double last_time_ = 0;
   std::vector<Panel> panels_;

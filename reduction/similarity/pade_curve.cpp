@@ -39,7 +39,7 @@ struct Fractions {
   double ln_x, ln_y;
 };
 
-/// Returns x, y = 1 - x and their logarithms without subtractions; z = ln(x/y).
+/// Returns x, y = 1 - x and the logarithms of both without subtractions; z = ln(x/y).
 Fractions fractions(double z) {
   const double far = std::exp(-std::abs(z));
   const double near = std::log1p(far);
@@ -47,7 +47,7 @@ Fractions fractions(double z) {
   return {far / (1 + far), 1 / (1 + far), z - near, -near};
 }
 
-/// Returns the sum of a series in powers of t, |t| <= 1, whose last terms are below 1e-15 of the first.
+/// Returns the sum of a series in powers of t, |t| <= 1. Its last terms must be below 1e-15 of the first.
 template <std::size_t size>
 double powers_of(const std::array<double, size>& c, double t) {
   double sum = 0;
@@ -55,8 +55,8 @@ double powers_of(const std::array<double, size>& c, double t) {
   return sum;
 }
 
-// PadeRelaxation::connection for r from 0 to max_r: Chebyshev series as powers of 2 r/max_r - 1, with an error below
-// 1e-16. For m, P = 2/(2 - r) and d = r/(5 - r); for o, P = (2 + r)/(2 - r) and d = 2 r/(5 - r).
+// PadeRelaxation::connection for r from 0 to max_r: the coefficients are those of powers of 2 r/max_r - 1, with an
+// error below 1e-16. For m, P = 2/(2 - r) and d = r/(5 - r); for o, P = (2 + r)/(2 - r) and d = 2 r/(5 - r).
 constexpr std::array sliding_connection{0.13098133908826342,    0.14712431422470077,    0.017486965431931466,
                                         0.0014499083005106165,  0.0001198768867676149,  1.6625834747415241e-5,
                                         3.130776255969687e-6,   5.3173889915600616e-7,  7.6940519489395121e-8,
@@ -121,13 +121,13 @@ double PadeCurve::angle_coefficient(double ln_k) const {
 
 double PadeCurve::beta_coefficient(double ln_k) const {
   const auto at = fractions(ln_k + log_ratio_);
-  // y (1 + k), computed with k or with 1/k, the one that is at most 1.
+  // y (1 + k), computed with k or 1/k, whichever is at most 1.
   const double bounded =
       ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
   if (at.y <= 0.5) return bounded / (3 * pi * A_ * (e_ + 1)) * gauss_series(1 - b(), e_ + 2, at.y);
 
   // (R11): x^a times the integral of t^(-a-1) (1-t)^e, from x to 1/2 term by term, then from 1/2 to 1. The integrals of
-  // the terms t^-a and, for r = 1, t^(1-a) may be nearly logarithms.
+  // the terms t^-a and (for r near 1) t^(1-a) are powers that can come close to a logarithm.
   const double to_half = -std::numbers::ln2 - at.ln_x;
   const double x_to_a = std::exp(a_ * at.ln_x);
   const double s = 1 - a_;
@@ -140,7 +140,7 @@ double PadeCurve::beta_coefficient(double ln_k) const {
 }
 
 double PadeCurve::time_rate(double ln_k) const {
-  // k/((1 + k) D), computed with k or with 1/k, the one that is at most 1.
+  // k/((1 + k) D), D = Phi - r k Psi, computed with k or 1/k, whichever is at most 1.
   const double far = std::exp(-std::abs(ln_k));
   if (ln_k > 0) return (8 * far + 3 * pi) * (16 * far + 15 * pi) / (3 * pi * (1 + far) * (A_ * far + B_));
   return (8 + 3 * pi * far) * (16 + 15 * pi * far) / (3 * pi * (1 + far) * (A_ + B_ * far));

@@ -10,9 +10,9 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Returns the number of pairs of (R29) by the faster of its two rates of convergence. The error of m is below eps/8.
+/// Returns the number of pairs of (R29) by the faster of two rates of convergence. The error of m is then below eps/8.
 int pairs_of_fraction(double p, double T) {
-  // The first rate is tabulated up to some bounds of T/p.
+  // The first rate is tabulated for T/p < 3.
   if (T < 0.015625 * p) return 4;
   if (T < 0.125 * p) return 6;
   if (T < 0.5 * p) return 8;
@@ -24,11 +24,11 @@ int pairs_of_fraction(double p, double T) {
   return 1 + static_cast<int>(std::min(by_distance, by_scale) / 2);
 }
 
-/// Evaluates the continued fraction (R29) from a depth below which the rest is negligible. Only one division is needed:
-/// the fraction from depth n on is N_n/N_(n+1). All terms are positive, so nothing cancels.
+/// Evaluates the continued fraction (R29) from a depth below which the rest is negligible. Only one division is needed,
+/// because the fraction from depth n on is N_n/N_(n+1). All terms are positive, so nothing cancels.
 double by_fraction(const PadeRelaxation& at) {
   const int pairs = pairs_of_fraction(at.p, at.T);
-  // All b_n times a factor and all a_n times its square give the same fraction. The factor keeps N_n from overflowing.
+  // If all b_n get a factor and all a_n its square, the fraction is the same. The factor keeps N_n from overflowing.
   const double b = 1 + 2 * pairs * at.p;
   const double a = (at.q + pairs) * (1 + pairs * at.p) * at.T;
   const double unit = pairs > 17 || at.p > 1 ? 1 / std::sqrt(b * b + a) : 1;
@@ -44,12 +44,12 @@ double by_fraction(const PadeRelaxation& at) {
   }
   const double first = (unit + p) * here + (excess + p) * T * above;
   const double second = at.q * T * here;
-  // Start at the nearer end, so that only the small correction is rounded.
+  // Start at the nearer of begin and end, so that only the small correction is rounded.
   return second < first ? at.begin + (at.end - at.begin) * (second / (first + second))
                         : at.end + (at.begin - at.end) * (first / (first + second));
 }
 
-/// Evaluates the series (R30) in y. Two of its terms are infinite at Q = 1; they are combined.
+/// Evaluates the series (R30) in y. Two of its terms, which are infinite at Q = 1, are combined.
 double by_series(const PadeRelaxation& at) {
   const auto& [begin, end, p, q, excess, T, connection] = at;
   const double eta = 1 / (p + T);
@@ -57,7 +57,7 @@ double by_series(const PadeRelaxation& at) {
   const double y = p * eta;
   const double d = q - 1;
   const double L = std::log(eta) + connection;
-  // If d L is not small, the power is more accurate than the logarithm by a digit, and q more accurate than d.
+  // If d L is not small, the power is more accurate than the logarithm by a digit, and its exponent q more than d.
   const double W =
       std::abs(d * L) < 0.5 ? expm1_over(d, L) : (std::pow(eta, q) / eta * std::exp(d * connection) - 1) / d;
   double sum = 0;

@@ -2,7 +2,7 @@
 
 namespace contensou::reduction {
 
-/// A function of the ratio k under the Pade law that is one hypergeometric function: m of README (R4) or o of (R31).
+/// A function of the ratio k under the Pade law that is a hypergeometric function: m of README (R4) or o of (R31).
 ///
 ///   value = end + (begin - end) G,   G = 2F1(1, q; 1 + 1/p; -T/p)
 struct PadeRelaxation {

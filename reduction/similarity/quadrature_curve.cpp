@@ -20,17 +20,17 @@ namespace {
 
 using Samples = LegendreSeries::Samples;
 
-/// The value of xi - ln k* below which no double k differs from k*.
+/// The value of xi - ln k* below which k and k* are the same double.
 constexpr double nearest = -37;
 
-/// Smallest |D| divided by its larger term that is more than rounding.
+/// If |D| divided by its larger term is below this number, D is only rounding.
 constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
 /// The coefficients of the equations at one xi.
 struct CurveCoefficients {
   double ln_w_slope;    ///< (ln w)'
   double time;          ///< c
-  double cancellation;  ///< larger term of D divided by D
+  double cancellation;  ///< larger term of D divided by D: the factor by which relative errors grow
 };
 
 }  // namespace
@@ -74,7 +74,7 @@ class QuadratureCurve::Panels {
     return after == panels_.begin() ? panels_.front() : *std::prev(after);
   }
 
-  /// Makes panels of width 1, with edges at k = 1 and the law's kinks, over the range in which D has a correct digit.
+  /// Makes panels of width 1 over the range in which D has a correct digit, with edges at k = 1 and at the law's kinks.
   /// @return the edge at which D has the most digits
   double sample() {
     const bool from_above = chart_.side() == TerminalChart::Side::above;
@@ -115,10 +115,10 @@ class QuadratureCurve::Panels {
 
   struct Drag {
     double k;
-    double rate;        ///< (ln k)'
-    double drag;        ///< r k Psi
+    double rate;        ///< (ln k)', ' = d/dxi
+    double drag;        ///< r k Psi, the last term of D
     double larger;      ///< larger of the two terms of D
-    double difference;  ///< D with the sign of the rate
+    double difference;  ///< D, with the sign that makes it positive along the chart
   };
   Drag drag_at(double xi) const {
     const double k = std::exp(chart_.log_ratio(xi));
@@ -136,14 +136,14 @@ class QuadratureCurve::Panels {
   bool coefficients(double xi, CurveCoefficients& at) const {
     const auto [k, rate, drag, larger, difference] = drag_at(xi);
     if (!frozen_ && !(difference > resolution * larger)) return false;
-    // If D has no correct digit along the whole curve, its rounding bounds the rate of k.
+    // If D has no correct digit on the whole curve, use the rounding of D in place of D: it bounds the rate of k.
     const double q = frozen_ ? 1 / (resolution * larger) : std::abs(rate) / difference;
     at = {.ln_w_slope = drag * q, .time = k * q / (1 + k), .cancellation = frozen_ ? 1 : larger / difference};
     return true;
   }
 
-  /// Adds the panels between two xi.
-  /// @return false if D is only rounding in a part of the interval; the panel there is left out
+  /// Adds the panels between two values of xi.
+  /// @return false if D is only rounding in a part of the interval; the panel of this part is left out
   bool sample(double from, double to, int depth) {
     constexpr double narrowest = 1e-12;
     for (double kink : kinks_) {
@@ -165,7 +165,7 @@ class QuadratureCurve::Panels {
       cancellation = std::max(cancellation, at.cancellation);
     }
 
-    // The error of a panel's series, relative to a panel of full width. Cancellation in D limits the accuracy.
+    // The error of a panel's series, relative to that of a panel of width 1. Cancellation in D limits the accuracy.
     const auto left_out = [&](const Samples& samples) {
       return LegendreSeries::through(samples).tail() / (samples.maxCoeff() * cancellation) * (panel.right - panel.left);
     };
@@ -183,7 +183,7 @@ class QuadratureCurve::Panels {
     constexpr int last = LegendreSeries::order - 1;
     lower_slope_ = panels_.front().ln_w_slope.mean();
     upper_slope_ = panels_.back().ln_w_slope[last];
-    // The sum starts at the place of the smallest change of ln w, because ln w may grow without bound at either end.
+    // The sum starts where ln w changes least, because ln w can grow without bound at either end.
     for (Panel& panel : panels_) panel.ln_w = LegendreSeries::through(panel.half() * panel.ln_w_slope).antiderivative();
     const auto middle = std::ranges::lower_bound(panels_, anchor, {}, &Panel::left);
     double ln_w = 0;
@@ -202,7 +202,7 @@ class QuadratureCurve::Panels {
   const Law& law_;
   double r_, drive_;
   TerminalChart chart_;
-  std::vector<double> kinks_;  ///< values of xi
+  std::vector<double> kinks_;  ///< values of xi at kinks of the law
   bool frozen_ = false;
   std::vector<Panel> panels_;
   double lower_slope_ = 0;  ///< d ln_w/d xi as xi -> -infinity

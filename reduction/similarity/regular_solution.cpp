@@ -1,13 +1,13 @@
-// Notation (README (R19), (R31), (R49), (R50)): z = +- ln k, growing away from the stop, F = Phi - rho,
-// D = F - r k Psi, |D| = +- D
+// Notation (README (R19), (R31), (R49), (R50)): z = +- ln k with the sign by which z grows away from the stop; k = v/w,
+// F = Phi - rho, D = F - r k Psi, |D| = +- D:
 //   |D| dm/dz + F m               = 1 - Psi/Psi(0)
 //   |D| dn/dz + (F + r k Psi) n   = k (1 - Phi)/(1 - rho)
 //   |D| do/dz + (F + r k Psi) o   = 1 - Psi/Psi(0)
 //   |D| dp/dz + (Phi' - F Psi'/Psi) p           = -Psi'/Psi,   p = ds/dv, ' = d/d ln k
 //   |D| dq/dz + r k (Psi Phi'/F - Psi') q       = k Phi'/F,    q = ds/dw
 //   |D| db/dz - h b               = -g,  h = (r k Psi + k F)/(1 + k),  g = k (1 + k)/((16 + 15 pi k)(8 + 3 pi k))
-// A function y = p m, p = p(k), satisfies the equation with F - D p'/p in place of F and p times the right side. The
-// same holds for n and o.
+// Let j be a function of k. Then y = j m satisfies the equation of m with F - D j'/j in place of F and j times the
+// right side. The same holds for n and o.
 #include "similarity/regular_solution.hpp"
 
 #include <algorithm>
@@ -36,8 +36,8 @@ constexpr double highest_exponent = 700;  ///< exp(700) is still a double
 
 double sign_of(const TerminalChart& chart) { return chart.side() == TerminalChart::Side::above ? 1 : -1; }
 
-/// Returns the z at which panels meet, starting at the stop: the law's kinks, and multiples of a width for which the
-/// series converge to the last bit far from k = 1.
+/// Returns the z at which panels meet, from the stop outwards: the law's kinks, and multiples of a width. Far from k =
+/// 1 the series on panels of this width converge to the last bit.
 std::vector<double> edges_of(const Law& law, double r, const TerminalChart& chart, double drive) {
   if (!(r > 0) || !std::isfinite(r)) {
     throw std::domain_error(fmt::format("QuadratureCurve: r = gamma mu^2/chi must be positive and finite, got {}", r));
@@ -61,7 +61,7 @@ std::vector<double> edges_of(const Law& law, double r, const TerminalChart& char
   return edges;
 }
 
-/// The law's values at one k, with the sign of D that makes it positive along the chart.
+/// The law's values at one k. D has the sign that makes it positive along the chart.
 struct Forces {
   double difference;  ///< |D|
   double force;       ///< F
@@ -75,7 +75,7 @@ class ForcesOnTheWay {
       : law_(law), r_(r), drive_(drive), chart_(chart) {}
 
   Forces operator()(double k) const {
-    /// The value of |D| divided by its larger term above which the sign of D is certain.
+    /// If |D| divided by its larger term is above this number, the sign of D is certain.
     constexpr double certainty = 1e-9;
     const double sign = sign_of(chart_);
     const Balance balance = Balance::of(law_, r_, drive_, k);
@@ -90,14 +90,14 @@ class ForcesOnTheWay {
           std::exp(chart_.log_far_ratio()), law_.name(), sliding, drag, k, r_));
     }
     against_ = std::max(against_, -difference / larger);
-    // On the ray at small k of a drive F = r k Psi. For a small r, F is smaller than the rounding of Phi and rho.
+    // On the ray that a drive causes at small k, F = r k Psi. For small r, F is below the rounding of Phi and rho.
     const bool on_ray = drive_ > 0 && k == std::exp(chart_.log_terminal_ratio());
-    const double positive = !on_ray && difference > 0 ? difference : 0;  // a negative difference is rounding
+    const double positive = !on_ray && difference > 0 ? difference : 0;  // a negative value is rounding
     const bool beside_a_ray = drive_ > 0 && positive < drag / 2;
     return {positive, beside_a_ray ? drag + sign * positive : force, drag, sliding};
   }
 
-  /// Returns the largest |D| of the wrong sign divided by its larger term; 0 if the rounding of the law explains it.
+  /// Returns the largest |D| of the wrong sign divided by D's larger term; 0 if rounding of the law can explain it.
   double against() const {
     constexpr double of_the_law = 16 * std::numeric_limits<double>::epsilon();
     return against_ > of_the_law ? against_ : 0;
@@ -150,7 +150,7 @@ void RegularSolution::march(const std::function<Terms(double)>& equation, double
   LegendreSeries y = solve_linear_ode(difference / half, rate, source, last_);
   const double y_end = y.at_end();
 
-  // The error of the series, relative to a panel of width 1; in a narrower panel an error counts less.
+  // The error of the series, relative to that on a panel of width 1; in a narrower panel an error has less effect.
   const double largest = std::max(rate.maxCoeff(), difference.maxCoeff());
   const double y_size = std::max({std::abs(y_end), size_, size_ / largest});
   const double of_terms =
@@ -200,7 +200,7 @@ RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& 
   const auto equation = [&, tangent = tangent_of(law)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
     const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(k));
-    // All terms are multiplied by max(k, 1/k). Slopes of a tangent are derivatives by k for k <= 1, else by 1/k.
+    // All terms are multiplied by max(k, 1/k). Slopes of `tangent` are derivatives by k for k <= 1, by 1/k for k > 1.
     const double larger = std::max(k, 1 / k);
     const double moment_falls = moment_slope / (moment_by_r * std::min(1.0, 1 / k));
     return {larger * difference, force_slope + force * moment_falls, moment_falls};
@@ -214,7 +214,7 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   const auto equation = [&, tangent = tangent_of(law)](double at) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(at);
     const auto [force_by_p, moment_by_r, force_slope, moment_slope] = tangent(slip_of_ratio(at));
-    // The slopes of a tangent are derivatives by k for k <= 1, and by 1/k for k > 1.
+    // Slopes of `tangent` are derivatives by k for k <= 1, and by 1/k for k > 1.
     const double times = at < 1 ? at * at : 1;
     const double slides = times * force_slope / force;
     return {difference, r * (times * moment_slope + moment_by_r * std::min(1.0, 1 / at) * slides), slides};
@@ -223,13 +223,13 @@ RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart&
   std::vector<double> edges = edges_of(law, r, chart, drive);
   std::erase_if(edges, [&](double edge) { return sign * edge <= std::log(k); });
   edges.insert(sign > 0 ? edges.begin() : edges.end(), sign * std::log(k));
-  // The solution falls like 1/k, but the noise of the difference quotients does not.
+  // The solution falls like 1/k, but the noise of slopes by differences does not.
   const double noise = tangent_error(law);
   return {equation, sign, edges, noise > 0 ? 1.0 : 0.0, start, noise};
 }
 
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive) {
-  // Solve for y = n/(1 + k), because the slip length v (v/2 + n w) only needs n to an error relative to max(n, k).
+  // Solve for y = n/(1 + k): the slip length v (v/2 + n w) needs n only to an error relative to max(n, k).
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto equation = [&, to_rest = reaches_rest(chart, drive)](double k) -> RegularSolution::Terms {
     const auto [difference, force, drag, sliding] = forces(k);
@@ -271,8 +271,8 @@ RegularSolution beta_solution(const Law& law, double r, const TerminalChart& cha
 
 BetaSolution::BetaSolution(const Law& law, double r, const TerminalChart& chart, double drive)
     : b_(beta_solution(law, r, chart, drive)), sign_(sign_of(chart)), nearest_(edges_of(law, r, chart, drive).front()) {
-  // If h is small compared with D, b is far from its limit long after all other functions have reached their limits. In
-  // w + v, v is negligible for k -> 0, however small r is; w is negligible for k -> infinity.
+  // If h is small compared with D, b reaches its limit long after all other functions have reached theirs. Beyond
+  // nearest_, v is negligible in w + v for k -> 0, however small r is, and w is negligible for k -> infinity.
   const double k = std::exp(sign_ * nearest_);
   const ForcesOnTheWay forces(law, r, chart, drive);
   const auto [difference, force, drag, sliding] = forces(k);

@@ -25,7 +25,7 @@ SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalR
     try {
       curves.push_back(std::make_shared<QuadratureCurve>(law, r, chart, drive));
     } catch (const std::domain_error& unexpected) {
-      // Phi/(k Psi) changes too fast for terminal_ratios. The arguments of the caller are correct.
+      // Phi/(k Psi) changes too fast for terminal_ratios. This is no error of the caller.
       throw std::runtime_error(unexpected.what());
     }
   }

@@ -29,7 +29,7 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
                                const double m = m_(place.ln_k), by_v = by_speeds(place, m / share(k), 0).v;
                                return k * place.friction.moment * (share(k) * by_v - m);
                              })),
-      // At v = 0 any drive, however small, moves the body, so dm/drho may grow like 1/k as k -> 0.
+      // At v = 0 any drive, however small, moves the body, so dm/drho can grow like 1/k as k -> 0.
       by_drive_(sliding_equation(law, r, chart, drive, true,
                                  [&](double k) {
                                    const Place place = Place::at(law, k);
@@ -38,7 +38,7 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
       solved_from_(infinity) {
   const double from = chart.log_terminal_ratio(), to = chart.log_far_ratio();
   if (std::max(from, to) < infinity || std::min(from, to) > std::log(fast_slide)) return;
-  // With a drive k falls to a ray, at which ds/dw is regular. So ds/dw is solved from the ray on.
+  // Under a drive k falls to a ray, at which ds/dw is regular. Therefore ds/dw is solved from this ray on.
   const bool from_ray = drive > 0 && from > -infinity && from < infinity;
   const double solved_from = from_ray ? std::exp(from) : fast_slide;
   std::optional<double> start;
@@ -69,7 +69,7 @@ SlidingDerivatives::BySpeeds SlidingDerivatives::by_speeds(const Place& place, d
 SlidingDerivatives::Values SlidingDerivatives::at(const Place& place, std::optional<double> closed_m) const {
   const auto [k, ln_k, friction, deficit] = place;
   const double m = closed_m ? *closed_m : m_(ln_k) / share(k);
-  const BySpeeds by = by_speeds(place, m, to_rest_ ? m_(ln_k) * (1 + k) : k * m);  // k m has a limit at rest
+  const BySpeeds by = by_speeds(place, m, to_rest_ ? m_(ln_k) * (1 + k) : k * m);  // k m has a limit at k = 0
   return {.by_w = k > solved_from_ ? (*by_w_)(ln_k) : by.w,
           .by_v = by.v,
           .by_r = by_r_(ln_k) * (to_rest_ ? 1 : k / (1 + k)),
@@ -81,7 +81,7 @@ StopTimeGradient stop_time_gradient(const ReducedSystem& system, State start, do
   if (start.u == 0 && start.v == 0) {
     throw std::domain_error("Flow::stop_time_gradient: at rest there is none: the stop time has a corner there");
   }
-  // Derivatives by speeds have degree 0 in the speeds, all others degree 1.
+  // Derivatives by speeds have degree 0 in the speeds; all others have degree 1.
   const int exponent = std::ilogb(std::max(std::abs(start.u), start.v));
   const double u = std::ldexp(std::abs(start.u), -exponent), v = std::ldexp(start.v, -exponent);
   const auto [chi, gamma] = system.inertia();

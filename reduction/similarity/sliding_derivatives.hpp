@@ -15,8 +15,8 @@ namespace contensou::reduction {
 
 /// The derivatives of the scaled stop time s along one chart.
 ///
-/// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, with a
-/// drive, and, for the derivative by w, in a fast slide. In these cases equation (R57) is solved. The derivatives by r
+/// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, under a
+/// drive, and in a fast slide for the derivative by w. In these cases equation (R57) is solved. The derivatives by r
 /// and rho need one equation each, (R58).
 class SlidingDerivatives {
  public:
@@ -29,7 +29,7 @@ class SlidingDerivatives {
     double by_drive;    ///< (ds/drho)/(w + v)
   };
 
-  /// A k, and the law there. Systems with different r share it.
+  /// A ratio k, and the values of the law at k. Systems with different r share it.
   struct Place {
     double k, ln_k;
     Resistance friction;
@@ -38,26 +38,26 @@ class SlidingDerivatives {
     static Place at(const Law& law, double k);
   };
 
-  /// Returns the derivatives at a place on the chart, of finite k.
-  /// @param m  the curve's m at this k in closed form, if it has one
+  /// Returns the derivatives at a place on the chart; k must be finite.
+  /// @param m  m of the curve at this k, if the curve has a closed form
   Values at(const Place& place, std::optional<double> m) const;
 
-  /// k from which on 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
+  /// From this k on, 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
   static constexpr double fast_slide = 1e3;
 
-  /// Returns true if D = Phi - r k Psi has digits enough for m' = (Delta - F m)/D.
+  /// Returns true if D = Phi - r k Psi has enough digits for m' = (1 - Psi/Psi(0) - F m)/D; force = F, drag = r k Psi.
   static bool is_clear(double force, double drag);
 
   struct BySpeeds {
     double w, v;
   };
 
-  /// Returns ds/dw and ds/dv without a drive, where D is clear.
+  /// Returns ds/dw and ds/dv from m, without a drive, if is_clear.
   /// @param moment  Psi(0)
   static BySpeeds by_m(const Place& place, double r, double moment, double m);
 
  private:
-  /// @param k_m  k m, for `w` alone
+  /// @param k_m  the product k m; only ds/dw needs it
   BySpeeds by_speeds(const Place& place, double m, double k_m) const;
 
   /// Returns m_ divided by m: k/(1 + k), or 1.
@@ -70,7 +70,7 @@ class SlidingDerivatives {
   RegularSolution m_;
   std::unique_ptr<const Later<RegularSolution>> by_v_;  ///< solved at its first use
   RegularSolution by_r_, by_drive_;
-  double solved_from_;  ///< by_w_ is used from this k on
+  double solved_from_;  ///< from this k on by_w_ is used
   std::optional<RegularSolution> by_w_;
 };
 

@@ -52,7 +52,7 @@ double TerminalChart::log_ratio(double xi) const {
 }
 
 double TerminalChart::log_ratio_rate(double xi) const {
-  // (1 - k*/k) (1 - k/k_far)/(1 - k*/k_far), for a chart from above.
+  // For a chart from above the rate is (1 - k*/k) (1 - k/k_far)/(1 - k*/k_far).
   const double from_end = 1 / (1 + std::exp(end_ - xi));
   if (far_ == infinity) return sign_ * from_end;
   return sign_ * from_end * (-std::expm1(end_ - far_) / (1 + std::exp(xi - far_)));

@@ -6,19 +6,19 @@
 
 namespace contensou::reduction {
 
-/// Returns true if friction minus drive is best computed from 1 - Phi. For rho >= 1/2 the difference 1 - rho is exact.
+/// Returns true if friction minus drive is to be computed from 1 - Phi. For rho >= 1/2 the difference 1 - rho is exact.
 inline bool by_deficit(const Law& law, double drive) { return drive >= 0.5 && law.states_force_deficit(); }
 
-/// Returns F = Phi - rho.
+/// Returns F = Phi - rho, the net force.
 /// @param sliding  Phi at this slip
 inline double net_force(const Law& law, Slip slip, double sliding, double drive) {
   return by_deficit(law, drive) ? (1 - drive) - law.force_deficit(slip) : sliding - drive;
 }
 
-/// D = Phi - rho - r k Psi of README (R2) and (R49), as a difference of two accurate numbers. k falls for D > 0.
+/// D = Phi - rho - r k Psi of README (R2) and (R49), as a difference of two accurate numbers. If D > 0, k falls.
 struct Balance {
-  double slows;            ///< Phi, or 1 - rho if by_deficit
-  double speeds;           ///< rho + r k Psi, or (1 - Phi) + r k Psi if by_deficit
+  double slows;            ///< first number: Phi, or 1 - rho if by_deficit
+  double speeds;           ///< second number: rho + r k Psi, or (1 - Phi) + r k Psi if by_deficit
   double force;            ///< F = Phi - rho
   double drag;             ///< r k Psi
   double sliding, moment;  ///< Phi, Psi

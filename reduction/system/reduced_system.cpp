@@ -56,7 +56,7 @@ ReducedSystem::ReducedSystem(const Law& law, double patch_ratio, Inertia inertia
       mu_(positive("mu", patch_ratio)),
       inertia_{positive("chi", inertia.chi), positive("gamma", inertia.gamma)},
       drive_(allowed_drive(drive)),
-      // Below this r only the time depends on r; pivoting_limit uses mu to compute it.
+      // If r is smaller than this, only the time depends on r, and pivoting_limit computes it from mu.
       r_(std::max(inertia.gamma * patch_ratio * patch_ratio / inertia.chi, std::numeric_limits<double>::min())),
       scaled_time_rate_(2 * inertia.chi / (3 * pi)) {}
 
@@ -103,8 +103,8 @@ Bounds ReducedSystem::stop_time_bounds(State start) const {
   const double sliding = sliding_limit(start.v);
   const double pivoting = pivoting_limit(start.u);
   const auto [min, max] = *law_.sliding_bounds();
-  const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding may be infinite
-  // The bounds are widened by the rounding of these sums and of the stop time, so that they always contain it.
+  const double min_sliding = min == 0 ? 0 : min * sliding;  // sliding can be infinite
+  // The bounds are widened by the rounding of these sums and of the stop time, so that they always contain this time.
   const double rounding = 2 * rounding_of_stop_time(r_) / (1 - drive_);
   const double lower = std::max({pivoting, (pivoting + min_sliding) / (1 - min * drive_), sliding / (1 - drive_)});
   const double upper = max * drive_ < 1 ? (pivoting + max * sliding) / (1 - max * drive_) : infinity;

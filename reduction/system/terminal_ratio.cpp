@@ -1,4 +1,4 @@
-// Notation (README (R2)): x = ln k, E = Phi/(rho + r k Psi) - 1 or (1 - rho)/(1 - Phi + r k Psi) - 1; k falls if E > 0.
+// Notation (README (R2)): x = ln k; E = slows/speeds - 1 (Balance) has the sign of Phi - rho - r k Psi. E > 0: k falls.
 #include "contensou/reduction/terminal_ratio.hpp"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace contensou::reduction {
 
 namespace {
 
-/// An |E| below this has no reliable sign: a law is accurate to some eps, and k takes nearly for ever to pass.
+/// An |E| below this has no reliable sign: a law is accurate to some eps. (k also takes nearly for ever to pass there.)
 constexpr double without_sign = TerminalRatios::tolerance;
 
-/// Largest |ln k|; beyond, the law equals its limit.
+/// Largest |ln k|; beyond this, the law equals its limit.
 constexpr double max_x = 60;
 
 struct Sample {
@@ -56,7 +56,7 @@ class Search {
     }
   }
 
-  /// Throws if the drive nearly cancels the friction, so that rounding of Phi hides the sign of E at k = infinity.
+  /// Throws if the drive nearly cancels the friction, so that rounding of Phi hides the sign of E for k -> infinity.
   void require_decided() const {
     constexpr double part = 1e-8;
     if (by_deficit(law_, drive_) || samples_.back().sign() != 0 || without_sign < part * (1 - drive_)) return;
@@ -66,7 +66,7 @@ class Search {
         drive_, r_, law_.name()));
   }
 
-  /// Adds the extrema of E that come near to 0, or have the other sign than both neighbouring samples.
+  /// Adds the extrema of E that come near to 0, and those whose sign differs from that of both neighbouring samples.
   void sharpen() {
     std::vector<Sample> extrema;
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
@@ -85,8 +85,8 @@ class Search {
   }
 
   void collect() {
-    const Sample* last = nullptr;  // last sample with a sign
-    const Sample* zero = nullptr;  // sample without a sign with the smallest |E| since `last`
+    const Sample* last = nullptr;  // last sample with a reliable sign
+    const Sample* zero = nullptr;  // since `last`, the sample with the smallest |E| of those without a reliable sign
     for (const Sample& here : samples_) {
       if (here.sign() == 0) {
         if (!zero || std::abs(here.excess) < std::abs(zero->excess)) zero = &here;
@@ -146,9 +146,9 @@ TerminalRatio TerminalRatios::end_of(double k) const {
 }
 
 double least_log_ratio(const Law& law, double r, double drive) {
-  // At this distance friction is below the drive by exp(44), so k grows at the rate rho/w.
+  // At this distance in ln k the friction is below the drive by a factor exp(44), so k grows at the rate rho/w.
   constexpr double distance = 44;
-  constexpr double least = -600;  // exp(-600) is a double whose products with other factors are doubles, too
+  constexpr double least = -600;  // exp(-600), and products of it with other factors, are doubles
   return std::max(std::log(drive) - std::log(law.force_slope() + r * law.pivoting_moment()) - distance, least);
 }
 

@@ -1,5 +1,5 @@
 /// The wrench of a contact patch in one header, for programs without the library and for CUDA: C++17, <cmath> alone. No
-/// function allocates or throws. In CUDA all run on host and device. contensou/si/wrench.hpp describes the law.
+/// function allocates or throws. In CUDA all functions run on host and device. Theory: contensou/si/wrench.hpp.
 ///
 ///     const auto [fx, fy, m] = contensou::kernel::wrench<contensou::kernel::Exact>(vx, vy, w, f * N, radius);
 #pragma once
@@ -9,7 +9,7 @@
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define CONTENSOU_HOST_DEVICE __host__ __device__
 #elif defined(__GNUC__)
-#define CONTENSOU_HOST_DEVICE [[gnu::always_inline]] inline  // at -O2 g++ calls each group of a polynomial otherwise
+#define CONTENSOU_HOST_DEVICE [[gnu::always_inline]] inline  // otherwise g++ -O2 calls each group of a polynomial
 #else
 #define CONTENSOU_HOST_DEVICE inline
 #endif
@@ -33,9 +33,9 @@ struct WrenchSlopes {
 template <class T>
 struct Slip {
   T sliding;  ///< v of the patch centre, >= 0
-  T p, r;     ///< sliding and rim speed divided by the larger of both
-  T gap;      ///< |v^2 - rim^2|
-  T y;        ///< 1 - (smaller/larger)^2
+  T p, r;     ///< sliding speed and rim speed, each divided by the larger of the two
+  T gap;      ///< |v^2 - rim^2|, rim is the rim speed
+  T y;        ///< 1 - (smaller speed/larger speed)^2
 };
 
 /// Friction at a slip. A type is a law if its call operator takes a Slip and returns a Friction.
@@ -43,11 +43,11 @@ template <class T>
 struct Friction {
   T force;         ///< Phi/p, where the force is f N Phi
   T moment;        ///< Psi/r, where the moment is f N radius Psi
-  T force_slope;   ///< a in dPhi = a (r dp - p dr)
-  T moment_slope;  ///< b in dPsi = -b (r dp - p dr)
+  T force_slope;   ///< slope a in dPhi = a (r dp - p dr), with p and r of Slip
+  T moment_slope;  ///< slope b in dPsi = -b (r dp - p dr)
 };
 
-/// Returns c0 + c1 x + c2 x^2 + ..., summed in groups of four that the processor can compute in parallel.
+/// Returns c0 + c1 x + c2 x^2 + ..., summed in groups of four terms that the processor can compute in parallel.
 template <class T, class... More>
 CONTENSOU_HOST_DEVICE constexpr T polynomial(T x, T square, double c0, double c1, double c2, double c3, More... more) {
   const T sum = static_cast<T>(c0) + static_cast<T>(c1) * x + (static_cast<T>(c2) + static_cast<T>(c3) * x) * square;
@@ -58,8 +58,8 @@ CONTENSOU_HOST_DEVICE constexpr T polynomial(T x, T square, double c0, double c1
   }
 }
 
-// tests/si/wrench_kernel.py derives the numbers in Exact and Uniform. Before rounding, values are within 1e-16 of
-// the law and slopes within 4e-16.
+// The numbers in Exact and Uniform come from tests/si/wrench_kernel.py. Before they are rounded, values are within
+// 1e-16 of the law and slopes within 4e-16.
 
 /// Hertz's pressure, (1 - rho^2)^(1/2).
 struct Exact {
@@ -90,7 +90,7 @@ struct Uniform {
   template <class T>
   CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
     const T y = at.y;
-    T g = 0, h = 0, c = 0;  // for k > 1
+    T g = 0, h = 0, c = 0;  // values for k > 1
     if (y >= static_cast<T>(0.5)) {
       const T x = (y - static_cast<T>(0.70710678118654752)) / (y + static_cast<T>(0.70710678118654752)), x2 = x * x;
       g = polynomial(x, x2, 0.96190659426731, 0.19187552486001952, 0.149084065720948, 0.1312914117695403,
@@ -146,7 +146,7 @@ struct Pade {
   }
 };
 
-/// Computes the result of `wrench` (below), and its slopes only if with_slopes is true.
+/// Computes the result of `wrench` (below), and the slopes only if with_slopes is true.
 template <bool with_slopes, class Law, class T>
 CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit, T radius, T creep, const Law& law) {
   WrenchSlopes<T> result{};
@@ -176,7 +176,7 @@ CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit
   if constexpr (with_slopes) {
     const T along_x = sliding > 0 ? vx / sliding : 0, along_y = sliding > 0 ? vy / sliding : 0;
     const T arm = w < 0 ? -radius : radius, falls = friction.force - friction.force_slope * r;
-    const T weight = limit < 1 ? limit * per : per, rest = limit < 1 ? 1 : limit;  // so that little overflows
+    const T weight = limit < 1 ? limit * per : per, rest = limit < 1 ? 1 : limit;  // keep products from overflowing
     const auto scaled = [&](T slope, T first, T second) {
       slope = slope * weight * first * second * rest;
       return exponent == 0 ? slope : std::ldexp(slope, -exponent);
@@ -197,7 +197,7 @@ CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit
 /// Returns force and moment of friction, 0 at rest. The power fx vx + fy vy + m w is never positive.
 ///
 /// Accuracy  in double 4 eps, in float 1e-6, relative to the law for k from 1e-8 to 1e8. No finite argument gives NaN.
-///           No result overflows unless f N radius does.
+///           The result overflows only if f N radius overflows.
 /// Source    reduction/numerics.md (R32), (R36); Zh98 (1.3) to (1.6) for the exact law and the Pade law.
 /// @param vx, vy  velocity of the patch centre over the other body in m/s
 /// @param w       angular velocity about the normal in rad/s
@@ -210,7 +210,7 @@ CONTENSOU_HOST_DEVICE Wrench<T> wrench(T vx, T vy, T w, T limit, T radius, T cre
   return {found.fx, found.fy, found.m};
 }
 
-/// Returns force, moment and their nine slopes. At rest without creep, the slopes are 0. Parameters as in `wrench`.
+/// Returns force, moment and their nine slopes. At rest without creep, the slopes are 0. Parameters: see `wrench`.
 template <class Law, class T>
 CONTENSOU_HOST_DEVICE WrenchSlopes<T> wrench_slopes(T vx, T vy, T w, T limit, T radius, T creep = 0,
                                                     const Law& law = {}) {

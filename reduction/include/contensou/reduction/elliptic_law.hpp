@@ -8,14 +8,14 @@
 
 namespace contensou::reduction {
 
-/// Friction whose force Phi and moment Psi lie on an ellipse, Phi^2 + (Psi/C)^2 = 1, with the velocity normal to the
+/// Friction whose force Phi and moment Psi lie on an ellipse, Phi^2 + (Psi/C)^2 = 1. The velocity is normal to the
 /// ellipse. It is the limit surface of pushing and grasping, and the elliptic friction cone of physics engines.
 ///
 /// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe and M. R. Cutkosky, "Practical
 ///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557,
 ///           doi:10.1177/027836499601500603.
-/// Every orbit is a power, v ~ w^(1/(r C^2)) with r of ReducedSystem; the stop time is one integral (README (R35)).
-/// Accuracy  2 eps relative for every k.
+/// Every orbit is a power, v ~ w^(1/(r C^2)), w = mu |u|, r of ReducedSystem. The stop time is one integral (R35).
+/// Accuracy  2 eps relative for every k (eps: the rounding of a double).
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 class EllipticLaw {
  public:

@@ -13,13 +13,13 @@ namespace contensou::reduction {
 
 /// A linear map R of the plane that reverses motions in time: f(R x) = -R f(x).
 struct Reversor {
-  std::string_view name;  ///< the point to which R moves (u, v), such as "(u, -v)"
+  std::string_view name;  ///< formula of the point to which R moves (u, v), such as "(u, -v)"
   Eigen::Matrix2d matrix;
 };
 
 /// Finds the reversors among (u, -v), (-u, v), (v, u), (-v, -u) and (-u, -v).
 ///
-/// The equation is tested up to rounding, at points whose coordinates have the magnitudes of those of `around`.
+/// The identity is tested up to rounding, at points x whose coordinates are about as large as those of `around`.
 /// @param around  not 0
 std::vector<Reversor> find_reversors(const SmoothField& field, const Eigen::Vector2d& around);
 
@@ -29,8 +29,8 @@ struct Equilibrium {
   Eigen::Matrix2d slopes;  ///< Jacobian of the field
 
   /// True if the eigenvalues are imaginary and x is proved to be a center. There are two proofs. Either x lies on the
-  /// axis of a reflection that is a reversor, so that motions that meet the axis twice close. Or the inverse
-  /// integrating factor V is not 0 at x, so that motions are level lines of the first integral H.
+  /// axis of a reflection that is a reversor; then every motion that meets this axis twice is closed. Or the inverse
+  /// integrating factor V is not 0 at x; then motions are level lines of the first integral H.
   bool closes = false;
 
   /// Returns the eigenvalues of the Jacobian, the one with the smaller real or imaginary part first.
@@ -51,7 +51,7 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::
 /// start: the usual window of a picture.
 std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Eigen::Vector2d& start);
 
-/// Sets `closes` of the equilibria at which the factor V of this system (PlanarReduction::factor) is not 0.
+/// Sets `closes` of the equilibria at which the inverse integrating factor V (PlanarReduction::factor) is not 0.
 void prove_centers(std::vector<Equilibrium>& equilibria, const PlanarReduction& plane);
 
 }  // namespace contensou::reduction

@@ -17,12 +17,12 @@ class StopTimeTable;
 /// The motions of one body under one friction law, solved once for all initial states.
 ///
 /// A body slides at the speed v and pivots at the speed u = R omega_z on a circular contact patch of radius mu R. Dry
-/// friction slows both speeds. Phi and Psi are its force and moment (Law). Both speeds vanish at one time, the stop
+/// friction slows both speeds, with the force Phi and the moment Psi (Law). Both speeds vanish at one time, the stop
 /// time. The equations of motion are (2.6) of V. F. Zhuravlev, 1998 (Zh98):
 ///   dv/dtau = -(2 chi/(3 pi)) Phi(k),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|)
 /// The time tau is (3 pi/2) f g t with the coefficient of friction f; chi and gamma are those of Inertia. The equations
-/// keep their form when u, v and tau are multiplied by one factor. So every motion is a scaled copy of one of a few
-/// curves (SimilaritySolution). A Flow contains these curves, by quadrature or in closed form, and returns the stop
+/// keep their form when u, v and tau are multiplied by one factor, so every motion is a scaled copy of one of a few
+/// curves (SimilaritySolution). A Flow contains these curves, by quadrature or in closed form. It returns the stop
 /// time and the state at any time without steps in time.
 ///
 ///     const Flow flow({HertzLaw{}, 0.1});  // a homogeneous ball with the patch radius 0.1 R, exact law
@@ -56,7 +56,7 @@ class Flow {
   /// Returns the invariant rays and the limits of k = v/(mu |u|) at the stop.
   const TerminalRatios& terminal() const;
 
-  /// Returns the curves. Every orbit is a scaled copy of one of them, except on half-lines of PhasePlane.
+  /// Returns the curves. Every orbit is a scaled copy of a curve, except the invariant half-lines (PhasePlane).
   const SimilaritySolution& solution() const;
 
   /// Returns true if solution() was found by quadrature.
@@ -67,10 +67,10 @@ class Flow {
   StopTime stop_time(State start) const;
 
   /// Returns the stop time and its gradient, README (R10), (R57), (R58). Only the first start needs an integration.
-  /// @throws std::domain_error  if start is not a state, or is at rest, where there is no gradient
+  /// @throws std::domain_error  if start is not a state, or if u = v = 0, at which no gradient exists
   ///
-  /// Accuracy  about 100 eps of tau for the products u by_u, v by_v, mu by_mu and so on. In a fast slide, k > 1000, the
-  ///           relative error of by_u is 1e-9 (exact and elliptic law: 1e-11), up to k = 1e19.
+  /// Accuracy  the products u by_u, v by_v, mu by_mu and so on: about 100 eps of tau. In a fast slide, k > 1000, the
+  ///           relative error of by_u is 1e-9 (exact and elliptic law: 1e-11), for k up to 1e19.
   /// Cost      1 ms for the first start; the cost of a stop time for each further start.
   StopTimeGradient stop_time_gradient(State start) const;
 
@@ -78,12 +78,12 @@ class Flow {
   /// @throws std::domain_error  if start is not a state, or unless 1e-300 <= r <= 1e250
   Orbit orbit(State start) const;
 
-  /// Returns ln |u| - ln w(k), the first integral of the equations of motion. Here w(k) is the curve
-  /// SimilarityCurve::ln_w.
+  /// Returns H = ln |u| - ln w(k), the first integral of the equations of motion. w(k) is the speed w = mu |u| on the
+  /// curve as a function of k; SimilarityCurve::ln_w is its logarithm.
   ///
-  /// It is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to it. Its
-  /// additive constant changes across an invariant ray. Pade law: ln [ |u| k^(-a) (A + B k)^b ] up to a constant
-  /// (README (R8)).
+  /// H is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to H. The
+  /// additive constant of H changes across an invariant ray. Pade law: ln [ |u| k^(-a) (A + B k)^b ] up to a constant,
+  /// with A, B, a and b of PadeCurve (README (R8)).
   ///
   /// @param ln_v  natural logarithm of v; v itself underflows near the stop
   /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; on an invariant ray (k within 4 eps)
@@ -95,24 +95,24 @@ class Flow {
   static constexpr std::size_t many_starts = std::size_t{1} << 15;
 
   /// Computes the stop times of starts (u0[i], v0[i]).
-  /// Starts fewer than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
+  /// Fewer starts than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
   /// once and tests each polynomial against the solution (reduction/numerics.md, Table). A rejected start becomes NaN.
   ///
   /// @param u0, v0   speeds of the starts, of any size; u0 of either sign, v0 >= 0
-  /// @param tau      stop times, one for each start; may be the array u0 or v0 itself, but must not overlap them
-  ///                 otherwise
+  /// @param tau      stop times, one for each start; tau may be the array u0 or v0 itself, but must not overlap them in
+  ///                 another way
   /// @param threads  number of threads, >= 1, including the calling one
-  /// @param whole    total number of starts, if the arrays contain only a part of all starts
+  /// @param whole    total number of starts, if u0 and v0 contain only a part of them
   /// @throws std::domain_error  if the three sizes differ, or threads is 0
   ///
-  /// Accuracy  the table adds at most 4 eps to the error of stop_time.
+  /// Accuracy  the table adds at most 4 eps to the relative error of stop_time.
   /// Cost      3 ns for each of many starts (AVX2; 6 ns without).
-  /// Bits      the same for any division of many starts into arrays and threads, if `whole` is the same.
+  /// Bits      equal for any division of many starts into arrays and threads, if `whole` is the same.
   void stop_times(std::span<const double> u0, std::span<const double> v0, std::span<double> tau, unsigned threads = 1,
                   std::size_t whole = 0) const;
 
-  /// Returns the share of the table's polynomials that failed their test. Starts in their ranges are computed one by
-  /// one, which is slow.
+  /// Returns the share of the table's polynomials that failed their test. Starts in the ranges of these polynomials are
+  /// computed one by one, which is slow.
   /// @param whole  total number of starts; for fewer than many_starts the result is 0
   double refused(std::size_t whole) const;
 

@@ -14,7 +14,7 @@
 
 namespace contensou::reduction {
 
-/// A dry friction law of a circular contact patch: any type whose values turn a Slip into a Resistance.
+/// A dry friction law of a circular contact patch: any type that computes a Resistance from a Slip.
 ///
 /// The patch slides at the speed v of its centre and pivots about its normal; w is the speed of its rim. Friction is a
 /// force F = f N Phi(k) against the sliding and a moment M = f N eps Psi(k) against the pivoting, with k = v/w, the
@@ -23,8 +23,8 @@ namespace contensou::reduction {
 /// The library requires five properties of every law. Law's constructor tests three at about 40 slips to 1e-6:
 ///   - degree 0: Phi and Psi depend on the ratio k = sliding/pivoting alone;
 ///   - Phi > 0 and Psi > 0 for k > 0, Psi(0) > 0;
-///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0 and 1 - Psi/Psi(0) = O(k) at 0; k Psi has a limit and k (1 - Phi) is
-///     bounded at infinity;
+///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0, and 1 - Psi/Psi(0) = O(k), for k -> 0; k Psi has a limit and
+///     k (1 - Phi) is bounded, for k -> infinity;
 ///   - Phi and Psi are continuous and piecewise smooth, and Phi/(k Psi) has finitely many maxima and minima;
 ///   - operator() is const and may run in several threads at once.
 ///
@@ -34,8 +34,8 @@ namespace contensou::reduction {
 ///   - `double force_deficit(Slip) const`, 1 - Phi without the subtraction (keeps digits for k >> 1; needed if a drive
 ///     next to 1 nearly cancels the friction);
 ///   - `static constexpr SlidingBounds sliding_bounds`, the bounds of the stop time under this law;
-///   - `kinks()`, every k at which Phi or Psi is not smooth; by default 1, at which the centre of velocity is on the
-///     rim. A missing kink makes the steppers less accurate and the curves slower.
+///   - `kinks()`, every k at which Phi or Psi is not smooth; by default k = 1, at which the centre of velocity lies on
+///     the rim. A missing kink makes the steppers less accurate and the curves slower.
 ///
 /// A law contains no solution of the motion. closed_solution chooses a closed form by the type of the law.
 template <class L>
@@ -51,8 +51,8 @@ concept Callable = std::is_function_v<std::remove_pointer_t<L>> || requires {
   law(slip);
 };
 
-/// Bounds, over all starts, of the coefficient m in the stop time tau* = P + m S (reduction/README.md (R6)). P and S
-/// are the stop times of pure pivoting and pure sliding.
+/// Bounds, over all starts, of the coefficient m in the stop time tau* = P + m S (reduction/README.md (R6)). P is the
+/// stop time of pure pivoting, S that of pure sliding.
 struct SlidingBounds {
   double min;
   double max;
@@ -63,8 +63,8 @@ struct SlidingBounds {
 ///     const Law exact = HertzLaw{};
 ///     exact({.sliding = 1, .pivoting = 2}).force;  // Phi at k = 1/2
 ///
-/// Accuracy  equal to the accuracy of the wrapped law; if the law has no deficit functions, deficits are differences
-///           from 1.
+/// Accuracy  equal to the accuracy of the wrapped law. If the law has no deficit functions, deficits are computed by
+///           subtraction from 1.
 class Law {
  public:
   /// Copies and tests a law.
@@ -95,7 +95,7 @@ class Law {
     function_ = std::move(function);
   }
 
-  /// Refuses a callable type that is no law; the message of the compiler describes a law.
+  /// Rejects a callable type that is no law; the compiler's message describes the requirements.
   template <class L>
   requires(!std::same_as<L, Law> && Callable<L> && !FrictionLaw<L>)
       Law(const L&) {  // NOLINT(google-explicit-constructor): as the constructor above
@@ -109,7 +109,7 @@ class Law {
   Law& operator=(const Law&) = default;
   ~Law() = default;
 
-  /// Returns the dimensionless force Phi and moment Psi. Throws as the wrapped law.
+  /// Returns the dimensionless force Phi and moment Psi. Throws if the wrapped law throws.
   Resistance operator()(Slip slip) const { return function_->resistance(slip); }
 
   /// Returns 1 - Psi/Psi(0).
@@ -123,7 +123,7 @@ class Law {
 
   const std::string& name() const { return function_->name; }
 
-  /// Returns the wrapped law if its type is L itself, else null. A law derived from L has another type.
+  /// Returns the wrapped law if its type is exactly L, else null. A type derived from L does not count as L.
   template <FrictionLaw L>
   const L* as() const {
     const auto* function = dynamic_cast<const FunctionOf<L>*>(function_.get());
@@ -139,11 +139,11 @@ class Law {
   /// Returns the bounds of the stop time that the law states; empty if it states none.
   const std::optional<SlidingBounds>& sliding_bounds() const { return function_->sliding_bounds; }
 
-  /// Returns the values of k at which Phi or Psi may not be smooth.
+  /// Returns the values of k at which Phi or Psi might not be smooth.
   const std::vector<double>& kinks() const { return function_->kinks; }
 
  private:
-  /// The wrapped law without its type, and the constants that are read from the law once.
+  /// The wrapped law behind an interface without its type, and constants of the law that are computed once.
   struct Function {
     virtual ~Function() = default;
     virtual Resistance resistance(Slip slip) const = 0;

@@ -14,7 +14,7 @@
 
 namespace contensou::reduction {
 
-/// The functions whose sums are candidates for the inverse integrating factor V.
+/// The functions whose sums are tried for the inverse integrating factor V, a solution of f . grad V = V div f.
 struct Basis {
   std::vector<std::string> names;
   /// Returns the values of all functions at x. Row i belongs to names[i]; its columns are the value, d/du and d/dv.
@@ -22,24 +22,24 @@ struct Basis {
   static constexpr int most = 45;
 };
 
-/// A field with its Jacobian. At a point without a value it throws or returns a number that is not finite.
+/// A field f with its Jacobian. At a point without a value the field throws or returns a number that is not finite.
 struct SmoothField {
   PlanarField value;
-  /// The derivatives, exact except for rounding; row 0 belongs to u'. If it is empty, differences replace it.
+  /// The derivatives of f, exact except for rounding; row 0 belongs to u'. If empty, differences replace the Jacobian.
   std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
-  /// D with its derivatives by u and v, if the field is a quotient N/D. V D may have a form even if V has none.
+  /// The denominator D with its derivatives by u and v, if f is a quotient N/D. V D can have a form even if V has none.
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
   /// If it is not empty, V is sought only among sums of these functions.
   Basis basis = {};
 };
 
-/// A form of V that was tried, and the error of the best V of this form in V's equation (R64), f . grad V = V div f.
+/// A form of V that was tried, and the error of the best V of this form in the equation (R64), f . grad V = V div f.
 struct TriedForm {
   std::string_view form;
-  double singular_value;  ///< the smallest: mean square of the misfit (R66) over the points of the fit
-  double gap;             ///< smallest singular value that counts as large, divided by the largest that counts as 0
-  double residual;        ///< largest misfit (R66) at other points
-  bool cleared = false;   ///< true if V times the denominator of the field has the form
+  double singular_value;  ///< smallest singular value: mean square of the misfit (R66) over the points of the fit
+  double gap;             ///< smallest singular value that does not count as 0, divided by the largest that does
+  double residual;        ///< largest misfit (R66) at points that the fit did not use
+  bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
 };
 
 /// V and the first integral H as formulas in u and v; empty if the coefficients are not recognised as rational numbers.
@@ -58,8 +58,8 @@ struct FactorFormula {
 class FactorReduction {
  public:
   /// Searches for V in a box of 30 % about the start, or about (1.25 u, 0.8 v) if the start (u, v) is an equilibrium.
-  /// The forms are tried in turn; the first that satisfies the equation is taken. If the field has a denominator D and
-  /// V has no form, the forms are tried for V D, which is a factor of D f.
+  /// The forms are tried in turn; the search ends at the first form that satisfies the equation. If the field f has a
+  /// denominator D and no form fits V, the forms are tried for V D, an inverse integrating factor of D f.
   /// @throws std::domain_error  unless the start is finite and the field has a value there
   FactorReduction(SmoothField field, const Eigen::Vector2d& start);
 
@@ -67,20 +67,20 @@ class FactorReduction {
 
   /// Returns "constant" (div f = 0), "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v",
   /// "quadratic in v", "linear in u", "quadratic in u" (coefficients are functions of the other coordinate), "product"
-  /// (V = A(u) B(v)) or "basis" (a sum of functions of the field's basis); empty if none was found.
+  /// (V = A(u) B(v)) or "basis" (V is a sum of functions of the field's basis); empty if no V was found.
   std::string_view form() const;
 
   /// Returns the forms in the order in which they were tried.
   const std::vector<TriedForm>& tried() const;
 
-  /// Returns V, up to a constant factor, and H, up to constants, if V has rational coefficients and then a misfit (R66)
-  /// below 1e-12. V of degree 4 or less is shown in factors. H is shown if it is a sum of functions of u and of v.
+  /// Returns V, up to a constant factor, and H, up to constants. Both are empty unless V has rational coefficients with
+  /// which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised. H is a sum of functions of u and of v.
   FactorFormula formula() const;
 
-  /// Returns the solved system. V is 1 at the start unless the start lies on V = 0. V has values in the box of the
-  /// start, and V of an affine generator has values everywhere. H has values in this box as far as no curve V = 0 lies
-  /// in between. Orbits continue beyond the box; V is fitted anew there.
-  /// @throws std::domain_error  if no factor was found
+  /// Returns the solved system. V is 1 at the start unless V vanishes there. V has values in the box of the start; V of
+  /// an affine generator has values everywhere. H has values in this box up to the nearest curve V = 0. Orbits continue
+  /// beyond the box, because V is fitted anew there.
+  /// @throws std::domain_error  if no V was found
   PlanarReduction reduction() const;
 
  private:

@@ -14,7 +14,7 @@ const std::vector<Law>& paper_laws();
 /// Returns the names of all named laws; the two laws of the paper come first.
 std::vector<std::string_view> names_of_laws();
 
-/// Returns all named laws, in the order of names_of_laws. Some laws need tables; find_law makes a single law.
+/// Returns all named laws, in the order of names_of_laws. It computes the tables of some laws; find_law makes one law.
 const std::vector<Law>& named_laws();
 
 /// Returns a description of the law with that name, in a few words; empty if there is none.
@@ -33,8 +33,8 @@ struct LawFamily {
 const std::vector<LawFamily>& law_families();
 
 /// Returns the law with that name, or with that family and number; empty if there is no such law.
-/// @throws std::domain_error  if the text after a family's colon is no number, or one outside its range; the message
-///                            leaves the law's name to the caller
+/// @throws std::domain_error  if the text after a family's colon is no number or a number outside the family's range;
+///                            the message does not contain the law's name, because the caller adds it
 std::optional<Law> find_law(std::string_view name);
 
 }  // namespace contensou::reduction

@@ -28,7 +28,7 @@ struct Motion {
 
 /// Settings of both steppers.
 struct StepperSettings {
-  double tolerance = 1e-14;  ///< bound of the local error of ln u, ln v and tau/(S + P), README (R18)
+  double tolerance = 1e-14;  ///< bound of the local error of ln u, ln v and tau/(S + P), with S and P of README (R18)
   long step_limit = 2'000'000;
 };
 

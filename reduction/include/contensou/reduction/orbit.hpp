@@ -17,16 +17,16 @@ class Flow;
 
 /// The motion from one start to its stop, made by Flow::orbit.
 ///
-/// The motion is the similarity curve of the system, scaled to pass through the start. There are no time steps: a state
-/// at any time is one root of the formula for the time, README (R4), (R5). Slip length and angle follow from (R13),
-/// (R38), (R50); the regularised time beta (ReducedSystem::regularising_weight) follows from (R7). Pure sliding (u0 =
-/// 0), pure pivoting (v0 = 0), the invariant ray and rest are ordinary starts. Times and speeds have the unit of the
-/// start's speeds; lengths are speeds squared.
+/// The motion is the similarity curve of the system, scaled to pass through the start. There are no time steps: the
+/// state at a time follows from one root of the formula for the time, README (R4), (R5). Slip length and angle follow
+/// from (R13), (R38), (R50); the regularised time beta (ReducedSystem::regularising_weight) from (R7). The axes (u0 = 0
+/// or v0 = 0), the invariant ray and rest are ordinary starts. Times and speeds have the unit of the start's speeds;
+/// lengths have the unit of a speed squared.
 ///
 /// Accuracy  u and ln v 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference); beta
-///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the
-/// difference
-///           stop_time() - tau, which loses digits; at_time_left() keeps them.
+///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the time
+///           left, stop_time() - tau. This difference loses digits; at_time_left() avoids the difference and keeps the
+///           digits.
 class Orbit {
  public:
   /// The speeds and the time left until the stop.
@@ -49,31 +49,31 @@ class Orbit {
   /// Returns a bound of the relative error of stop_time().
   double accuracy() const;
 
-  /// Returns the number of calls of the law that the computation of the curve took.
+  /// Returns the number of calls of the law that were needed to compute the curve.
   long evaluations() const;
 
   /// Returns the state at the time tau after the start; rest if tau is beyond the stop.
   /// @throws std::domain_error  if tau is negative or not a number
   OrbitPoint at_time(double tau) const;
 
-  /// Returns the state at the time time_left before the stop; rest for 0.
+  /// Returns the state at the time time_left before the stop; rest for time_left = 0.
   /// @throws std::domain_error  unless 0 <= time_left <= stop_time()
   OrbitPoint at_time_left(double time_left) const;
 
-  /// Returns the state at a coordinate xi of the curve (TerminalChart); xi falls from start_coordinate() to -infinity.
+  /// Returns the state at a coordinate xi of the curve (TerminalChart); towards the stop xi falls to -infinity.
   /// @throws std::domain_error  on an axis, or if xi is larger than start_coordinate()
   OrbitPoint at_coordinate(double xi) const;
 
-  /// Returns speeds and time left at a coordinate xi. Next to the stop this time keeps the digits that the difference
-  /// stop_time() - tau loses. The cost is half of at_coordinate. Throws as at_coordinate.
+  /// Returns speeds and time left at a coordinate xi. Next to the stop, this time has more digits than the difference
+  /// stop_time() - tau. The call costs half of at_coordinate. Throws as at_coordinate.
   Remaining remaining_at_coordinate(double xi) const;
 
   /// Returns the state at which ln k has the given value, k = v/(mu |u|).
   /// @throws std::domain_error  on an axis, or if ln_k is not between start_log_ratio() and ln k at the stop
   OrbitPoint at_log_ratio(double ln_k) const;
 
-  /// Returns speeds, slip length and angle at the time tau, by one root. It omits beta, the most costly number of a
-  /// state.
+  /// Returns speeds, slip length and angle at the time tau, by one root. It does not compute beta, the most costly part
+  /// of at_time.
   /// Beyond the stop the speeds are 0.
   /// @throws std::domain_error  as at_time
   Instant instant(double tau) const;
@@ -82,28 +82,28 @@ class Orbit {
   /// @throws std::domain_error  as at_time
   double slip_length(double tau) const;
 
-  /// Returns the time tau at which the sliding speed has fallen to v; 0 if the speed never exceeds v. With a drive the
-  /// sliding speed may grow first; the result is the time from which on it is at most v.
+  /// Returns the time tau from which on the sliding speed is at most v; 0 if the speed never exceeds v. Under a drive
+  /// the sliding speed can grow before it falls.
   /// @param v  speed, >= 0; for v = 0 the result is the stop time
   /// @throws std::domain_error  if v is negative or not a number
   double time_of_v(double v) const;
-  /// Returns the time tau at which |u| has fallen to u; 0 if |u| never exceeds u. Range and exceptions as time_of_v.
+  /// Returns the time tau from which on |u| is at most u; 0 if |u| never exceeds u. Range, exceptions as time_of_v.
   double time_of_u(double u) const;
 
-  /// Returns the integral of a function of v over the time from 0 to tau, or to the stop if that is earlier.
+  /// Returns the integral of a function of v over the time from 0 to tau, or from 0 to the stop if the stop is earlier.
   /// @param edges  values of v at which the function is not smooth
   /// @throws std::domain_error  as at_time
   ///
-  /// Accuracy  1e-10 of the integral of the absolute value.
+  /// Accuracy  1e-10 of the integral of the function's absolute value.
   double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;
 
-  /// Returns true if the start lies on an axis, u = 0 or v = 0, and k stays constant. With a drive k changes on v = 0.
+  /// Returns true if the start lies on an axis, u = 0 or v = 0, and k stays constant. Under a drive k changes on v = 0.
   bool on_axis() const { return u0_ == 0 || (v0_ == 0 && system_.drive() == 0); }
 
-  /// Returns ln k at the start; +infinity for u0 = 0; for v0 = 0 -infinity, or with a drive least_log_ratio.
+  /// Returns ln k at the start: +infinity for u0 = 0. For v0 = 0 it is -infinity, or under a drive least_log_ratio.
   double start_log_ratio() const { return ln_k0_; }
 
-  /// Returns the coordinate xi of the start; meaningless on an axis.
+  /// Returns the coordinate xi of the start; the value has no meaning on an axis.
   double start_coordinate() const { return xi0_; }
 
   /// Returns the curve of which the motion is a scaled copy.
@@ -113,7 +113,7 @@ class Orbit {
   /// Returns the chart of curve(), which maps k to xi. Throws as curve().
   const TerminalChart& chart() const { return curve().chart(); }
 
-  /// Returns at_time for each entry, in the order given.
+  /// Returns at_time for each of the times, in the order given.
   OrbitColumns at_times(const Eigen::ArrayXd& times) const;
 
   /// Returns `count` equidistant states from the start to the stop, both included.
@@ -128,14 +128,14 @@ class Orbit {
   OrbitPoint rest(double tau) const;
   OrbitPoint on_axis_at(double tau, double fraction_left) const;
 
-  /// The speeds w = mu |u| and v as fractions of the speeds at the start, and the logarithms of these fractions.
+  /// The speeds w = mu |u| and v, each divided by its value at the start, and the logarithms of these fractions.
   struct Progress {
     double ln_w, ln_v;
     double w, v;
   };
   static constexpr Progress at_start{0, 0, 1, 1};
   double log_start() const;
-  Progress fallen(double xi) const;               ///< computes the logarithms only
+  Progress fallen(double xi) const;               ///< computes the logarithms, not w and v
   double sliding(const Progress& now) const;      ///< returns v
   double log_sliding(const Progress& now) const;  ///< returns ln v
   Progress progress(double xi) const;
@@ -161,7 +161,7 @@ class Orbit {
   double tau_of(double scaled) const;
   double scaled_of(double tau) const;
 
-  /// A number that is computed at its first use. Threads that need it at once all compute the same value.
+  /// A number that is computed at its first use. If several threads use it first at once, all compute the same value.
   struct OnDemand {
     OnDemand() = default;
     OnDemand(const OnDemand& other) : value(other.value.load()) {}
@@ -177,7 +177,7 @@ class Orbit {
   double u0_, v0_;
   bool creeps_ = false;  ///< true: the start is so near v = 0 that the drive raises the sliding speed to v_ immediately
   int exponent_;         ///< speeds are divided by 2^exponent_; then their products neither overflow nor underflow
-  double w_, v_;         ///< mu |u0| and v0, scaled; if creeps_, v_ is the speed at which creeping has begun
+  double w_, v_;         ///< mu |u0| and v0, both scaled; if creeps_, v_ is the speed after the immediate rise
   double pivoting_;      ///< P of README (R18), the stop time of pure pivoting, scaled
   double ln_k0_;
   double xi0_ = 0;

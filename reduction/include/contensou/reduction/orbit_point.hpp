@@ -8,7 +8,7 @@ namespace contensou::reduction {
 struct OrbitPoint {
   double tau;   ///< the time tau of ReducedSystem since the start
   double u;     ///< pivoting speed; keeps the sign of u0
-  double v;     ///< sliding speed; 0 if it underflows, unlike ln_v
+  double v;     ///< sliding speed; 0 if it underflows, while ln_v stays finite
   double ln_v;  ///< natural logarithm of v in the unit of the start
   double k;     ///< v/(mu |u|), the ratio of sliding to pivoting; infinity for u = 0
   /// Time beta of the regularised equations (2.7) since the start. Its error is relative to beta + 1/(16 mu |u0| + 15

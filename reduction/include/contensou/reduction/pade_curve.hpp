@@ -35,9 +35,9 @@ class PadeCurve final : public SimilarityCurve {
 
   double A() const { return A_; }  ///< 8 (2 - r)
   double B() const { return B_; }  ///< 3 pi (5 - r)
-  double a() const { return a_; }  ///< r/(2 - r): slope of ln_w at k = 0
+  double a() const { return a_; }  ///< r/(2 - r): slope of ln_w for k -> 0
   double b() const { return a_ - e_; }
-  double e() const { return e_; }  ///< r/(5 - r): slope of ln_w at infinity
+  double e() const { return e_; }  ///< r/(5 - r): slope of ln_w for k -> infinity
 
  private:
   double A_, B_, a_, e_;
@@ -46,7 +46,7 @@ class PadeCurve final : public SimilarityCurve {
   double sliding_connection_;  ///< constant of (R30) for the sliding coefficient m
   double angle_connection_;    ///< constant of (R30) for the angle coefficient o
 
-  /// Terms 2, 3, ... of the integral from x to 1/2 in (R11) are x^a far_beta_ - sum beta_terms_[n] x^n.
+  /// Terms 2, 3, ... of the integral from x = B k/(A + B k) to 1/2 in (R11): x^a far_beta_ - sum beta_terms_[n] x^n.
   std::array<double, terms> beta_terms_{};
   double far_beta_ = 0;
 };

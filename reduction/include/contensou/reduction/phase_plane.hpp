@@ -8,16 +8,16 @@
 
 namespace contensou::reduction {
 
-/// A constant direction of the field. The half-line along it, from the origin to infinity, consists of orbits.
+/// An invariant direction v/u: the half-line from the origin in this direction consists of orbits.
 enum class InvariantDirection {
   pivoting,  ///< the axis v = 0, q = v/|u| = 0
   ray,       ///< an invariant ray, v = mu k |u|
   sliding,   ///< the axis u = 0
 };
 
-/// The end of an invariant half-line, at which a singular point lies.
+/// The end of an invariant half-line, at which a singular point of the field lies.
 enum class SingularPlace {
-  origin,    ///< u = v = 0: the field has no linear part at the origin, so the blow-up replaces the origin by a line
+  origin,    ///< u = v = 0: the field has no linear part there, so the blow-up replaces the origin by a line
   infinity,  ///< circle at infinity of the Poincare disc
 };
 
@@ -27,8 +27,8 @@ std::string_view name(SingularPlace place);
 /// A singular point of the regularised field (2.7) (ReducedSystem::regularised_field) after desingularisation.
 ///
 /// The angular coordinate is q = v/|u| for u > 0, and |u|/v at the axis u = 0. The radial coordinate at the origin is
-/// the speed |u| (at the axis u = 0 the speed v). At infinity it is the inverse of this speed. The field is divided by
-/// this speed at both ends. The half-plane u < 0 is the mirror image.
+/// the speed |u|, but at the axis u = 0 the speed v. At infinity the radial coordinate is the inverse of this speed. At
+/// both ends the field is divided by this speed. The half-plane u < 0 is the mirror image of u > 0.
 struct SingularPoint {
   InvariantDirection direction;
   SingularPlace place;
@@ -37,34 +37,34 @@ struct SingularPoint {
   double radial;   ///< eigenvalue along the half-line, dimensionless
   double angular;  ///< eigenvalue across the half-line; -infinity if the law has an infinite slope (the ring at k = 1)
   /// One of planar_kinds: saddle (the half-line is a separatrix), stable node, unstable node, or degenerate if the
-  /// angular eigenvalue is 0. At a degenerate point two points merge: r = r_low, r = r_high, or Phi/(k Psi) touches r.
+  /// angular eigenvalue is 0. Two points merge at a degenerate point: r = r_low, r = r_high, or Phi/(k Psi) touches r.
   std::string_view kind;
 };
 
-/// The half-line along which orbits enter the origin.
+/// The direction along which orbits enter the origin.
 struct EndTangent {
   InvariantDirection direction;
   double k;
-  /// Exponent of contact: the angular coordinate tends to its limit (0, or q* on a ray) like this power of the speed.
-  /// It is the angular eigenvalue divided by the radial one, and 0 if degenerate (slower than any power).
+  /// Exponent a in |angle - limit| ~ speed^a along these orbits: the angular coordinate q (or 1/q) tends to 0, or to q*
+  /// on a ray. a is the angular eigenvalue divided by the radial one, and 0 if degenerate (slower than any power).
   double contact_order;
 };
 
-/// The singular points of the regularised phase plane, at which all orbits begin and end.
+/// The singular points of the regularised phase plane. All orbits begin and end at them.
 struct PhasePlane {
   TerminalRatios terminal;
-  double mu_low, mu_high;  ///< mu at which r is TerminalRatios::low, high; with a drive mu_low has no meaning
-  /// The points by direction from v = 0 to u = 0; in each direction the point at the origin is first. Every half-line
-  /// is an orbit from infinity to the origin and joins a saddle to a node. With a drive the axis v = 0 is missing: it
-  /// is no orbit.
+  double mu_low, mu_high;  ///< mu at which r = TerminalRatios::low, and r = high; with a drive mu_low has no meaning
+  /// The points in the order of direction from v = 0 to u = 0; in each direction the point at the origin is first.
+  /// Every half-line is an orbit from infinity to the origin and joins a saddle to a node. Under a drive the axis v = 0
+  /// is no orbit and is left out.
   std::vector<SingularPoint> points;
-  std::vector<EndTangent> tangents;  ///< the tangent of the orbits that end at each of terminal.ends
+  std::vector<EndTangent> tangents;  ///< one for each of terminal.ends: the tangent of the orbits with this limit
 };
 
 /// Finds the singular points and the linear part of the field at each (README (R15) to (R17)).
 ///
-/// Accuracy  eigenvalues on the axes 1e-14 relative; on a ray 1e-11, and 1e-6 for k* within 1e-3 of 1, where many laws
-///           have a kink; never better than the accuracy of the ray's k. An r that TerminalRatios cannot tell from
+/// Accuracy  eigenvalues on the axes 1e-14 relative; on a ray 1e-11, and 1e-6 for a ray at k* within 1e-3 of 1, where
+///           many laws have a kink. The error of the ray's k is a lower limit. An r within TerminalRatios::tolerance of
 ///           r_low or r_high counts as r_low or r_high.
 PhasePlane phase_plane(const Flow& flow);
 

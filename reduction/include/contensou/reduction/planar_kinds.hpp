@@ -6,7 +6,7 @@
 
 namespace contensou::reduction {
 
-/// Every kind of a singular point or an equilibrium that a planar system may have.
+/// All kinds of singular points and equilibria that a planar system can have.
 inline constexpr std::string_view planar_kinds[]{
     "stable node", "unstable node", "saddle",     "stable focus", "unstable focus", "center",   "center or focus",
     "stable star", "unstable star", "degenerate", "cusp",         "regular point",  "bordered", "mixed"};

@@ -15,9 +15,9 @@
 
 namespace contensou::reduction {
 
-/// A point in the canonical coordinates q, p of a scaling X (Generator): x = x_0 + S exp(p A') n(q), where A' = S^-1 A
-/// S and n(q) = (cos q, sin q). The closed curve p = 0 is S n. X moves p alone, p -> p + s. For A = 1 the curve is a
-/// circle, p is ln |x - x_0| up to a constant, and q is the angle.
+/// A point in the canonical coordinates q, p of a scaling X (Generator) with the centre x_0 and the matrix A:
+/// x = x_0 + S exp(p A') n(q), A' = S^-1 A S, n(q) = (cos q, sin q), S fixed. The closed curve p = 0 is x_0 + S n(q).
+/// X moves p alone, p -> p + s. For A = 1 the curve is a circle, p is ln |x - x_0| up to a constant, q is the angle.
 struct PlanarCanonical {
   double q;      ///< angle, -pi < q <= pi
   double p;      ///< -infinity at the centre x_0
@@ -29,7 +29,7 @@ enum class PlanarEnd {
   centre,  ///< the centre x_0 of the scaling
   infinity,
   rest,         ///< a point other than the centre, at which the field vanishes
-  border,       ///< a pole, a jump, or a border of the points at which the field has a value: no orbit continues
+  border,       ///< a pole, a jump, or the edge of the points at which the field has a value; no orbit continues
   periodic,     ///< no end: the orbit is closed
   undecided,    ///< unknown: PlanarReduction::undecided returns the reason
   equilibrium,  ///< a zero of the field, which the orbit approaches for ever
@@ -41,31 +41,31 @@ inline constexpr int planar_ends = 8;
 /// Returns the name of the enumerator, such as "centre".
 std::string_view name(PlanarEnd end);
 
-/// An orbit with a constant q. Along it the field f is parallel to X. R = dp/d sigma and T = dq/d sigma are the rates
-/// of the canonical coordinates in the time sigma, d sigma = exp(-c p) dt.
+/// An orbit with a constant q. Along it the field f is parallel to X. R = dp/dsigma and T = dq/dsigma are the rates
+/// of the canonical coordinates in the time sigma, dsigma = exp(-c p) dt, with c of the Generator.
 struct PlanarRay {
   double q;
-  bool attracts;   ///< true if its neighbours on both sides tend to it
-  bool to_centre;  ///< true if the motion on it goes to the centre
-  double radial;   ///< R on the ray; an eigenvalue of the field blown up at the centre
-  double angular;  ///< dT/dq, the other eigenvalue; on the counter-clockwise side unless only the other side is a ray
+  bool attracts;   ///< true if neighbouring orbits on both sides tend to the ray
+  bool to_centre;  ///< true if the motion on the ray goes to the centre
+  double radial;   ///< R on the ray: the radial eigenvalue of the field blown up at the centre
+  double angular;  ///< dT/dq, the angular eigenvalue; on the counter-clockwise side unless only the other side is a ray
   double order;    ///< exponent a of |T| ~ |q - q_ray|^a: 1 for a simple ray, 2 for a double one
   double k = std::numeric_limits<double>::quiet_NaN();  ///< |v|/(mu |u|), if `reduced` made the system
 };
 
-/// The directions between two neighbours among rays and borders. No orbit crosses these two.
+/// The directions between two neighbours, each a ray or a border. No orbit crosses these two.
 struct PlanarSector {
-  double from, to;        ///< q where motions begin and where they end, at most 2 pi apart; q grows if from < to
-  bool from_ray, to_ray;  ///< true: the end is a ray; false: a border
+  double from, to;        ///< q where motions begin and q where they end, at most 2 pi apart; q grows if from < to
+  bool from_ray, to_ray;  ///< true: this end is a ray; false: it is a border
 };
 
-/// The change of p and of the time sigma in each turn about the centre, for a field without rays.
+/// The change of p and of the time sigma in one turn about the centre, for a field without rays.
 struct PlanarTurn {
-  double factor;  ///< factor by which exp(p) grows in a turn; for A = 1 the factor of the distance
-  double sigma;   ///< sigma that a turn takes, d sigma = exp(-c p) dt; the period, if c = 0
+  double factor;  ///< factor by which exp(p) grows in a turn; for A = 1 also the factor of the distance
+  double sigma;   ///< duration of a turn in sigma, dsigma = exp(-c p) dt; for c = 0 it is the period
 };
 
-/// Thrown if T, the rate of q of README (R42), comes so near to 0 that its values do not show whether there are rays.
+/// Thrown if T, the rate of q of README (R42), comes so near to 0 that rounding hides whether there are rays.
 class UndecidedRays : public std::domain_error {
  public:
   using std::domain_error::domain_error;
@@ -74,15 +74,15 @@ class UndecidedRays : public std::domain_error {
 class Flow;
 class PlanarOrbit;
 
-/// The inverse integrating factor V in a rectangle, except for a constant factor.
+/// The inverse integrating factor V (f . grad V = V div f) in a rectangle, up to a constant factor.
 struct FactorPiece {
   Eigen::Vector2d low, high;
   std::function<double(const Eigen::Vector2d& x)> value;  ///< V at x; NaN at a point where V has no value
 };
 
 /// A planar system x' = f(x) reduced to quadratures. The reduction uses a scaling X = c t d/dt + A (x - x_0) . d/dx, so
-/// that f on one closed curve about x_0 determines f everywhere. Or it uses an inverse integrating factor V alone
-/// (FactorReduction).
+/// that f on one closed curve about x_0 determines f everywhere. If there is no scaling, the reduction uses an inverse
+/// integrating factor V (FactorReduction).
 ///
 ///     const PlanarReduction reduction(field, *find_symmetries(field, start).scaling, start);
 ///     reduction.end(start);          // PlanarEnd::centre
@@ -92,15 +92,15 @@ struct FactorPiece {
 /// Source: reduction/README.md (R42) to (R45). A value type; copies share the solution.
 ///
 /// Accuracy  relative 1e-12 of times, for a field that is smooth except for kinks and jumps and accurate to its last
-///           bits. Next to multiple rays, and to poles off the axes, the accuracy is lower: end_time_error() estimates
-/// it. Two rays closer than 1e-7 count as one double ray, as does a minimum of |T| that equals 0 within rounding.
+///           bits. End times are less accurate next to multiple rays and to poles off the axes: see end_time_error().
+///           Two rays closer than 1e-7 count as one double ray, as does a minimum of |T| that equals 0 within rounding.
 class PlanarReduction {
  public:
   /// @param scaling  scaling of the field
   /// @param around   point other than the centre at which the field has a value and is not tiny
   /// @param noise    relative error of the field's values (PlanarSymmetries::residual)
   /// @throws std::domain_error  unless all eigenvalues of A have positive real parts; for a field without values
-  /// @throws UndecidedRays      if T comes near to 0 and its values do not show a zero of any order
+  /// @throws UndecidedRays      if T comes near to 0 and its values do not show whether it vanishes there
   PlanarReduction(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around, double noise = 0);
 
   struct Solution;  // planar/solution.hpp
@@ -111,13 +111,13 @@ class PlanarReduction {
 
   const PlanarField& field() const;
 
-  /// Returns V, an inverse integrating factor: f . grad V = V div f. With a scaling, V is f ^ (A (x - x_0)).
-  /// @throws std::domain_error  if x is not finite, or V is not known there
+  /// Returns V, an inverse integrating factor: f . grad V = V div f. For a scaling, V is f ^ (A (x - x_0)).
+  /// @throws std::domain_error  if x is not finite, or V is not known at x
   double factor(const Eigen::Vector2d& x) const;
 
-  /// Returns V in the parts of a rectangle in which V is known and may vanish. If the form of V holds in a box only, V
-  /// is fitted anew in each part. With a scaling the result is empty: the curves V = 0 are its rays. If several V of
-  /// the form exist, each with its own curves V = 0, the result contains only a V that is the same everywhere.
+  /// Returns V in the parts of a rectangle in which V is known and can vanish. If the form of V holds in a box only, V
+  /// is fitted anew in each part. For a scaling the result is empty: the curves V = 0 are its rays. If several V of the
+  /// form have different curves V = 0, the result contains only a V that is the same everywhere.
   std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
 
   /// Returns the scaling that solves the system; null if V alone solves it. Without a scaling there are no centre,
@@ -128,54 +128,54 @@ class PlanarReduction {
   /// Returns the flow that solves the equations of motion, as given to `reduced`; null for another system.
   const Flow* flow() const;
 
-  /// @throws std::domain_error  if x is not finite, and without a scaling
+  /// @throws std::domain_error  if x is not finite, or if the system has no scaling
   PlanarCanonical canonical(const Eigen::Vector2d& x) const;
   Eigen::Vector2d point(double q, double p) const;
 
-  /// Returns true if T = 0 for every q, so that every half-line of constant q is an orbit.
+  /// Returns true if T = 0 for every q; then every curve of constant q is an orbit.
   bool star() const;
   /// Returns the rays in the order of q; empty for a star.
   const std::vector<PlanarRay>& rays() const;
-  /// Returns the sectors counter-clockwise; empty for a star and if orbits turn for ever. No sector contains directions
-  /// in which the field has no values.
+  /// Returns the sectors counter-clockwise; empty for a star and if orbits turn for ever. The sectors leave out the
+  /// directions in which the field has no values.
   const std::vector<PlanarSector>& sectors() const;
-  /// Returns the turn if the field has neither rays nor borders and is no star; else null.
+  /// Returns the turn if orbits turn: the field has neither rays nor borders and is no star. Otherwise null.
   const PlanarTurn* turn() const;
 
   /// Returns one of planar_kinds: "stable node", "unstable node", "saddle", "stable focus", "unstable focus", "center",
   /// "stable star", "unstable star". Orbits pass a "regular point", and also a "cusp", at which the field is 0 or has
-  /// no value. "mixed": sectors of several kinds. "degenerate": all points of a ray are at rest. "bordered": the field
-  /// has values in a part of the plane only, or a pole or jump that orbits do not cross. Empty: the kind is not
+  /// no value. "mixed": sectors of several kinds. "degenerate": the field is 0 on a whole ray. "bordered": the field
+  /// has values in a part of the plane only, or has a pole or jump that orbits do not cross. Empty: the kind is not
   /// decided.
   std::string_view kind() const;
 
   /// Returns the reason why some kinds and ends are not decided; empty if all are.
   const std::string& undecided() const;
 
-  /// Returns the end of the motion from a point.
+  /// Returns the kind of end that the motion from a point has.
   /// @throws std::domain_error  if x is not finite, or the field has no value there
   PlanarEnd end(const Eigen::Vector2d& x) const;
 
-  /// Returns the time of the end: 0 at the centre; infinity if the motion never ends. With a scaling, it is infinity
-  /// for a motion to a border. With V alone, it is the time at the border, and NaN if the end is not decided.
+  /// Returns the time until the end: 0 at the centre; infinity if the motion never ends. For a motion to a border it is
+  /// infinity if a scaling solves the system. If V alone does, it is the time at the border, or NaN if undecided.
   double end_time(const Eigen::Vector2d& x) const;
 
-  /// Returns an estimate of the relative error of end_time(x): eight times the difference from a solution that uses
-  /// another curve about the centre, at least 1e-13; 0 for an end time of 0 or infinity. Cost: a second
-  /// PlanarReduction.
+  /// Returns an estimate of the relative error of end_time(x): eight times the difference from a second solution, by
+  /// another curve about the centre. The estimate is at least 1e-13, or 0 for an end time of 0 or infinity. Cost: a
+  /// second PlanarReduction.
   /// @throws as end, and as the constructor
   double end_time_error(const Eigen::Vector2d& x) const;
 
-  /// Returns a number that is constant along an orbit. With V alone it is H, dH = (F dv - G du)/V for f = (F, G), with
-  /// H = 0 at the start of the search. With a scaling it is p - L(q), the logarithm of the factor that moves one curve
-  /// L of the sector onto the orbit of x. Orbits of one sector differ in it; exp(s X) adds s. A turn about a centre
-  /// without rays subtracts ln PlanarTurn::factor.
+  /// Returns a number that is constant along an orbit. If V alone solves the system it is H, dH = (F dv - G du)/V for f
+  /// = (F, G), with H = 0 at the start of the search. For a scaling it is p - L(q), where p = L(q) is one orbit of the
+  /// sector. It differs between orbits of a sector, and exp(s X) adds s to it. A turn about a centre without rays
+  /// subtracts ln PlanarTurn::factor.
   /// @throws std::domain_error  as end; on a ray and at V = 0, where the first integral has no value
   double first_integral(const Eigen::Vector2d& x) const;
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
 
-  /// Returns the first part of the orbit, for a picture. If V alone solves the system, the end may stay undecided.
+  /// Returns the first part of the orbit, for a picture. If V alone solves the system, the end might stay undecided.
   PlanarOrbit part_of_orbit(const Eigen::Vector2d& start) const;
 
   /// Returns the system with all motions reversed: x' = -f(x).
@@ -185,13 +185,13 @@ class PlanarReduction {
   std::shared_ptr<const Solution> solution_;
 };
 
-/// Returns the equations of motion (2.6) in the whole plane, planar_field, solved by a flow. Its rays are the invariant
-/// half-lines of PhasePlane.
+/// Returns the equations of motion (2.6) in the whole plane, planar_field, solved by a flow. The rays of the result are
+/// the invariant half-lines of PhasePlane.
 ///
-/// p is ln |x|. The first integral is that of the flow, ln |u| - ln w(k). With a drive v = 0 is a border. Two motions
-/// that are mirror images start at each of its points, so orbits from v = 0 are refused.
+/// p is ln |x|. The first integral is that of the flow, ln |u| - ln w(k). Under a drive v = 0 is a border. Two motions
+/// that are mirror images start at each of its points, so orbits from v = 0 are rejected.
 ///
-/// Accuracy  times as StopTime::accuracy. reversed() solves the field by its values, as PlanarReduction does.
+/// Accuracy  times as StopTime::accuracy. reversed() is solved from the values of the field, without the flow.
 /// Cost      0.1 ms, and the solution of the flow
 PlanarReduction reduced(const Flow& flow);
 
@@ -207,10 +207,10 @@ class PlanarOrbit {
   /// Returns the period if the motion is periodic; else empty.
   std::optional<double> period() const;
 
-  /// Returns the reason why the end is not decided; empty if it is.
+  /// Returns the reason why the end is not decided; empty if the end is decided.
   const std::string& undecided() const;
 
-  /// Returns the state at a time after the start. A motion that ends in a point of rest stays there from end_time on.
+  /// Returns the state at a time after the start. A motion that ends where f = 0 stays there from end_time on.
   /// @throws std::domain_error  unless time >= 0; for a time at which the state is at infinity or beyond a border
   Eigen::Vector2d at(double time) const;
 

@@ -12,7 +12,7 @@
 
 namespace contensou::reduction {
 
-/// The right side f of x' = f(x) in the plane. At a point without a value it throws or is not finite.
+/// The right side f of x' = f(x) in the plane. At a point without a value, f throws or the result is not finite.
 using PlanarField = std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>;
 
 /// The generator X = c t d/dt + (A x + b) . d/dx of a one-parameter group that acts on time and plane.
@@ -21,15 +21,15 @@ struct Generator {
   Eigen::Matrix2d matrix;  ///< A
   Eigen::Vector2d shift;   ///< b
 
-  /// True if X maps the field onto itself everywhere. Otherwise X does so within each sector between the lines at which
-  /// the field is not smooth, but not across these lines. A combination of several such X may hold everywhere, and
-  /// `scaling` is such a combination.
+  /// True if X maps the field onto itself in the whole plane. Otherwise X does so within each sector between the lines
+  /// at which the field is not smooth, but not across these lines. A combination of several such X can hold in the
+  /// whole plane; `scaling` is such a combination.
   bool everywhere = true;
 
   /// Returns the smaller real part of the eigenvalues of A, the least rate at which points leave the centre.
   double growth() const;
 
-  /// Returns the point at which A x + b vanishes; A has an inverse.
+  /// Returns the centre, the point at which A x + b vanishes. A must have an inverse.
   Eigen::Vector2d centre() const;
 };
 
@@ -37,33 +37,33 @@ struct Generator {
 struct PlanarSymmetries {
   enum class Verdict {
     found,
-    none,      ///< the smallest singular value is larger than the errors
-    undecided  ///< the errors of the derivatives hide the effect of a generator
+    none,      ///< no generator: the smallest singular value is larger than the errors
+    undecided  ///< the errors of the derivatives hide whether there is a generator
   };
 
   Verdict verdict = Verdict::none;
 
-  /// A basis of the generators. The largest entry of each is 1. A scaling comes first and is as accurate as the field.
-  /// The others are accurate to about `level`.
+  /// A basis of the generators. The largest entry of each is 1. A scaling is the first generator and is as accurate as
+  /// the field. The other generators are accurate to about `level`.
   std::vector<Generator> generators = {};
 
   /// Singular values of the determining equations (README (R41)), increasing, relative to the largest.
   std::array<double, 7> singular_values = {};
 
-  /// Singular values below this level count as 0. It is eight times the errors of the derivatives.
+  /// Singular values below this level count as 0. It is eight times the error that the derivatives cause.
   double level = 0;
 
-  /// Separation of the singular values that count as 0 from the others: the smallest of the others, divided by the
-  /// larger of `level` and the largest that counts as 0.
+  /// Separation of the singular values: the smallest that does not count as 0, divided by the larger of `level` and the
+  /// largest that counts as 0.
   double gap = 0;
 
-  /// The generator for the reduction, if there is one. It holds everywhere, also across jumps of the field. All
-  /// eigenvalues of A have positive real parts, and A x + b vanishes at one point. The simplest one is taken: first
-  /// choice is the origin and A = 1, then another point, then a diagonal A. Its largest entry is 1 or -1, the trace of
-  /// A positive.
+  /// The generator for the reduction, if there is one. It holds in the whole plane, also across jumps of the field. All
+  /// eigenvalues of A have positive real parts, and A x + b vanishes at one point. The simplest such generator is
+  /// taken: first with its centre at the origin and A = 1, then another centre, then a diagonal A, then any. The
+  /// largest entry is 1 or -1, and the trace of A is positive.
   std::optional<Generator> scaling = {};
 
-  /// Largest error |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling, x relative to the centre, s = ln 2.
+  /// Largest error |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling; x is relative to the centre and s = ln 2.
   double residual = infinity;
 
   int points = 0;  ///< number of points at which the equations were sampled

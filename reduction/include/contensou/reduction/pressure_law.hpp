@@ -7,14 +7,14 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch whose pressure is proportional to (1 - rho^2)^p, rho = distance/eps.
+/// Coulomb friction of a circular patch whose pressure is proportional to (1 - rho^2)^p, rho = (radius of a point)/eps.
 ///
 /// p = 1/2 is Hertz's pressure (HertzLaw), p = 0 a uniform disc, p = -1/2 a flat rigid punch, p = 1 a paraboloid (a
 /// soft foundation). The limit p -> -1 is a thin ring (README (R32)).
 ///
 /// Source    z = k^2:   Phi = C (p + 3/2) k 2F1(1/2, -p - 1/2; 2; z),  Psi = C 2F1(1/2, -p - 3/2; 1; z),   k <= 1
 ///           z = k^-2:  Phi = 2F1(-1/2, 1/2; p + 2; z),  Psi = 2F1(1/2, 1/2; p + 3; z)/(2 (p + 2) k),      k >= 1
-///           with C = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)); for integer p these are elliptic integrals.
+///           with C = Psi(0) = sqrt(pi) Gamma(p + 2)/(2 Gamma(p + 5/2)); elliptic integrals for integer p.
 /// Accuracy  4 eps for every k from 1e-300 to 1e300 (tests/reference/laws_pressure.csv), with the 64-bit mantissa of
 ///           x87's long double. Without it, as in WebAssembly, 7 eps for the named laws and 40 eps at p = 25.
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.

@@ -9,25 +9,25 @@ namespace contensou::reduction {
 
 /// The similarity curve of any friction law, by quadrature of the separated equation (README (R2)).
 ///
-/// A stop time needs the sliding coefficient m alone. It is found as a function of ln k, outwards from the stop
-/// (RegularSolution). The other functions are found at their first use: n, o and b by the method of m, ln w and c as
-/// functions of xi by (R26). The range is cut into panels. On each panel the coefficients are sampled at Gauss points
-/// and the equations are solved as Legendre series. Panels meet at the law's kinks and are halved until the series
-/// converge. They reach from k = 4e-18 to 1e19; beyond, the limits are exact to the last bit. Towards a ray they end
-/// where Phi - r k Psi has lost its last digit.
+/// A stop time needs the sliding coefficient m alone. m is found as a function of ln k, from the stop outwards
+/// (RegularSolution). The other functions of SimilarityCurve are found at their first use: n, o and b like m; ln w and
+/// c as functions of xi by (R26). The range of k is cut into panels. On each panel the equation is solved as a Legendre
+/// series through Gauss points. Panels meet at the law's kinks and are halved until the series converge. They reach
+/// from k = 4e-18 to 1e19; beyond, limits are exact to the last bit. Panels towards a ray end where Phi - r k Psi is
+/// only rounding.
 ///
 /// Accuracy  sliding_coefficient 3 eps for a law that is smooth between its kinks, also on and next to rays
 ///           (tests/reference/rays.csv); the other functions 1e-13, less accurate next to a ray.
 /// Cost      about 1 300 calls of the law for m, as many for each of n, o and b, and 2 000 for ln w and c; then about
-///           30 ns for each value. Noise in the law raises the number to a million and shows in truncation().
+///           30 ns for each value. Noise in the law raises the number of calls to a million and shows in truncation().
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
-  /// @param chart     chart between two neighbours among 0, the invariant rays and infinity, ending at the limit of k
-  ///                  (terminal_ratios); the default is right for r up to Phi'(0)/Psi(0), so for every ball under the
-  /// exact law and the Pade law
+  /// @param chart     chart between two neighbours among 0, the invariant rays and infinity, from the limit of k on
+  ///                  (terminal_ratios). The default chart is right for r up to Phi'(0)/Psi(0), so for every ball
+  ///                  under the exact law and the Pade law
   /// @param drive     rho of ReducedSystem
-  /// @throws std::domain_error  unless r > 0 and Phi - rho - r k Psi has the chart's sign for all k between
+  /// @throws std::domain_error  unless r > 0 and Phi - rho - r k Psi has the chart's sign for all k on the chart
   QuadratureCurve(const Law& law, double r, const TerminalChart& chart = TerminalChart::to_zero(), double drive = 0);
 
   double ln_w(double xi) const override;
@@ -40,8 +40,8 @@ class QuadratureCurve final : public SimilarityCurve {
   /// Returns an estimate of the relative error of sliding_coefficient, from the last terms of the series.
   double truncation() const;
 
-  /// Returns the sum of rounding_of_stop_time and truncation(), below 3e-15 for a smooth law and r < 1e4. With a drive
-  /// rho it is divided by 1 - rho, because the drive leaves this share of the friction.
+  /// Returns the sum of rounding_of_stop_time and truncation(), below 3e-15 for a smooth law and r < 1e4. Under a drive
+  /// rho it is divided by 1 - rho, because only this share of the friction slows the body.
   double accuracy() const override;
 
   long evaluations() const override;
@@ -54,7 +54,7 @@ class QuadratureCurve final : public SimilarityCurve {
   class Panels;
   struct Parts;
 
-  /// Returns (1 + k)/k if m, n and o are stored as products with k/(1 + k), else 1.
+  /// Returns (1 + k)/k if m, n and o are stored as their products with k/(1 + k), else 1.
   double rest_factor(double ln_k) const;
 
   std::unique_ptr<const Parts> parts_;

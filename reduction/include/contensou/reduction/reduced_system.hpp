@@ -34,12 +34,12 @@ struct StopTime {
 /// The two equations of motion (2.6) of V. F. Zhuravlev, 1998 (Zh98), for any friction law and any axisymmetric body:
 ///   dv/dtau = -(2 chi/(3 pi)) (Phi(k) - rho),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
 /// v is the sliding speed, u = R omega_z the pivoting speed, mu the patch radius divided by R. rho is a constant drive
-/// along the slip, 0 in the paper. It represents the rolling resistance of a ball that rolls the way it slides, or a
-/// slope straight down (reduction/README.md, "A constant drive"). With a drive v = 0 is no orbit: a body that spins
-/// there begins to creep.
+/// along the slip, 0 in the paper. It represents a slope straight down, or the rolling resistance of a ball that rolls
+/// in the direction in which it slides (reduction/README.md, "A constant drive"). Under a drive v = 0 is no orbit: a
+/// body that spins without sliding begins to creep.
 ///
-/// The time is the paper's tau = (3 pi/2) f g t, f the coefficient of friction; tau is a speed. A system never changes
-/// and is cheap to copy.
+/// The time is the paper's tau = (3 pi/2) f g t with the coefficient of friction f; tau has the unit of a speed. A
+/// system never changes and is cheap to copy.
 class ReducedSystem {
  public:
   /// @param patch_ratio  mu = patch radius/R, > 0; more than 1 is allowed, because R need not be the width of the body
@@ -57,10 +57,10 @@ class ReducedSystem {
   Inertia inertia() const { return inertia_; }
   double drive() const { return drive_; }
 
-  /// Smallest drive. A smaller drive changes no digit of a motion, and its ray leaves the range of doubles.
+  /// Smallest drive except 0. A smaller drive changes no digit of a motion, and its ray leaves the range of doubles.
   static constexpr double least_drive = 1e-100;
 
-  /// Returns r = gamma mu^2/chi. r and rho determine the shape of a motion (README (R1)). r is a normal double.
+  /// Returns r = gamma mu^2/chi, a normal double. r and rho determine the shape of a motion (README (R1)).
   double r() const { return r_; }
 
   /// Returns ds/dtau of the scaled time s = chi f g t (README (R1)): dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.
@@ -74,7 +74,7 @@ class ReducedSystem {
   /// for every law.
   double regularising_weight(State state) const;
 
-  /// Returns d(u, v)/dbeta, the field times the weight: the regularised equations (2.7) if the law is Pade; 0 at rest.
+  /// Returns d(u, v)/dbeta, the field times the weight; 0 at rest. For the Pade law it is the right side of (2.7).
   /// @throws std::domain_error  for v < 0
   Rate regularised_field(State state) const;
 
@@ -83,14 +83,14 @@ class ReducedSystem {
   double slope(State state) const;
 
   /// Returns S = 3 pi v/(2 chi), the stop time of a body that slides without pivoting and without a drive (ball: 3 pi
-  /// v/7). With a drive the stop time is S/(1 - rho).
+  /// v/7). Under a drive the stop time is S/(1 - rho).
   double sliding_limit(double v) const;
 
   /// Returns P = 3 pi |u|/(2 gamma mu Psi(0)), the stop time of pivoting without sliding (ball: 16 |u|/(5 mu)).
   double pivoting_limit(double u) const;
 
   /// Returns bounds of the stop time from the law's SlidingBounds and max(S, P) (README (R6), with a drive (R52)),
-  /// widened by 2 rounding_of_stop_time(r)/(1 - rho); [0, infinity] for a law without SlidingBounds.
+  /// widened by 2 rounding_of_stop_time(r)/(1 - rho). For a law without SlidingBounds they are [0, infinity].
   Bounds stop_time_bounds(State start) const;
 
  private:
@@ -103,16 +103,16 @@ class ReducedSystem {
 };
 
 /// Returns the largest relative error of a stop time by rounding: eps (4 + ln(1 + r)/2), r = gamma mu^2/chi. For r >
-/// 1e12, which no real body has, 2 eps ln(r/1e12) is added.
+/// 1e12, larger than r of any real body, 2 eps ln(r/1e12) is added.
 ///
-/// Measured in closed form up to mu = 1e6 (tests/certify), by quadrature (tests/reference/rays.csv), and up to r = 1e24
-/// by the distance outside proved bounds (tests/reduction/differential.cpp).
+/// The error was measured for closed forms up to mu = 1e6 (tests/certify), for quadratures (tests/reference/rays.csv),
+/// and up to r = 1e24 as the distance outside proved bounds (tests/reduction/differential.cpp).
 double rounding_of_stop_time(double r);
 
 /// Returns true if u and v are finite and v >= 0.
 bool is_state(State state);
 
-/// Throws for a state that no motion can have.
+/// Throws unless is_state(state).
 /// @throws std::domain_error  if u or v is not finite or v < 0; the message begins with the function's name
 void require_state(const char* function, State state);
 

@@ -11,8 +11,8 @@
 
 namespace contensou::reduction {
 
-/// All motions under a law and an r = gamma mu^2/chi: one curve for each interval of k between two neighbours among 0,
-/// the invariant rays and infinity. A solution never changes and is cheap to copy; it is empty if there is none.
+/// All motions of a law and an r = gamma mu^2/chi: one curve for each interval of k between two neighbours among 0, the
+/// invariant rays and infinity. A solution never changes and is cheap to copy. It is empty if it has no curves.
 class SimilaritySolution {
  public:
   using Curve = std::shared_ptr<const SimilarityCurve>;
@@ -32,7 +32,7 @@ class SimilaritySolution {
 
   explicit operator bool() const { return !curves_.empty(); }
 
-  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray it is the curve of one of its sides.
+  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray it is a curve beside the ray.
   /// @throws std::domain_error  if no curve covers this k
   const Curve& through(double ln_k) const;
 

@@ -17,7 +17,7 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<doub
 
 /// The motion of a circular contact patch over the plane: two speeds in one unit, both >= 0 and not both 0.
 ///
-/// Two speeds, unlike their ratio k = sliding/pivoting, need no infinity: pure sliding (pivoting = 0) and pure pivoting
+/// Two speeds need no infinity, unlike their ratio k = sliding/pivoting: pure sliding (pivoting = 0) and pure pivoting
 /// (sliding = 0) are ordinary values.
 struct Slip {
   double sliding;   ///< speed v of the patch centre

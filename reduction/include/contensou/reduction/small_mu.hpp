@@ -9,8 +9,8 @@
 
 namespace contensou::reduction {
 
-/// Coefficients of the expansion m(k; r) = first + r second + O(r^2). m is the sliding coefficient of README (R4); r =
-/// gamma mu^2/chi is far below r_low = Phi'(0)/Psi(0). The error is r^2 O(ln^3 k/k) as k -> infinity.
+/// Coefficients of the expansion m(k; r) = first + r second + O(r^2) for small r. m is the sliding coefficient of
+/// README (R4); r = gamma mu^2/chi is far below r_low = Phi'(0)/Psi(0). The error is r^2 O(ln^3 k/k) for k -> infinity.
 struct CoefficientExpansion {
   double first;
   double second;
@@ -32,7 +32,7 @@ struct FarCoefficient {
 };
 
 /// Computes the constants. The result is empty for a law whose Phi tends to 1 only like 1/k (the Pade law). Under such
-/// a law the logarithm has another origin and the opposite sign.
+/// a law the term in ln k has another cause and the opposite sign.
 ///
 /// Accuracy  logarithm 1e-13, constant 1e-9.
 std::optional<FarCoefficient> far_coefficient(const Law& law);
@@ -44,32 +44,32 @@ struct StopEstimate {
   double tau;                ///< the time tau of ReducedSystem, as in StopTime
 };
 
-/// Returns the estimates of the stop time for small mu, the roughest first. P and S are the stop times of pure pivoting
-/// and pure sliding, k0 = v0/(mu |u0|), and m is that of CoefficientExpansion:
+/// Returns the estimates of the stop time for small mu, the roughest first. P is the stop time of pure pivoting, S that
+/// of pure sliding, k0 = v0/(mu |u0|), and m(k; r) the coefficient of CoefficientExpansion:
 ///
-///   log  P + S - logarithm of FarCoefficient; for k0 > 1 and a law with a FarCoefficient
-///   E1   P + m(k0; 0) S; relative error O(mu^4 ln^2), uniformly in k0
-///   E2   E1 and the next term; relative error O(mu^6 ln^3)
+///   log  P + S (1 - (logarithm ln k0 + constant)/k0), FarCoefficient; for k0 > 1 and a law with a FarCoefficient
+///   E1   P + m(k0; 0) S; relative error O(mu^4 ln^2 mu), uniformly in k0
+///   E2   E1 + r second S; relative error O(mu^6 ln^3 mu)
 ///
-/// On the axes all of them are exact.
+/// On the axes all three are exact.
 ///
-/// @throws std::domain_error  if start is not a state, with a drive, or unless r < Phi'(0)/Psi(0) (then k -> 0)
+/// @throws std::domain_error  if start is not a state, for a drive, or unless r < Phi'(0)/Psi(0) (then k -> 0)
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
 
 /// The motion from one start to leading order for r = gamma mu^2/chi far below r_low = Phi'(0)/Psi(0) (README (R47)).
 ///
-/// One formula covers two stages. In the first stage, the layer of sliding, w = mu |u| hardly changes. In the second
+/// One formula covers two stages. In the first stage, w = mu |u| hardly changes (the layer of sliding). In the second
 /// stage, the spin-down, w falls in proportion to the time left, and v falls as a power of the time left. The motion
 /// stops at the time E1 of small_mu_estimates.
 ///
 /// Accuracy  at one k0, and at fixed fractions of the layer or of the stop time, the relative error of u is O(mu^4),
-///           and that of v (the error of ln v) O(mu^2). As k0 -> infinity each has a factor ln^2 mu. The start and,
-///           except for rounding, the axes are exact. Near r_low and above, the errors are as large as the speeds.
+///           that of v is O(mu^2). For k0 -> infinity both errors get a factor ln^2 mu. The start and, except for
+///           rounding, the axes are exact. If r is near or above r_low, the errors are as large as the speeds.
 class SmallMuMotion {
  public:
   struct Speeds {
     double u;
-    double v;     ///< sliding speed; 0 if it underflows, unlike ln_v
+    double v;     ///< sliding speed; 0 if it underflows, while ln_v stays finite
     double ln_v;  ///< natural logarithm of v in the unit of the start
   };
 
@@ -91,7 +91,7 @@ class SmallMuMotion {
   double pivoting_;       ///< P of README (R18), the stop time of pure pivoting
   double sliding_;        ///< S of README (R18), the stop time of pure sliding
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
-  double unit_rate_ = 0;  ///< s/w0 divided by tau, s the scaled time
+  double unit_rate_ = 0;  ///< d(s/w0)/dtau, with the scaled time s and w at the start w0
   double ln_k0_ = 0;
 };
 

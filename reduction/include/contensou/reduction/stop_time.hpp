@@ -7,7 +7,7 @@
 
 namespace contensou::reduction {
 
-/// The methods for a stop time. They share no code except the law, so that their results can be compared.
+/// The methods for a stop time. They share no code except the law; their results are compared.
 enum class Route {
   closed,       ///< closed form of the law (closed_solution)
   quadrature,   ///< integrals over k for the orbit and for the time (README (R2), (R3))
@@ -20,7 +20,7 @@ std::string_view name(Route route);
 /// Returns one sentence about a route: its method, its accuracy and its limits.
 std::string_view description(Route route);
 
-/// Returns the routes that are possible for this system, best first; the first is the default.
+/// Returns the routes that are possible for this system, the best one first. The first route is the default.
 std::vector<Route> routes(const ReducedSystem& system);
 
 /// Returns the time until u = v = 0 by the first of routes(system); 0 at rest. It solves the system for this start
@@ -33,13 +33,13 @@ std::vector<Route> routes(const ReducedSystem& system);
 /// Accuracy  that of Flow::stop_time.
 StopTime stop_time(const ReducedSystem& system, State start);
 
-/// Returns the same time by one route.
+/// Returns the same time, computed by the given route.
 ///
 /// @throws std::domain_error   if start is not a state (finite, v >= 0), or the route is not possible for this system
 /// @throws std::runtime_error  if a stepper did not reach the stop; the message is its Outcome::sentence
 ///
-/// Accuracy  StopTime::accuracy: closed 1e-15 for mu <= 1, quadrature 3e-15 for a smooth law, steppers 1e-10. This
-///           holds for all finite starts, even if v0/(mu u0) overflows.
+/// Accuracy  StopTime::accuracy: closed 1e-15 for mu <= 1, quadrature 3e-15 for a smooth law, steppers 1e-10. It holds
+///           for all finite starts, even if v0/(mu u0) overflows.
 StopTime stop_time(const ReducedSystem& system, State start, Route route);
 
 }  // namespace contensou::reduction

@@ -7,13 +7,13 @@
 
 namespace contensou::reduction {
 
-/// Stop times under one law, of one body with one drive, for starts that each have their own mu (patch radius divided
-/// by R).
+/// Stop times under one law, of one body under one drive. Each start has its own mu (patch radius divided by the radius
+/// R of the body).
 ///
-/// At a fixed k the stop time and its gradient are smooth in r = gamma mu^2/chi. The first start in an interval of r
-/// solves the systems at Chebyshev's points of the interval. All starts are then interpolated between them
-/// (numerics.md, "A mu of its own"). A Flow solves a start alone in three cases: r exceeds max_r, the last terms of the
-/// Chebyshev series of the start are too large, or its speeds lie beyond 2^+-300. A stop time in closed form needs no
+/// At a fixed k the stop time and its gradient are smooth in r = gamma mu^2/chi. The first start with an r in an
+/// interval solves the systems at Chebyshev's points of this interval. All starts are then interpolated between these
+/// points (numerics.md, "A mu of its own"). A Flow solves a start alone in three cases: r exceeds max_r, the last terms
+/// of the start's Chebyshev series are too large, or its speeds lie outside 2^-300 to 2^300. Closed forms need no
 /// interval.
 ///
 /// Threads may share the object. Copies share the solutions.
@@ -25,7 +25,7 @@ namespace contensou::reduction {
 /// Source    README (R18), (R19), (R58); barycentric interpolation
 class StopTimesOfMu {
  public:
-  /// Largest r of the intervals, which every homogeneous ball with mu <= 1 satisfies.
+  /// Largest r of the intervals. Every homogeneous ball with mu <= 1 has an r up to this number.
   static constexpr double max_r = 5.0 / 7;
 
   /// @param drive  rho, as in ReducedSystem
@@ -37,11 +37,11 @@ class StopTimesOfMu {
   double operator()(double mu, State start) const;
 
   /// Returns the stop time and its gradient, as Flow::stop_time_gradient.
-  /// @throws std::domain_error  likewise, and at rest
+  /// @throws std::domain_error  as operator(), and at u = v = 0
   StopTimeGradient gradient(double mu, State start) const;
 
   /// Returns true if a start is solved alone.
-  /// @param gradient  true to ask for the gradient, false for the stop time
+  /// @param gradient  true for the gradient, false for the stop time
   bool solves_alone(double mu, State start, bool gradient) const;
 
  private:

@@ -12,12 +12,12 @@
 namespace contensou::reduction {
 
 /// Coulomb friction of a circular patch whose pressure is given as a table. Between two rows the pressure is linear in
-/// rho^2, rho = distance from the centre/eps. Two rows with the same rho are a step.
+/// rho^2, rho = (distance from the centre)/eps. Two rows with the same rho are a step of the pressure.
 ///
 /// Source    README (R32) to (R34): a sum over thin rings, weighted by the pressure.
 /// Accuracy  12 eps for every table, however steep, and every k for which Phi and Psi do not underflow. A table of n
-///           rows approximates a smooth pressure to about 1/n^2, and to 1/n^(3/2) with a square root at the edge.
-/// Cost      2 to 10 us a slip for 10 to 10 000 rows, because rows far from rho = k are grouped.
+///           rows approximates a smooth pressure to about 1/n^2; to 1/n^(3/2) if it has a square root at the edge.
+/// Cost      2 to 10 us a slip for 10 to 10 000 rows, because distant rows (rho far from k) are grouped.
 class TabulatedPressureLaw {
  public:
   static constexpr SlidingBounds sliding_bounds{0, 1};
@@ -26,18 +26,18 @@ class TabulatedPressureLaw {
   /// @param rho       distance from the centre divided by eps: from 0 to 1, not decreasing; a step has two rows
   /// @param pressure  pressure at each rho, in any unit: finite, >= 0, not all 0
   /// @throws std::domain_error   if a row breaks these rules; the message contains its number, counted from 1
-  /// @throws std::runtime_error  if the loaded part of the table is too small to act at any k of the library
+  /// @throws std::runtime_error  if the loaded part of the table is too small to have an effect at any k of the library
   TabulatedPressureLaw(std::string name, const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure);
 
   const std::string& name() const { return name_; }
   Eigen::Index rows() const;
 
-  /// Returns the law without every other row of the table; the first, the last and both rows of a step are kept. If the
-  /// rows sample a smooth curve, the difference of the two laws bounds the interpolation error. Empty if no row can be
-  /// left out.
+  /// Returns the law of the table without every other row. The first row, the last row and both rows of a step are
+  /// kept. If the rows sample a smooth curve, the difference of the two laws bounds the interpolation error. The result
+  /// is empty if no row can be left out.
   std::optional<TabulatedPressureLaw> coarser() const;
 
-  /// Returns the k = rho of the steps and of the sharpest bends of the pressure, increasing; at most 32.
+  /// Returns the values of k that equal the rho of a step or of one of the sharpest bends, increasing; at most 32.
   const std::vector<double>& kinks() const { return kinks_; }
 
   /// Returns force and moment. Throws as require_slip.

@@ -4,25 +4,25 @@
 
 namespace contensou::reduction {
 
-/// A coordinate xi of k = v/(mu |u|) on its way from one invariant ratio, k_far, to the next, the terminal ratio k*,
-/// its limit at the stop. Each of the two is 0, the k of an invariant ray, or infinity.
+/// A coordinate xi of k = v/(mu |u|) between two neighbouring invariant ratios: the terminal ratio k*, which is the
+/// limit of k at the stop, and k_far, from which k comes. Each of the two is 0, the k of an invariant ray, or infinity.
 ///
 /// xi is the argument of every SimilarityCurve (README (R25)). It falls to -infinity at the stop and grows to infinity
 /// at k_far.
 ///   from above:  xi = ln[(k - k*)/(1 - k/k_far)]          (k* = 0, k_far = infinity: ln k)
 ///   from below:  xi = ln[(1/k - 1/k*)/(1 - k_far/k)]      (k* = infinity, k_far = 0: -ln k)
-/// Next to k* and k_far the double k has lost the digits of its distance to them; xi keeps them.
+/// Next to k* and k_far the double k has lost the digits of its distance from k* or k_far; xi keeps these digits.
 class TerminalChart {
  public:
   enum class Side { above, below };
 
-  /// Makes the chart from the farthest ratio on this side: infinity above k*, 0 below it.
+  /// Makes the chart with the farthest k_far on this side of k*: infinity above k*, 0 below k*.
   /// @param ln_k_star  ln of the terminal ratio: -infinity is only reached from above, +infinity only from below
   /// @throws std::domain_error  if ln_k_star is not a number, or at infinity on the other side
   TerminalChart(Side side, double ln_k_star);
 
   /// Makes the chart from k_far, above or below k*, to k*.
-  /// @throws std::domain_error  if they are equal or not numbers
+  /// @throws std::domain_error  if the two are equal or not numbers
   static TerminalChart between(double ln_k_star, double ln_k_far);
 
   /// Returns the chart from infinity to 0, in which xi is ln k.
@@ -46,10 +46,10 @@ class TerminalChart {
   /// Returns ln k.
   double log_ratio(double xi) const;
 
-  /// Returns d ln k/d xi: positive from above, negative from below. At an end it is 0, unless the end is 0 or infinity.
+  /// Returns d ln k/d xi: positive from above, negative from below. It is 0 at an end, unless the end is 0 or infinity.
   double log_ratio_rate(double xi) const;
 
-  /// Difference xi - ln k* (from below xi + ln k*) at which exp(xi) is negligible compared with k* (1/k*).
+  /// Difference xi - ln k* (from below xi + ln k*) at which exp(xi) is negligible compared with k* (from below 1/k*).
   static constexpr double min_coordinate = -745;
 
  private:

@@ -16,11 +16,11 @@ struct Check {
 };
 
 /// Computes every statement of the theory about one motion as a number that must be small. It compares the routes to
-/// the stop time. It tests the scaling generator on the equations of motion (2.6), the regularised equations (2.7) and
-/// dv/du, the separated equation, the first integral, the time beta against its definition (2.8), both limits and the
-/// law's bounds. For the exact law it also tests the elementary orbit inside k = 1.
+/// the stop time with each other. It tests the scaling generator on the equations of motion (2.6), the regularised
+/// equations (2.7) and dv/du. It tests the separated equation, the first integral, the time beta against its definition
+/// (2.8), both limits and the law's bounds; for the exact law also the elementary orbit inside k = 1.
 ///
-/// @param flow  motions to examine; its closed form, also one of the caller, is compared with quadrature
+/// @param flow  motions to examine; its closed form, also one that the caller gave, is compared with quadrature
 /// @throws std::domain_error  if start is not a state or is at rest, or r < 1e-100
 std::vector<Check> verify(const Flow& flow, State start);
 
