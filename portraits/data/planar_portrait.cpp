@@ -39,7 +39,7 @@ struct Course {
 };
 
 Course course_of(const PlanarSector& sector) {
-  // A ray is distinguished from smaller angles than a border, which is accurate to some digits only.
+  // Directions come nearer to a ray than to a border, because a border is accurate to some digits only.
   const auto nearest = [](bool ray) { return ray ? 25.0 : 12.0; };
   const auto q = [=, length = sector.to - sector.from](double x) {
     return x < 0 ? sector.from + length / (1 + std::exp(-x)) : sector.to - length / (1 + std::exp(x));
@@ -212,7 +212,7 @@ class PlanarTracer {
   double level(double q) const { return -plane_.first_integral(plane_.point(q, 0)); }
 
   void read_turn() {
-    constexpr double margin = 1e-9;  // L jumps by the change of a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // level() jumps by its change in a turn between 2 pi and 0
     growth_ = level(2 * pi - margin) - level(margin);
     const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
     sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
@@ -250,7 +250,7 @@ class PlanarTracer {
 
   bool seen(double p) const { return p > lowest_ && p < highest_; }
 
-  /// Returns R of a ray. Its sign is the direction of the motion on the ray.
+  /// Returns the rate of the distance from the centre on a ray, or only its sign; negative towards the centre.
   double radial_at(double q) const {
     for (const auto& ray : plane_.rays()) {
       if (std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9) return ray.radial;
@@ -415,8 +415,8 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   return line;
 }
 
-/// Returns orbits that fill the window. Each goes through the middle of the widest gap. If its mirror images have as
-/// much room, they are added, too, because most systems have such a symmetry.
+/// Returns orbits that fill the window. Each goes through the middle of the widest gap. If the mirror images of an
+/// orbit have as much room, they are added, too, because most systems have such a symmetry.
 std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
   const Panel panel = panel_of(window);

@@ -44,7 +44,7 @@ bool clip(Point a, Point b, double& from, double& to) {
   return from < to || (from == to && a.x == b.x && a.y == b.y);
 }
 
-/// Returns the distance of two places on paper. std::hypot is slower, because it avoids an overflow, impossible here.
+/// Returns the distance of two places on paper. std::hypot is slower: it avoids overflow, which cannot occur here.
 double distance(Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   return std::sqrt(dx * dx + dy * dy);

@@ -35,7 +35,7 @@ struct Drawn {
   Text legend;
 };
 
-/// Returns the r for which this k is a ray: (Phi - rho)/(k Psi).
+/// Returns the r for which this k is an invariant ray: (Phi - rho)/(k Psi) for force Phi, moment Psi and drive rho.
 double force_over_moment(const reduction::Law& law, double k, double drive) {
   const auto [force, moment] = law(reduction::slip_of_ratio(k));
   return (force - drive) / (k * moment);
@@ -91,7 +91,7 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  // Labels stand away from the curve, which begins at r_low for k = 0 and tends to r_high at infinity.
+  // Labels stand away from the curve. The curve begins at r_low for k = 0 and tends to r_high for k -> infinity.
   panel.labels = {{{high, 1.6 / ends}, math("r") + sub("high"), guide_colour}};
   if (drive == 0) panel.labels.push_back({{low, ends / 1.6}, math("r") + sub("low"), guide_colour});
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});

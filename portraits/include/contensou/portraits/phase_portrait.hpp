@@ -47,9 +47,9 @@ constexpr bool shows_moments(View view) { return view == View::time || view == V
 /// Returns all views in the order in which lists show them.
 const std::vector<View>& views();
 
-/// An orbit, or its part in the window, as columns of equal length in the direction of the motion. An orbit of the
-/// equations of motion (2.6) of reduction::ReducedSystem ends with the row of the stop: u = v = 0, ln_v = -infinity, ln
-/// k of the terminal ratio, tau_left = 0.
+/// An orbit, or the part of an orbit in the window, as columns of equal length in the direction of the motion. An orbit
+/// of the equations of motion (2.6) of reduction::ReducedSystem ends with the row of the stop: u = v = 0, ln_v =
+/// -infinity, ln_k of the terminal ratio, tau_left = 0.
 struct PortraitOrbit {
   Eigen::ArrayXd u = {};
   Eigen::ArrayXd v = {};
@@ -111,10 +111,10 @@ struct PhasePortrait : Portrait {
 struct PortraitRequest {
   std::optional<View> view = {};  ///< only for (2.6)
   /// A rectangle of the plane. For (2.6) v >= 0, and the view must show the window. The orbits are those of the
-  /// smallest half-plane window that contains it, as far as they enter the rectangle.
+  /// smallest half-plane window that contains the rectangle, as far as they enter the rectangle.
   std::optional<Window> window = {};
-  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V; for another system |u| <= U and |v| <= V, relative to
-  /// its centre.
+  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V. For another system |u| <= U and |v| <= V, relative to
+  /// the centre of the system.
   std::optional<Eigen::Vector2d> sides = {};
   std::optional<reduction::State> highlight = {};  ///< a start; the default window contains it
   std::vector<reduction::State> through = {};      ///< points in the window; for (2.6) with u and v both not 0
@@ -173,16 +173,16 @@ struct PortraitSource {
 
 /// Returns one or more portraits as JSON. Numbers read back to the same doubles.
 ///
-/// seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]. On request also highlight (an
-/// orbit), through (orbits), against {law, orbits, isochrones}. Several portraits give the members schema and
-/// portraits; each portrait has the members above except schema.
-/// without schema.
+/// Members: schema, law, mu, body {chi, gamma}, view, window ([U, V] or the ends of both axes), drive (if > 0),
+/// version, ball, seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]. On request also
+/// highlight (an orbit), through (orbits), against {law, orbits, isochrones}. Several portraits give the members schema
+/// and portraits; each of these portraits has the other members above.
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 /// Returns one or more portraits as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. Several portraits
 /// have mu,law as first columns. kind is orbit, highlight, through or isochrone; for the compared law it is
-/// against_orbit or against_isochrone. tau and t (s) are the time left. Comment lines (#) above contain the members
-/// that precede the orbits in JSON.
+/// against_orbit or against_isochrone. tau and t (s) are the time left. Comment lines (#) at the top contain the
+/// members that stand before the orbits in JSON.
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

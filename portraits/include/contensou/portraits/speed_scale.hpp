@@ -6,7 +6,7 @@ namespace contensou::portraits {
 ///
 /// The term x shows sliding, while v falls and u hardly changes. The term x^s shows the approach to the stop. There k =
 /// v/(mu |u|) tends to 0, Phi to Phi'(0) k and Psi to Psi(0). By the equations of motion (2.6), d ln|u|/d ln v = r k
-/// Psi/Phi then tends to s = r Psi(0)/Phi'(0). So |u| falls like v^s, and in x^s every orbit is straight at the origin.
+/// Psi/Phi then tends to s = r Psi(0)/Phi'(0). |u| falls like v^s, and in x^s every orbit is straight at the origin.
 /// For s = 1 the axis is linear.
 struct SpeedScale {
   double top;
