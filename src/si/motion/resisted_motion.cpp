@@ -101,8 +101,8 @@ struct Given {
     return rolling.slides_after(sliding, down.norm() / inertia.chi);
   }
 
-  /// Returns the direction of a slip v that is slow compared with rolling. Since c' = chi (N - f g e) with N = d/chi +
-  /// a W/|W|, it is the direction n of N with the delay v n'/(chi |N|).
+  /// Returns the direction of a slip v that is slow compared with rolling. Because c' = chi (N - f g e) with N = d/chi
+  /// + a W/|W|, the slip has the direction n of N with the delay v n'/(chi |N|).
   Vector2d following(double v, const Vector2d& rolling) const {
     const Vector2d heading = rolling.normalized(), needed = down / inertia.chi + resisting * heading;
     const Vector2d n = needed.normalized();
@@ -177,7 +177,7 @@ class Resisted : public Motion::Solution {
 struct DrivenOut {};
 
 /// The motion of a ball that slides in the direction of rolling, and straight down a slope. It consists of pieces of
-/// three kinds: the ball turns, resistance holds the ball, the ball slides no more.
+/// three kinds: the ball turns, resistance holds the ball, or the ball slides no more.
 class Straight final : public Resisted {
  public:
   Straight(const Experiment& of, Given given, const State& start, const Vector2d& along, SharedFlows& flows)
@@ -539,7 +539,7 @@ SolvedMotion resisted_motion(const Experiment& experiment, const Law& law, Share
     try {
       return std::make_shared<Straight>(experiment, given, start, along, flows);
     } catch (const DrivenOut&) {
-      // The motion becomes faster for a while, so it has no pieces.
+      // The ball becomes faster for a while, so its motion has no pieces and is integrated in steps.
     }
   }
   return std::make_shared<Integrated>(experiment, given, start);

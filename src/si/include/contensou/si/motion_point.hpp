@@ -50,9 +50,9 @@ Velocities final_motion(const Experiment& experiment);
 
 /// Returns the state of a motion at a time, computed from slip, slip length and spin about the vertical.
 ///
-/// The slip keeps its direction e, and omega keeps its component along e. Along e the velocity of the centre falls by
-/// 1/chi of the lost slip, for a homogeneous ball 2/7; R omega across e takes the rest (V. F. Zhuravlev, 1998, after
-/// (2.5)). So V = V0 - (v0 - v) e/chi and X = V0 t - (v0 t - slip_length) e/chi.
+/// The slip keeps its direction e, and omega keeps its component along e. The velocity of the centre along e falls by
+/// 1/chi of the lost slip (ball: 2/7); the rest of the lost slip changes R omega across e (V. F. Zhuravlev, 1998, after
+/// (2.5)). Therefore the velocity is V = V0 - (v0 - v) e/chi, the place X = V0 t - (v0 t - slip_length) e/chi.
 ///
 /// @param t            time, s
 /// @param slip         slip v, m/s

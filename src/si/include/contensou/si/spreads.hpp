@@ -57,7 +57,7 @@ struct Spreads {
   /// Adds a number that is independent of the others.
   void add(const Component& of, double standard);
 
-  /// Returns the spreads of those numbers alone that satisfy a condition; the others may have any value.
+  /// Returns the spreads of the numbers that satisfy a condition. The other numbers may have any value.
   Spreads of(const std::function<bool(const Component&)>& kept) const;
 
   Eigen::MatrixXd covariance() const;
