@@ -18,7 +18,7 @@ constexpr double too_rare = 3.7;
 
 }  // namespace
 
-/// Returns how many standard errors a free parameter at a limit would go beyond it; 0 for a parameter off its limits.
+/// Returns how many standard errors a free parameter at a limit would go beyond it; 0 for a parameter within limits.
 double Reporter::held_back(std::size_t free) const {
   const Index place = search_.free[free];
   const auto [low, high] = search_.model.range(place);
