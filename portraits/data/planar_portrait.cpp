@@ -95,7 +95,7 @@ class PlanarTracer {
     if (plane.turn() != nullptr) read_turn();
   }
 
-  /// Returns the orbit through a point, or from the point on, as the parts that lie in the window.
+  /// Returns the parts in the window of the orbit through a point, or of its part after the point.
   std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
     if (plane_.scaling() && x == plane_.centre()) return {};
     return parts_of(plane_.scaling() ? line(x, from_here) : motion(x, from_here), window_,
@@ -152,7 +152,7 @@ class PlanarTracer {
     return result;
   }
 
-  /// Returns the orbits that leave the saddles and those that enter them, from points just beside the saddles.
+  /// Returns the orbits that leave or enter the saddles, from points just beside the saddles.
   std::vector<PortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
     std::vector<PortraitOrbit> all;
     for (const reduction::Equilibrium& saddle : equilibria) {
@@ -250,7 +250,7 @@ class PlanarTracer {
 
   bool seen(double p) const { return p > lowest_ && p < highest_; }
 
-  /// Returns the rate of the distance from the centre on a ray, or only its sign; negative towards the centre.
+  /// Returns the rate of the distance from the centre on a ray, or its sign alone; negative towards the centre.
   double radial_at(double q) const {
     for (const auto& ray : plane_.rays()) {
       if (std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9) return ray.radial;
@@ -276,7 +276,7 @@ class PlanarTracer {
     PlanarReduction plane, by_steps;
   };
 
-  /// Returns the orbit through a point, or from the point on, by steps in time.
+  /// Returns the whole orbit through a point, or its part after the point, by steps in time.
   Polyline motion(const Vector2d& x, bool from_here) const {
     Polyline line;
     if (!from_here) line = follow(ways_[1], x);
@@ -349,7 +349,7 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
-/// Follows a motion until it leaves the window, and for some window sides farther, because it may return.
+/// Follows a motion until it is some window sides beyond the window, because it may return from there.
 Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   const auto& [plane, by_steps] = way;
   const Vector2d f = plane.field()(x);
@@ -467,7 +467,7 @@ Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
-/// Returns the requested window or the default one, and checks the request.
+/// Returns the requested window or the default window, and checks the request.
 Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
   if (request.view || request.comparison || request.stepped || request.linear || request.drawn_only ||
       request.time_unit != 1) {

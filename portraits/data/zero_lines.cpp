@@ -70,7 +70,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     for (int i = 0; i <= columns; ++i) values.push_back(piece.value(corner(i, j)));
   }
   const auto value = [&](int i, int j) -> double& { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
-  // On a border at which the function is 0, rounding decides the sign. It gets the sign opposite to that inside.
+  // On a border at which the function is 0, rounding decides the sign. The value gets the sign opposite to that inside.
   constexpr double rounding = 1e-12;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
@@ -109,7 +109,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
            {Side{{i, j}, false}, Side{{i + 1, j}, true}, Side{{i, j + 1}, false}, Side{{i, j}, true}}) {
         if (crossings.contains(side)) crossed.push_back(side);
       }
-      // Sides are ordered counter-clockwise. Of four crossings, opposite ones lie on one curve.
+      // Sides are ordered counter-clockwise. If four sides are crossed, opposite crossings lie on one curve.
       const std::size_t lines = crossed.size() / 2;
       for (std::size_t k = 0; k < lines; ++k) {
         crossings[crossed[k]].joined.push_back(crossed[k + lines]);

@@ -25,7 +25,7 @@ double value(const Axis& axis, double fraction) {
   return axis.low + fraction * (axis.high - axis.low);
 }
 
-/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; returns false if none.
+/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; false if there is none.
 bool clip(Point a, Point b, double& from, double& to) {
   from = 0;
   to = 1;
@@ -83,7 +83,7 @@ std::vector<Polyline> clipped(const Panel& panel, const Polyline& line) {
       open = false;
       continue;
     }
-    // Keep the ends of the line exactly; compute the others on the border.
+    // Keep the ends of the line exactly; compute the other ends, which lie on the border.
     const auto at = [&](double t) { return from_paper(panel, between(a, b, t)); };
     if (!open) parts.push_back({from == 0 ? line[i - 1] : at(from)});
     parts.back().push_back(to == 1 ? line[i] : at(to));

@@ -12,7 +12,7 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Compares rooms. Of equal rooms the first wins, independent of rounding, because portraits have two equal halves.
+/// Compares rooms. If two are equal up to rounding, the first wins, because portraits have two equal halves.
 bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
 
 /// The place with most room for a label of a given size. Room is the distance from the points that the label avoids, in

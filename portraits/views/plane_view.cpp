@@ -15,7 +15,7 @@ namespace {
 
 using Copies = std::vector<OrbitCopy>;
 
-/// Returns ticks of v: round speeds in the linear part, powers of ten below.
+/// Returns ticks of v: round speeds in the linear part, powers of ten below this part.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // below this height the axis is not linear
@@ -35,7 +35,7 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   return ticks;
 }
 
-/// Returns a half-plane panel. Its sides are those of the window, in units of u and v.
+/// Returns a half-plane panel. Its sides are the sides of the window, in units of u and v.
 MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
   const Window& window = drawing.portrait.window;

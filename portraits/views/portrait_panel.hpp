@@ -34,7 +34,7 @@ Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
 /// Returns the legend of a portrait's orbits, used if two laws are compared.
 Text law_legend(const PhasePortrait& portrait);
 
-/// Copies of one curve fill a panel. From the curve's beginning to k = 1 its larger speed falls by e to this power.
+/// Copies of one curve fill a panel. The curve's larger speed falls by e to this power from its beginning to k = 1.
 inline constexpr double upstream_of_copies = 14;
 
 /// Returns ln k of the invariant rays, increasing.
@@ -62,8 +62,8 @@ class PortraitPanel : public PanelLayers {
   /// Adds the orbits of the portrait, and the orbits of the compared law.
   void add_orbits();
 
-  /// Adds orbits beyond the window. Without invariant rays they are copies of one orbit. With rays they are computed
-  /// one by one, each through the middle of the widest gap, until they fill the panel.
+  /// Adds orbits beyond the window. Without invariant rays the orbits are copies of one orbit. If there are rays,
+  /// orbits are computed one by one, each through the middle of the widest gap, until they fill the panel.
   ///
   /// @param copies    returns copies of a curve that passes k = 1 at v = 1
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half

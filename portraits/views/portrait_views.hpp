@@ -31,7 +31,7 @@ void add_courses(const Drawing& drawing, const std::function<void(const PhasePor
 /// Returns five ratios k, half a decade apart, about the k at which pure sliding and pure pivoting take the same time.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
 
-/// Returns the panel of (u, ln k). It shows how orbits enter the origin, even for a contact with an axis of order 10^5.
+/// Returns the panel of (u, ln k). It shows how orbits enter the origin, even if they touch an axis to the order 10^5.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
 /// A view with its name for users and its layout on a page.

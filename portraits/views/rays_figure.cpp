@@ -53,7 +53,7 @@ Panel panel_over_k(const Text& title) {
   return panel;
 }
 
-/// Draws k* against r: attracting rays solid, repelling ones dashed.
+/// Draws k* against r: attracting rays solid, repelling rays dashed.
 Panel rays(const reduction::Law& law, double low, double high, std::optional<double> marked, double drive) {
   std::vector<Point> points;
   if (drive > 0) points.push_back({0, k_without_moment(law, drive)});
@@ -134,7 +134,7 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, dou
         const double k = ratio_at(i);
         if (flow.solution().through(std::log(k)) != curve) continue;
         line.push_back({k, curve->sliding_coefficient(curve->chart().coordinate(std::log(k)))});
-        // With a drive m is singular for k -> 0.
+        // Under a drive m is singular for k -> 0.
         if (drive == 0 || k >= 1) panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);
       }
       lines.lines.push_back(std::move(line));
