@@ -83,8 +83,8 @@ class PyramidMotion {
   double w0;  ///< rim speed at the start, m/s
 
  private:
-  double on_ray_;  ///< v = w when they become equal, m/s
-  double ray_;     ///< time at which they become equal, s
+  double on_ray_;  ///< v and w at the time at which they become equal, m/s
+  double ray_;     ///< time at which v and w become equal, s
   double stop_;    ///< stop time, s
 };
 

@@ -114,7 +114,7 @@ class Tail {
     const double pivoting = ball.spin_time_left(ball.spin(from));
     slides_ = sliding > pivoting;
     left_ = std::max(sliding, pivoting);
-    // The logarithm of the other speed is a linear function of the logarithm of the first.
+    // The logarithm of the other speed is a linear function of the logarithm of the first speed.
     if (slides_) {
       constexpr double fast = 0x1p100;
       const double moment = fast * ball.law(reduction::Slip{fast, 1}).moment;  // k Psi at infinity

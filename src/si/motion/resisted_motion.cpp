@@ -78,7 +78,7 @@ struct Given {
         down(pull(given.environment)),
         tau_per_second(1 / seconds(given, 1)) {}
 
-  /// Returns the largest Phi at which resistance holds a ball that does not turn; infinity for a body that lies flat.
+  /// Returns the largest force Phi at which resistance holds a ball that does not turn; infinity if it lies flat.
   double holding() const {
     return lies_flat ? std::numeric_limits<double>::infinity() : inertia.chi * drive / (inertia.chi - 1);
   }
@@ -321,7 +321,7 @@ class Straight final : public Resisted {
   std::optional<double> creep_ratio_;
 };
 
-/// c, W, w, position, slip length, turned, path, rolled. Speeds and lengths are divided by scales of the start.
+/// The integrated c, W, w, position, slip length, turned, path, rolled, divided by scales of the start.
 using Progress = std::array<double, 11>;
 
 /// The motion of any ball, integrated in steps.
@@ -421,7 +421,7 @@ class Integrated final : public Resisted {
     return now;
   }
 
-  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R56) with friction as A.
+  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R56) for A = friction.
   double time_to_hold(Step step) const {
     const Vector2d rolling(step.x[2], step.x[3]);
     if (rolling.norm() == 0) return 0;

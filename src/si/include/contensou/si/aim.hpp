@@ -22,8 +22,8 @@ struct Goal {
 /// @param flow        flow of undriven_system(experiment, law)
 /// @throws std::domain_error  unless two demands are given, finite, with distance and time >= 0; if no start fulfils
 ///                            both (the message contains the nearest possible values); if no start with finite doubles
-///                            fulfils them to 1e-6; for distance and time
-///                            with rolling friction; for a slope; as require_monotone
+///                            fulfils them to 1e-6; for distance and time with rolling friction; for a slope;
+///                            as require_monotone
 SlipAndSpin aimed(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal);
 
 /// Demands on the place and the speed at which a ball begins to roll, that is, its slip falls below rolling_slip.

@@ -34,7 +34,7 @@ double hertz_impact_patch_radius(double mass, double speed, double radius, const
 struct Rebound {
   Velocities velocities;  ///< velocity of the centre along the plane; angular velocity, z up
   double slip;            ///< slip that remains, m/s
-  double grip;            ///< share of the impulse after which the ball rolls; above 1 the ball leaves the plane before
+  double grip;            ///< share of the impulse after which the ball rolls; above 1 the ball leaves before it rolls
 };
 
 /// Returns the experiment whose time in s is the normal impulse so far, divided by the mass, in m/s; the impact ends at

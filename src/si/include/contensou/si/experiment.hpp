@@ -132,7 +132,7 @@ Experiment without_spin(Experiment experiment);
 /// omega_x). It is 0 if the terms cancel up to rounding.
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
 
-/// Returns the absolute value of this velocity in m/s.
+/// Returns the slip at the start in m/s, the absolute value of slip_velocity_at_start.
 double slip_at_start(const Experiment& experiment);
 
 /// Returns the spin omega_z at the start in rad/s.

@@ -57,8 +57,8 @@ inline double stop_time(const std::vector<ReducedPiece>& pieces) {
   return pieces.back().tau + pieces.back().orbit.stop_time();
 }
 
-/// Slip in m/s below which a ball that no longer turns about a horizontal axis counts as resting. As long as the ball
-/// spins, it also slides; this sliding moves it by less than 0.1 mm.
+/// Slip in m/s below which a ball that no longer turns about a horizontal axis counts as resting. A ball that still
+/// spins also slides; this sliding moves it by less than 0.1 mm.
 inline constexpr double resting_slip = 1e-4;
 
 /// The whole motion of a ball, or of a body that lies flat, from its start on: equations (2.1) to (2.5) of V. F.
@@ -176,8 +176,8 @@ class Motion {
   /// Returns true if the motion was computed from the reduced system, without time steps.
   bool is_reduced() const;
 
-  /// Returns the orbits of which the motion consists until slip and spin end; without a drive there is one. Empty for a
-  /// motion that is not reduced. With a drive it is also empty for a start without slip and spin.
+  /// Returns the orbits of which the motion consists until slip and spin end; without a drive there is one orbit. Empty
+  /// for a motion that is not reduced, and under a drive also for a start without slip and spin.
   std::vector<ReducedPiece> pieces() const;
 
   /// Returns the ratio v/(eps |omega_z|) at which a spinning body creeps; empty if it does not spin or does not creep.
