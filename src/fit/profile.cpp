@@ -126,7 +126,7 @@ const Profile::Point& Profile::lowest(const Coordinate& number, double at, const
 double Profile::end(const Coordinate& number, double sign, double error, double limit) {
   const double from = number.of(best_), room = sign * (limit - from);
   struct Reach {
-    double distance, height;  ///< distance from the estimate; root of the rise there minus root of the allowed rise
+    double distance, height;  ///< distance from the estimate; sqrt of the rise there minus sqrt of the allowed rise
   };
   Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
   VectorXd last = best_;  // last point inside the interval

@@ -67,7 +67,7 @@ class Profile {
   std::vector<Eigen::VectorXd> starts_at(const Coordinate& number, double at, const Eigen::VectorXd& foretold,
                                          std::size_t most) const;
 
-  /// Returns true if, with the number held, the sum of squares would fall if another number could go beyond its limit.
+  /// Returns true if, with the number held, only a limit of another number keeps the sum of squares from falling.
   bool is_held_by_limit(const Coordinate& number, const Eigen::VectorXd& parameters) const;
 
   /// Returns the best guess whose number is within 1 of `at`, else the nearest guess; null without guesses.

@@ -167,7 +167,7 @@ bool Reporter::needs_profile() const {
 void Reporter::set_only_by_curvature() {
   if (!both_free() || !planned_) return;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information_of_contact(information_));
-  constexpr double least_share = 1e-8;  // smallest eigenvalue that counts, relative to the larger one
+  constexpr double least_share = 1e-8;  // smallest eigenvalue that counts, divided by the larger eigenvalue
   const double strong = solver.eigenvalues()[1], weak = std::max(solver.eigenvalues()[0], least_share * strong);
   double least = infinity;
   for (const Eigen::Vector2d& powers : combinations) {

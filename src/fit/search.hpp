@@ -12,12 +12,12 @@
 
 namespace contensou::fit {
 
-/// Beyond this many standard deviations Huber's loss is linear. With it the fit is 95 % efficient for normal errors.
+/// Beyond this many standard deviations Huber's loss is linear. For normal errors the fit is then 95 % efficient.
 inline constexpr double huber_bend = 1.345;
 /// Largest number of instants of a film that the first fit uses.
 inline constexpr Eigen::Index max_of_first_solution = 5000;
 
-/// A number that is held while all others are fitted: ln(f^a eps^b), or a number of a start. eps is the patch radius.
+/// A number held in a fit of all others: ln(f^a eps^b) of friction f and patch radius eps, or a number of a start.
 struct Coordinate {
   Eigen::Vector2d powers = Eigen::Vector2d::Zero();  ///< the exponents a and b
   Eigen::Index place = -1;                           ///< place of a number of a start among the parameters; else -1

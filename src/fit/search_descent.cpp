@@ -140,7 +140,7 @@ VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double to
   constexpr int most_rounds = 5;
   std::vector<Index> kept;
   for (int i = 0; i < most_rounds; ++i) {
-    // A held combination has its own limits of friction and patch radius: those of its line.
+    // A held combination has its own limits of friction and patch radius: the limits of its line.
     VectorXd limited = model.limited(parameters);
     if (held != nullptr && held->of_contact()) limited.head<2>() = parameters.head<2>();
     std::vector<Index> pushed = pushed_out(limited);

@@ -13,7 +13,7 @@ namespace contensou::fit {
 /// The motion of tracks under a law as a function of parameters, and its derivatives by the parameters.
 ///
 /// A vector of parameters: ln f, ln eps, u_r, and for each track the numbers of its start in the order of Parameter. A
-/// negative slip is a slip in the opposite direction. With rolling friction the slip is >= 0.
+/// negative slip is a slip in the opposite direction. Under rolling friction u_r the slip is >= 0.
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference

@@ -73,7 +73,7 @@ struct Estimate {
 
   bool determined() const { return std::isfinite(standard_error); }
 
-  /// Returns true if one end of the interval is more than twice as far from the value as the other. Then a single
+  /// Returns true if one end of the interval is more than twice as far from the value as the other end. Then a single
   /// standard error does not describe the interval.
   bool skewed() const {
     const double below = value - interval.low, above = interval.high - value;
