@@ -487,7 +487,7 @@ class Integrated final : public Resisted {
           rest_ = stop_ + rolling.rest_time();
           break;
         }
-        // Then the ball slides. At first it slides so slowly that the equation of the slip is stiff.
+        // After the time `rolls` the ball slides. At first it slides so slowly that the equation of the slip is stiff.
         if (rolls > 0 || !now.follows)
           now = {.t = now.t + rolls, .x = progress_of(rolled_on(here, rolls, rolling)), .follows = true};
       }
