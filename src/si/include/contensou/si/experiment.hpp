@@ -114,7 +114,7 @@ std::string origin_of(const PatchSource& patch);
 /// Returns the name of the law of an experiment: the law of the contact if given, else the law of the body's pressure.
 std::string law_of(const Experiment& experiment);
 
-/// Returns the member of an experiment that stores a quantity; null if the value can be given in several ways.
+/// Returns the member of an experiment that stores a quantity; null if there is none, as for all of alternatives().
 double* member_of(Experiment& experiment, const Quantity& quantity);
 
 /// Returns the radius of the contact patch in m, from its source.
