@@ -10,7 +10,7 @@ namespace contensou::portraits {
 /// Usual number of isochrones, the lines of all states with one stop time.
 inline constexpr int usual_isochrones = 7;
 
-/// The times of isochrones, increasing. All are multiples of the step; it is 0 if there is no such step.
+/// The times of isochrones, increasing. All are multiples of `step`; `step` is 0 if there is no such step.
 struct IsochroneTimes {
   std::vector<double> times;
   double step;
@@ -24,8 +24,8 @@ IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int 
 /// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along each, the direction v/u
 /// turns from u > 0 to u < 0.
 ///
-/// Because tau*(c u, c v) = c tau*(u, v), one isochrone is computed as a function of the direction v/u, and the others
-/// are scaled copies. Points are so close that straight lines join them well. Ends lie exactly on the border.
+/// The stop time satisfies tau*(c u, c v) = c tau*(u, v). One isochrone is therefore computed as a function of v/u, and
+/// the others are scaled copies. Straight lines join the points well. Ends lie exactly on the border.
 /// @param logarithmic  true for logarithmic axes; then the window is one of positive u and v
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Window& window, const std::vector<double>& times,
                                   bool logarithmic = false);

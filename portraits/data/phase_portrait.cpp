@@ -28,7 +28,7 @@ using reduction::State;
 
 namespace {
 
-/// Returns U and V of the default window.
+/// Returns the default window |u| <= U, 0 <= v <= V as the state (U, V).
 /// @param shown  states that the window must contain
 State default_sides(const ReducedSystem& system, View view, const std::vector<State>& shown) {
   State far{0, 0};
@@ -42,14 +42,14 @@ State default_sides(const ReducedSystem& system, View view, const std::vector<St
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
-  // On the two borders, sliding and pivoting take the same time, so that neither is squeezed against an axis. The
-  // window does not reach above a large k, because balls there slide as if they did not spin.
+  // On the upper and the right border, sliding and pivoting take the same time: neither is squeezed against an axis.
+  // The window does not reach above a large k, because balls there slide as if they did not spin.
   constexpr double large = 20;
   const double sliding = system.sliding_limit(1) / (1 - system.drive());
   return {1, round_down(std::min(system.pivoting_limit(1) / sliding, large * system.mu()))};
 }
 
-/// Returns two flags: the axis of v may be bent; a linear axis would show a comb of vertical lines.
+/// Returns two flags: true if the axis of v may be bent; true if a linear axis would show a comb of vertical lines.
 std::pair<bool, bool> bends(const reduction::PhasePlane& plane) {
   constexpr double comb = 12;
   const auto& [direction, k, order] = plane.tangents.front();
@@ -88,7 +88,7 @@ double last_along(Holds holds, double from, double step) {
   return reduction::last_where(holds, from, from + step);
 }
 
-/// Returns true if a curve begins at xi or later. With a drive orbits come from v = 0, not from infinity.
+/// Returns true if a curve begins at xi or later. Under a drive orbits come from v = 0, not from infinity.
 bool begins(const reduction::SimilarityCurve& curve, const ReducedSystem& system, double xi) {
   return system.drive() > 0 && curve.chart().log_far_ratio() == -infinity &&
          curve.chart().log_ratio(xi) < reduction::least_log_ratio(system.law(), system.r(), system.drive());
@@ -147,7 +147,7 @@ class OrbitTracer {
 
   double ln_k(const Seed& at) const { return at.ln_v - std::log(system_.mu() * at.u); }
 
-  /// Returns ln w of the similarity curve itself. The orbit is a scaled copy of this curve.
+  /// Returns ln w, w = mu |u|, of the similarity curve itself. The orbit is a scaled copy of this curve.
   double ln_w(double ln_k) const {
     const reduction::SimilarityCurve& curve = *flow_.solution().through(ln_k);
     return curve.ln_w(curve.chart().coordinate(ln_k));
@@ -158,8 +158,8 @@ class OrbitTracer {
     struct Step {
       double place, across;
     };
-    // Places from 0 to 1 lie on the upper border, from 1 to 2 on the right border, downwards. With a drive the lower
-    // border is no orbit, and orbits also begin there, at places from 2 to 3.
+    // Places from 0 to 1 lie on the upper border, from 1 to 2 on the right border, downwards. Under a drive the lower
+    // border is no orbit. Orbits then also begin there, at places from 2 to 3.
     const auto on_border = [this](double place) {
       if (place < 1) return Seed{place * U_, std::log(V_)};
       return place < 2 ? Seed{U_, scale_.ln_v(2 - place)} : Seed{(3 - place) * U_, -infinity};
@@ -259,7 +259,7 @@ class OrbitTracer {
   }
 
   double on_window(const Instant& a, const Instant& b) const {
-    // Far outside the window only ratios matter.
+    // Distances far outside the window do not count; only ratios matter there.
     const auto change = [](double x, double y) {
       return std::abs(std::clamp(x, -2.0, 2.0) - std::clamp(y, -2.0, 2.0));
     };
@@ -343,7 +343,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
   if (!request.drawn_only || shows_window(view)) {
     portrait.isochrones = isochrones(flow, window, times.times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
-    constexpr double most = 4;  // a part of a window has at most this factor more orbits
+    constexpr double most = 4;  // largest factor by which a part of a window has more orbits
     const double denser = std::clamp(window.u() / window.sides()[0], 1.0, most);
     portrait.orbits =
         tracer.orbits(request.orbits.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));
@@ -364,7 +364,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
 
 /// Returns the stop times of the isochrones of each plane: the requested times, else multiples of a round time up to
 /// the last time. Without a requested number, the steps are the roundest. If the last times of compared planes differ
-/// much, all times are from one series 1, 2, 5, 10, and each plane has a number of them below its own last time.
+/// much, all times are from one series 1, 2, 5, 10, and each plane has a fixed number of these below its last time.
 /// @param lasts  last stop times of the planes
 std::vector<IsochroneTimes> round_times(const std::vector<double>& lasts, const PortraitRequest& request) {
   constexpr double near = 0.95, alike = 3, of_decade = 3;

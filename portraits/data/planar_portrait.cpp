@@ -39,7 +39,7 @@ struct Course {
 };
 
 Course course_of(const PlanarSector& sector) {
-  // A ray is distinguished from smaller angles than a border, which is accurate to some digits only.
+  // Directions come nearer to a ray than to a border, because a border is accurate to some digits only.
   const auto nearest = [](bool ray) { return ray ? 25.0 : 12.0; };
   const auto q = [=, length = sector.to - sector.from](double x) {
     return x < 0 ? sector.from + length / (1 + std::exp(-x)) : sector.to - length / (1 + std::exp(x));
@@ -95,7 +95,7 @@ class PlanarTracer {
     if (plane.turn() != nullptr) read_turn();
   }
 
-  /// Returns the orbit through a point, or from the point on, as the parts that lie in the window.
+  /// Returns the parts in the window of the orbit through a point, or of its part after the point.
   std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
     if (plane_.scaling() && x == plane_.centre()) return {};
     return parts_of(plane_.scaling() ? line(x, from_here) : motion(x, from_here), window_,
@@ -152,7 +152,7 @@ class PlanarTracer {
     return result;
   }
 
-  /// Returns the orbits that leave the saddles and those that enter them, from points just beside the saddles.
+  /// Returns the orbits that leave or enter the saddles, from points just beside the saddles.
   std::vector<PortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
     std::vector<PortraitOrbit> all;
     for (const reduction::Equilibrium& saddle : equilibria) {
@@ -212,7 +212,7 @@ class PlanarTracer {
   double level(double q) const { return -plane_.first_integral(plane_.point(q, 0)); }
 
   void read_turn() {
-    constexpr double margin = 1e-9;  // L jumps by the change of a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // level() jumps by its change in a turn between 2 pi and 0
     growth_ = level(2 * pi - margin) - level(margin);
     const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
     sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
@@ -250,7 +250,7 @@ class PlanarTracer {
 
   bool seen(double p) const { return p > lowest_ && p < highest_; }
 
-  /// Returns R of a ray. Its sign is the direction of the motion on the ray.
+  /// Returns the rate of the distance from the centre on a ray, or its sign alone; negative towards the centre.
   double radial_at(double q) const {
     for (const auto& ray : plane_.rays()) {
       if (std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9) return ray.radial;
@@ -276,7 +276,7 @@ class PlanarTracer {
     PlanarReduction plane, by_steps;
   };
 
-  /// Returns the orbit through a point, or from the point on, by steps in time.
+  /// Returns the whole orbit through a point, or its part after the point, by steps in time.
   Polyline motion(const Vector2d& x, bool from_here) const {
     Polyline line;
     if (!from_here) line = follow(ways_[1], x);
@@ -349,7 +349,7 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
-/// Follows a motion until it leaves the window, and for some window sides farther, because it may return.
+/// Follows a motion until it is some window sides beyond the window, because it may return from there.
 Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   const auto& [plane, by_steps] = way;
   const Vector2d f = plane.field()(x);
@@ -415,8 +415,8 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   return line;
 }
 
-/// Returns orbits that fill the window. Each goes through the middle of the widest gap. If its mirror images have as
-/// much room, they are added, too, because most systems have such a symmetry.
+/// Returns orbits that fill the window. Each goes through the middle of the widest gap. If the mirror images of an
+/// orbit have as much room, they are added, too, because most systems have such a symmetry.
 std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
   const Panel panel = panel_of(window);
@@ -467,7 +467,7 @@ Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
-/// Returns the requested window or the default one, and checks the request.
+/// Returns the requested window or the default window, and checks the request.
 Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
   if (request.view || request.comparison || request.stepped || request.linear || request.drawn_only ||
       request.time_unit != 1) {

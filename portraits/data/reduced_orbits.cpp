@@ -21,7 +21,7 @@ namespace {
       "another start is needed");
 }
 
-/// Returns orbits of (2.6). The code uses ln v, which is finite even if v, and the angle, are too small for a double.
+/// Returns orbits of (2.6). The code uses ln v, which is finite even if v or the angle is too small for a double.
 ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start) {
   const double ln_u = std::log(std::abs(start[0])), ln_v = std::log(std::abs(start[1]));
   const double ln_mu = std::log(flow.system().mu()), ln_k = ln_v - ln_mu - ln_u;
@@ -88,7 +88,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
   if (plane.rays().empty()) {
     // In a focus the turns are copies of one another.
     constexpr int pieces = 400;
-    constexpr double margin = 1e-9;  // L jumps by the change of a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // level() jumps by its change in a turn between 2 pi and 0
     for (int i = 0; i <= pieces; ++i) angles.push_back(margin + (2 * pi - 2 * margin) * i / pieces);
     if (q < 0) from.start.x += 2 * pi;
     const Polyline turn = line(angles, integral);

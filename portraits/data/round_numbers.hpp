@@ -13,8 +13,8 @@ double round_down(double x);
 /// Returns a round step that divides a range into about the given number of pieces (0.6 to 1.5 times this number).
 double round_step(double range, double pieces);
 
-/// Returns a step that is one of the digits times a power of ten. Of all such steps, the number of its multiples
-/// between 0 and x is nearest to count. Among equally near steps the one with the earliest digit wins.
+/// Returns a step that is one of the digits times a power of ten. The number of its multiples between 0 and x is as
+/// near to count as possible. If several steps are equally near, the earliest digit wins.
 /// @param x      > 0
 /// @param count  > 0
 double step_for(double x, int count, std::initializer_list<double> digits);
@@ -31,7 +31,7 @@ std::vector<double> round_ratios(double low, double high, double few_decades);
 /// @param digits  most digits shown; up to 5 without and 3 with a power of ten
 Text number(double value, int digits = 5);
 
-/// Returns powers of ten in one notation: without exponents if number() writes each of them so.
+/// Returns powers of ten in one notation: without exponents if number() writes all of them without exponents.
 std::vector<Text> powers_of_ten(const std::vector<double>& values);
 
 }  // namespace contensou::portraits

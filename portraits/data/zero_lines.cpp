@@ -37,7 +37,7 @@ std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, Vector
 }
 
 /// Returns the place between two neighbours at which a function touches 0 without a change of its sign, as v^2 does;
-/// none where it stays away from 0.
+/// empty if the function stays away from 0.
 /// @param values  at four points in one line; the middle two are the neighbours
 std::optional<Vector2d> touch_between(const reduction::FactorPiece& piece, Vector2d from, Vector2d to,
                                       const std::array<double, 4>& values) {
@@ -70,7 +70,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     for (int i = 0; i <= columns; ++i) values.push_back(piece.value(corner(i, j)));
   }
   const auto value = [&](int i, int j) -> double& { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
-  // On a border at which V is 0, rounding decides the sign. There V gets the sign opposite to that inside.
+  // On a border at which the function is 0, rounding decides the sign. The value gets the sign opposite to that inside.
   constexpr double rounding = 1e-12;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
@@ -109,7 +109,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
            {Side{{i, j}, false}, Side{{i + 1, j}, true}, Side{{i, j + 1}, false}, Side{{i, j}, true}}) {
         if (crossings.contains(side)) crossed.push_back(side);
       }
-      // Sides are ordered counter-clockwise. Of four crossings, opposite ones lie on one curve.
+      // Sides are ordered counter-clockwise. If four sides are crossed, opposite crossings lie on one curve.
       const std::size_t lines = crossed.size() / 2;
       for (std::size_t k = 0; k < lines; ++k) {
         crossings[crossed[k]].joined.push_back(crossed[k + lines]);
@@ -129,12 +129,12 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
       std::erase(crossings[next].joined, side);
       side = next;
     }
-    // Rounding produces dots on curves on which V touches 0 without a change of sign. Such short lines are left out.
+    // Rounding produces dots where the function touches 0 without a change of sign. Such short lines are left out.
     const double length = std::abs(line.front().x - line[line.size() / 2].x) / sides[0] +
                           std::abs(line.front().y - line[line.size() / 2].y) / sides[1];
     if (length * across > 1) lines.push_back(std::move(line));
   };
-  // First the lines that have ends; then closed curves, from any point.
+  // Follow first the lines that have ends, then closed curves from any of their points.
   for (const std::size_t ways : {std::size_t{1}, std::size_t{2}}) {
     for (auto& [side, crossing] : crossings) {
       if (crossing.joined.size() == ways) follow(side);

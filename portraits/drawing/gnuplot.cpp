@@ -49,7 +49,7 @@ constexpr std::array formats{
 /// Seconds that gnuplot may take. A film takes 10 s, and on a busy machine ten times as long.
 constexpr unsigned time_limit = 300;
 
-/// A terminal of gnuplot and its sizes for a length of 1, in its own unit: points for PDF and EPS, else pixels.
+/// A terminal of gnuplot, and lengths in the unit of the terminal: points for PDF and EPS, else pixels.
 struct Terminal {
   std::string_view name, font;
   double units_per_mm;
@@ -58,7 +58,7 @@ struct Terminal {
 };
 
 /// Returns the terminal of a format. Cairo's terminals take letter sizes for 96 dpi. Without a fontscale, PDF and EPS
-/// halve letters. Both halve line widths, EPS twice.
+/// halve letters. PDF halves line widths, and EPS halves them twice.
 Terminal terminal_of(PictureFormat format, double dpi) {
   constexpr double points = 72 / 25.4;
   switch (format) {

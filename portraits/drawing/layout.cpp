@@ -25,7 +25,7 @@ double value(const Axis& axis, double fraction) {
   return axis.low + fraction * (axis.high - axis.low);
 }
 
-/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; returns false if none.
+/// Finds the part [from, to] of the way from a to b in the unit square, by Liang and Barsky; false if there is none.
 bool clip(Point a, Point b, double& from, double& to) {
   from = 0;
   to = 1;
@@ -44,7 +44,7 @@ bool clip(Point a, Point b, double& from, double& to) {
   return from < to || (from == to && a.x == b.x && a.y == b.y);
 }
 
-/// Returns the distance of two places on paper. std::hypot is slower, because it avoids an overflow, impossible here.
+/// Returns the distance of two places on paper. std::hypot is slower: it avoids overflow, which cannot occur here.
 double distance(Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   return std::sqrt(dx * dx + dy * dy);
@@ -83,7 +83,7 @@ std::vector<Polyline> clipped(const Panel& panel, const Polyline& line) {
       open = false;
       continue;
     }
-    // Keep the ends of the line exactly; compute the others on the border.
+    // Keep the ends of the line exactly; compute the other ends, which lie on the border.
     const auto at = [&](double t) { return from_paper(panel, between(a, b, t)); };
     if (!open) parts.push_back({from == 0 ? line[i - 1] : at(from)});
     parts.back().push_back(to == 1 ? line[i] : at(to));

@@ -143,11 +143,11 @@ class Writer {
         axis.logarithmic ? fmt::format("{}mode=log,", which) : "", fmt::join(places, ","), fmt::join(texts, ","));
   }
 
-  /// The coordinates of an axis, in a unit that TeX's fixed point can represent. On logarithmic axes: exponents.
+  /// The coordinates of an axis, in a unit that TeX's fixed point can represent; on logarithmic axes, exponents.
   struct Coordinates {
     Axis axis;
-    double origin = 0, unit = 1;  ///< origin and unit of the axis, in data
-    double mm, start;             ///< mm of a unit on the page; place of 0
+    double origin = 0, unit = 1;  ///< origin and unit of the coordinates, in data
+    double mm, start;             ///< length of a unit on the page, mm; place of the coordinate 0, mm
     int digits;                   ///< digits behind the point, for hundredths of mm
 
     Coordinates(const Axis& of, double from_mm, double side_mm) : axis(of) {

@@ -17,7 +17,7 @@ struct ProgramRun {
   bool succeeded() const { return end == End::exited && number == 0; }
 };
 
-/// Runs a program found on PATH, in the locale C.UTF-8. It ends if this program ends. No shell or disk is used.
+/// Runs a program found on PATH, in the locale C.UTF-8. The program ends if its caller ends. No shell or disk is used.
 /// @param command  name and arguments
 /// @param input    standard input of the program
 /// @param seconds  time limit

@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// A polar map of the half-plane to a half-disc or half-annulus: rho = hypot(mu u, v), theta = atan(k), outer radius 1.
+/// A polar map of the half-plane to a half-disc or half-annulus of radius 1: rho = hypot(mu u, v), theta = atan(k).
 struct PolarMap {
   double unit;  ///< unit of rho, a speed
   double hole;  ///< radius of the half-circle to which the origin is blown up

@@ -12,11 +12,11 @@ namespace contensou::portraits {
 
 namespace {
 
-/// Compares rooms. Of equal rooms the first wins, independent of rounding, because portraits have two equal halves.
+/// Compares rooms. If two are equal up to rounding, the first wins, because portraits have two equal halves.
 bool is_more(double room, double than) { return room > than * (1 + 1e-9); }
 
-/// The place with most room for a label of a given size. Room is the distance, in half widths or half heights of the
-/// label, from the points that the label avoids. Other labels only need to be far enough away.
+/// The place with most room for a label of a given size. Room is the distance from the points that the label avoids, in
+/// half widths or half heights of the label. Other labels only need to be far enough away.
 class LabelPlace {
  public:
   LabelPlace(double half_width, double half_height) : half_width_(half_width), half_height_(half_height) {}
@@ -90,7 +90,7 @@ void PanelLayers::add_isochrones(double middle) {
   for (auto piece = pieces.begin(); piece != pieces.end();) {
     const double time = piece->tau_stop;
     const Text text = number(time / look_.caption.time_unit);
-    // First choice: on the right, so that numbers stand above one another. Then anywhere. Last: on top of a line.
+    // Labels stand on the right if there is room, so that numbers stand above one another; else anywhere, or on a line.
     LabelPlace right(look_.letter * (0.45 * text_width(text) + 0.15) / look_.panel_mm.x,
                      look_.letter * 0.7 / look_.panel_mm.y);
     LabelPlace anywhere = right;

@@ -68,7 +68,7 @@ class PanelLayers {
     keep_off_ = keep_off;
   }
 
-  /// Adds orbits in the colours of their times. Orbits of infinite time are plain; if `coloured` is false, all are.
+  /// Adds orbits in the colours of their times. Orbits of infinite time are plain; without `coloured`, all are plain.
   /// @param legend  legend of the orbits if all are plain
   /// @return  true if an orbit has colours
   bool add_orbits(std::vector<TimedLine> orbits, bool coloured, const Text& legend);

@@ -15,7 +15,7 @@ namespace {
 
 using Copies = std::vector<OrbitCopy>;
 
-/// Returns ticks of v: round speeds in the linear part, powers of ten below.
+/// Returns ticks of v: round speeds in the linear part, powers of ten below this part.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // below this height the axis is not linear
@@ -35,7 +35,7 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   return ticks;
 }
 
-/// Returns a half-plane panel. Its sides are those of the window, in units of u and v.
+/// Returns a half-plane panel. Its sides are the sides of the window, in units of u and v.
 MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   Panel panel;
   const Window& window = drawing.portrait.window;
@@ -80,7 +80,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
   return std::move(layers).finished();
 }
 
-/// Adds copies of a curve. At the given ln k they pass evenly spaced values of u, of both signs.
+/// Adds copies of a curve. At the given ln k the copies have evenly spaced values of u, of both signs.
 void add_evenly(Copies& copies, const PortraitOrbit& curve, double ln_k, double max_u, int count) {
   const double u = at_log_ratio(curve, ln_k).u;
   for (int i = 0; i < count; ++i) {
@@ -103,7 +103,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   panel.x = {drawing.speed(math("u = R ω") + sub(math("z"))), right_half ? 0 : -U, U, false, {}};
   panel.y = {"ln " + math("k") + ",   " + math("k = v/(μ|u|)"), 0, 0, false, {}};
   const bool pivoting = rays.empty() && direction == InvariantDirection::pivoting;
-  // Orbits start at the top if they touch v = 0, else around the middle.
+  // Orbits start at the top if they touch v = 0 at the origin, else around the middle.
   const double top = std::log(portrait.window.v() / (portrait.system().mu() * U));
   const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
@@ -134,7 +134,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
     }
     return result;
   };
-  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // -infinity is drawn here, below the border
+  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // place of -infinity, below the border
   const PanelMap map{.place =
                          [low](const Instant& at, const Instant&) {
                            return Point{at.u, std::clamp(at.ln_k, low, 1e300)};

@@ -34,13 +34,13 @@ Instant instant_at_logarithms(double mu, double ln_k, double ln_v);
 /// Returns the legend of a portrait's orbits, used if two laws are compared.
 Text law_legend(const PhasePortrait& portrait);
 
-/// Copies of one curve fill a panel. From its beginning to k = 1 its larger speed falls by e to this power.
+/// Copies of one curve fill a panel. The curve's larger speed falls by e to this power from its beginning to k = 1.
 inline constexpr double upstream_of_copies = 14;
 
 /// Returns ln k of the invariant rays, increasing.
 std::vector<double> ray_log_ratios(const PhasePortrait& portrait);
 
-/// Returns the interpolated state of an orbit at a ln k; if it is not reached, the last state before the stop.
+/// Returns the interpolated state of an orbit at a ln k; the last state before the stop if the orbit does not reach it.
 Instant at_log_ratio(const PortraitOrbit& curve, double ln_k);
 
 /// A panel and its map between states and points.
@@ -54,7 +54,7 @@ class PortraitPanel : public PanelLayers {
  public:
   PortraitPanel(const Drawing& drawing, Panel axes, PanelMap map)
       : PanelLayers(drawing, std::move(axes), std::move(map)), drawing_(drawing) {
-    // On a bent axis of v, sliding takes place above the bend, and takes hardly any time.
+    // On a bent axis of v, sliding lies above the bend and takes hardly any time, so orbits get an early arrow.
     early_arrows_ = !drawing.portrait.scale.linear();
     asked_first_ = true;
   }
@@ -62,8 +62,8 @@ class PortraitPanel : public PanelLayers {
   /// Adds the orbits of the portrait, and the orbits of the compared law.
   void add_orbits();
 
-  /// Adds orbits beyond the window. Without invariant rays they are copies of one orbit. With rays they are computed
-  /// one by one, each through the middle of the widest gap, until they fill the panel.
+  /// Adds orbits beyond the window. Without invariant rays the orbits are copies of one orbit. If there are rays,
+  /// orbits are computed one by one, each through the middle of the widest gap, until they fill the panel.
   ///
   /// @param copies    returns copies of a curve that passes k = 1 at v = 1
   /// @param mirrored  true if the left half of the panel is the mirror image of the right half

@@ -24,14 +24,14 @@ std::vector<MappedPanel> time_view(const Drawing& drawing);
 std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
 
-/// Calls `add` for each motion of a view of motions: from start_ratios for each law, and the requested ones.
+/// Calls `add` for each motion of a view of motions: motions from start_ratios for each law, and requested motions.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
                                                                   Stroke stroke, const Text& legend)>& add);
 
 /// Returns five ratios k, half a decade apart, about the k at which pure sliding and pure pivoting take the same time.
 std::vector<double> start_ratios(const PhasePortrait& portrait);
 
-/// Returns the panel of (u, ln k). It shows how orbits enter the origin, even with a contact of order 10^5.
+/// Returns the panel of (u, ln k). It shows how orbits enter the origin, even if they touch an axis to the order 10^5.
 MappedPanel contact_panel(const Drawing& drawing, bool right_half);
 
 /// A view with its name for users and its layout on a page.
@@ -50,7 +50,7 @@ struct ViewLayout {
   bool shows_driven = false;  ///< true if driven_shows replaces `shows` with a drive
 };
 
-/// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V, with V of the window.
+/// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V, where V is the height of the window.
 inline double scaled_stop_time(const PhasePortrait& portrait, double x, double y) {
   const double V = portrait.window.v();
   return portrait.flow.orbit({std::exp(x) * V / portrait.system().mu(), std::exp(y) * V}).stop_time();

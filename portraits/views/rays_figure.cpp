@@ -35,7 +35,7 @@ struct Drawn {
   Text legend;
 };
 
-/// Returns the r for which this k is a ray: (Phi - rho)/(k Psi).
+/// Returns the r for which this k is an invariant ray: (Phi - rho)/(k Psi) for force Phi, moment Psi and drive rho.
 double force_over_moment(const reduction::Law& law, double k, double drive) {
   const auto [force, moment] = law(reduction::slip_of_ratio(k));
   return (force - drive) / (k * moment);
@@ -53,7 +53,7 @@ Panel panel_over_k(const Text& title) {
   return panel;
 }
 
-/// Draws k* against r: attracting rays solid, repelling ones dashed.
+/// Draws k* against r: attracting rays solid, repelling rays dashed.
 Panel rays(const reduction::Law& law, double low, double high, std::optional<double> marked, double drive) {
   std::vector<Point> points;
   if (drive > 0) points.push_back({0, k_without_moment(law, drive)});
@@ -91,7 +91,7 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   for (Lines* lines : {&attracting, &repelling}) {
     if (!lines->lines.empty()) panel.lines.push_back(std::move(*lines));
   }
-  // Labels stand away from the curve, which begins at r_low for k = 0 and tends to r_high at infinity.
+  // Labels stand away from the curve. The curve begins at r_low for k = 0 and tends to r_high for k -> infinity.
   panel.labels = {{{high, 1.6 / ends}, math("r") + sub("high"), guide_colour}};
   if (drive == 0) panel.labels.push_back({{low, ends / 1.6}, math("r") + sub("low"), guide_colour});
   if (marked) panel.lines.push_back({{{{*marked, 1 / ends}, {*marked, ends}}}, {marked_colour, 1.6, true, true}, ""});
@@ -134,7 +134,7 @@ Panel coefficients(const reduction::Law& law, const std::vector<Drawn>& all, dou
         const double k = ratio_at(i);
         if (flow.solution().through(std::log(k)) != curve) continue;
         line.push_back({k, curve->sliding_coefficient(curve->chart().coordinate(std::log(k)))});
-        // With a drive m is singular for k -> 0.
+        // Under a drive m is singular for k -> 0.
         if (drive == 0 || k >= 1) panel.y.high = std::max(panel.y.high, 1.1 * line.back().y);
       }
       lines.lines.push_back(std::move(line));

@@ -19,7 +19,7 @@ using std::numbers::ln2, std::numbers::pi;
 namespace {
 
 constexpr double strip_below = 4.5, strip_above = 3.2;  // range of p below and above the start, in the strip
-constexpr double plane_widths = 2.2;                    // size of the window of the plane divided by that of the start
+constexpr double plane_widths = 2.2;                    // size of the window of the plane divided by the start
 
 Colour colour_of_copy(double shift) { return viridis(0.425 * (1 + shift / copy_shifts.back())); }
 
@@ -27,8 +27,8 @@ Text legend_of_copies() { return "its copies under " + math("X") + ", ln 2 apart
 
 constexpr const char* legend_of_orbit = "orbit of the start";
 
-/// Draws copies divided by their starts, as beads on one line. Later and earlier starts of the same orbit give other
-/// lines, because the symmetry does not map these starts onto each other.
+/// Draws copies divided by their starts, as beads on one line. Copies divided by a later or earlier state of the same
+/// orbit give other lines, because the symmetry does not map these states onto the start.
 Panel collapse(const ReducedOrbits& from) {
   Panel panel;
   panel.title = "copies divided by their starts: one line";

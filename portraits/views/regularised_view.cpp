@@ -47,8 +47,8 @@ double spin_left(const Instant& at, const Instant& start) { return at.u / start.
 double log_slip_left(const Instant& at, const Instant& start) { return at.ln_v - start.ln_v; }
 double time_passed(const Instant& at, const Instant& start) { return 1 - at.tau_left / start.tau_left; }
 
-/// A motion sampled at equal ratios of 1 + beta/beta_1, from 1 to a limit. The rows of a PortraitOrbit suit the plane;
-/// for a small patch they leave out decades of beta.
+/// A motion sampled at equal ratios of 1 + beta/beta_1, from 1 to a limit. Rows of a PortraitOrbit suit the plane, but
+/// for a small patch these rows leave out decades of beta.
 struct BetaCourse {
   std::vector<double> places;
   std::vector<Instant> instants;
@@ -75,7 +75,7 @@ BetaCourse beta_course(const reduction::Flow& flow, reduction::State start, doub
 
 std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
-  // At the limit both speeds have long been powers of beta, even if one is much smaller at the start.
+  // At the limit both speeds have long been powers of beta, even if one speed is much smaller at the start.
   const reduction::ReducedSystem& system = portrait.system();
   const std::vector<double> ratios = start_ratios(portrait);
   const double slow = std::max(rate_at(system, 1, ratios.back()) / rate_at(system, 1, 0),

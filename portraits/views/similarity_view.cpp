@@ -10,7 +10,7 @@ namespace contensou::portraits {
 namespace {
 
 constexpr double half_height = 5;  // half height of the panels, in p
-constexpr double step = 0.8;       // distance of translates in p; larger if p changes while k hardly does
+constexpr double step = 0.8;       // distance of translates in p; larger if p changes at nearly constant k
 constexpr int max_count = 24;      // largest number of translates of a curve
 
 /// Draws one panel: translates of each curve, with the arrow of the symmetry.
@@ -30,7 +30,7 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
   PortraitPanel layers(drawing, std::move(axes), map);
   const auto copies = [&](const PortraitOrbit& curve) {
     const Instant at = at_log_ratio(curve, 0);
-    // The first translate touches the lower border, the last one the upper border. Rows next to an axis are left out,
+    // The first translate touches the lower border, the last one the upper border. Rows next to an axis do not count,
     // because no number of translates would reach them.
     const Axis& x = layers.panel().x;
     const double margin = 0.02 * (x.high - x.low);

@@ -57,7 +57,7 @@ Lines ray(const StopTimeMap& map) {
   Lines ray{{}, {ray_colour, 1.4, true}, math("k = 1")};
   const double bottom = std::max(v0[0], 0.0), top = v0[v0.size() - 1];
   for (double side : {1.0, -1.0}) {
-    // The part of the line v = mu |u| on this side of u = 0 and inside the map.
+    // Add the part of the line v = mu |u| on this side of u = 0 and inside the map.
     const double near = std::max(side > 0 ? u0[0] : -u0[u0.size() - 1], 0.0);
     const double far = side > 0 ? u0[u0.size() - 1] : -u0[0];
     const double from = std::max(near, bottom / map.mu), to = std::min(far, top / map.mu);

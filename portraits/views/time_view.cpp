@@ -21,7 +21,7 @@ PanelMap over_time(double (*quantity)(const Instant& at, const Instant& start)) 
   }};
 }
 
-/// Returns ln k within limits, because at rest ln k is only the limit of the last rows of an orbit.
+/// Returns ln k within limits; NaN at rest, because ln k there is only the limit of the last rows of an orbit.
 double clamped_ln_k(const Instant& at, const Instant&) {
   constexpr double lowest = -60;
   return at.tau_left == 0 ? std::numeric_limits<double>::quiet_NaN() : std::clamp(at.ln_k, lowest, -lowest);

@@ -36,7 +36,7 @@ void FilmOrbit::reach(double T) {
     turns_->reach(last);
     const auto state_at = [&](double at) { return with_centre(turns_->speeds_at(at), at_, at); };
     const auto rolling_at = [&](double at) { return state_at(at).centre - state_at(at).v; };
-    // Rolling grows, then falls. At rests_ it is minus the slip.
+    // The rolling grows, then falls. At the time rests_ the centre is at rest, and the rolling is minus the slip.
     constexpr double first = 1e-9;
     if (at_[drive] > 0 && rolling_at(last) < -1e-13 * (at_[slip] + at_[rolling])) {
       const double from = at_[rolling] > 0 ? 0 : first * last;
@@ -85,7 +85,7 @@ FilmOrbit::Number FilmOrbit::smaller_speed() const {
 }
 
 std::array<double, 2> FilmOrbit::steps(Number number) const {
-  constexpr double small = 1e-4, least = 1e-3;  // relative steps; truncation and rounding are both 1e-8
+  constexpr double small = 1e-4, least = 1e-3;  // relative steps; errors by truncation and by rounding are both 1e-8
   const double mu = std::exp(at_[ln_mu]), v = std::abs(at_[slip]), w = mu * std::abs(at_[spin]);
   double size = number == drive ? std::max(at_[drive], least) : 1;
   if (number == slip) size = std::max(v, least * w);

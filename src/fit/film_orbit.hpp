@@ -9,18 +9,18 @@
 
 namespace contensou::fit {
 
-/// The orbit of a body in a film, together with the velocity V of its centre along the slip, and all derivatives.
+/// The orbit of a body in a film, the velocity V of its centre along the slip v, and all derivatives. T is f g t.
 ///
-///   V = v0 + W0 - (v0 - v)/chi - rho T, with the rolling W0 at the start.
+///   V = v0 + W0 - (v0 - v)/chi - rho T, with the slip v0 and the rolling W0 at the start.
 /// For a ball without rolling friction the orbit contains only the change of V by the slip, -(v0 - v)/chi.
-/// While a ball with rolling friction turns about a horizontal axis, it has the drive rho = u_r/f (reduction/README.md,
-/// (R53)), and V - v is its rolling. When the rolling has come to 0, rolling resistance holds the ball: it slides like
-/// a puck, with chi = 1 and without a drive. When slip and spin have ended, it rolls on, slower and slower, and comes
-/// to rest.
+/// A ball with rolling friction u_r that turns about a horizontal axis has the drive rho = u_r/f (reduction/README.md,
+/// (R53)); its rolling is V - v. After the rolling has come to 0, rolling resistance holds the ball: it slides like a
+/// puck, with chi = 1 and without a drive. After slip and spin have ended, the ball rolls on, slower and slower, and
+/// comes to rest.
 ///
 /// Parabolas through orbits with neighbouring numbers give derivatives to 1e-8: by ln mu, by the drive, by the smaller
-/// speed of the start and, if the ball becomes held, by its rolling. The derivative by the larger speed follows from
-/// the symmetry, which scales all speeds of the start.
+/// of slip and rim speed at the start and, if resistance comes to hold the ball, by the rolling. The derivative by the
+/// larger of the two speeds follows from the symmetry, which scales all speeds of the start.
 class FilmOrbit {
  public:
   /// The numbers of an orbit; drive and rolling exist only with rolling friction.
@@ -29,7 +29,7 @@ class FilmOrbit {
 
   static constexpr double standard_accuracy = 1e-10;
 
-  /// @param at  numbers; the slip has either sign, and -v has the mirror image of the orbit of v. For a resisted body
+  /// @param at  numbers; the slip may be < 0: the orbit of -v mirrors the orbit of v. For a resisted body
   ///            slip, rolling and drive are >= 0
   /// @param accuracy  as for OrbitCells
   FilmOrbit(const reduction::Law& law, reduction::Inertia inertia, Kind kind, const Numbers& at,
@@ -49,8 +49,8 @@ class FilmOrbit {
 
  private:
   Speeds mirrored(const Speeds& speeds) const;
-  /// Returns the speeds with the speed of the centre added. It is linear in speeds and numbers, so derivatives may be
-  /// passed.
+  /// Returns the speeds with the speed of the centre added. The function is linear in speeds and numbers. Both may
+  /// therefore be derivatives.
   Speeds with_centre(Speeds speeds, const Numbers& at, double T) const;
   bool depends_on(Number number) const { return kind_ == Kind::resisted || (number != drive && number != rolling); }
   bool is_held(double T) const { return held_ && T >= held_from_; }
@@ -59,7 +59,7 @@ class FilmOrbit {
   Number smaller_speed() const;
   Number larger_speed() const { return smaller_speed() == slip ? spin : slip; }
 
-  /// Orbits with one number changed. With this orbit they define a parabola, whose derivative is taken at this orbit.
+  /// Two orbits with one number changed. They and this orbit define a parabola, which gives the derivative here.
   struct Beside {
     std::vector<FilmOrbit> orbits;
     double of_here, of_first, of_second;
@@ -72,7 +72,7 @@ class FilmOrbit {
   Kind kind_;
   Numbers at_;
   double accuracy_;
-  double rests_;  ///< T at which slip and spin have ended, if they have
+  double rests_;  ///< T at which the centre comes to rest if the slip has ended before; infinite without a drive
   double reached_ = 0;
   std::optional<OrbitCells> turns_, held_;
   double held_from_ = 0;

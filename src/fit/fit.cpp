@@ -21,8 +21,8 @@ namespace {
 
 bool of_all_tracks(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
 
-/// Reverses a negative slip, which is the same as an opposite direction. If no datum shows the sense of the spin, the
-/// spin gets the sense of the ball's spin.
+/// Replaces a negative slip by a positive one in the opposite direction, if no series shows the slip. If no series
+/// shows the sense of the spin, the spin gets the sense of the ball's spin.
 VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
   for (std::size_t i = 0; i < request.tracks.size(); ++i) {
     const auto sees = [&](Observable observable) { return series_of(request.tracks[i], observable) != nullptr; };
@@ -52,8 +52,8 @@ void require(const FitRequest& request) {
   for (const Track& track : request.tracks) require(track);
 }
 
-/// Throws if friction or patch radius of the ball is outside the limits of the model. Starts of a search may be
-/// outside: only values that are not free, or that a plan uses, are tested.
+/// Throws if friction or patch radius of the ball is outside the limits of the model. Only values that are not free, or
+/// that a plan uses, are tested: a search may start from values outside the limits.
 void require_limits(const Search& search, bool planned) {
   const si::Contact& contact = search.request.ball.contact;
   const Free& free = search.request.free;

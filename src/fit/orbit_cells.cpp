@@ -15,10 +15,10 @@ namespace contensou::fit {
 
 namespace {
 
-constexpr double near_axis = 1e-12;  ///< smallest k or 1/k; a start nearer to an axis is moved to it
-constexpr double at_rest = 1e-12;    ///< share of the speeds at the start below which the body counts as resting
+constexpr double near_axis = 1e-12;  ///< least k, and least 1/k; a start nearer to an axis is moved to this value
+constexpr double at_rest = 1e-12;    ///< share of the speeds at the start below which the body counts as being at rest
 constexpr double first_width = 0.5, min_width = 1e-16;
-constexpr double ray_step = 1e-5;  ///< share of c*: closer to the ray D is rounded, so F is taken as a line
+constexpr double ray_step = 1e-5;  ///< share of c*; nearer to the ray D is mostly rounding, so F is linear there
 /// Shares of the larger term of D. Above `certainty` the sign of D is certain. Below `constant` k counts as constant.
 /// `rounding` is the error of the terms.
 constexpr double certainty = 1e-9, constant = 1e-10, rounding = 1e-15;
@@ -101,7 +101,7 @@ double OrbitCells::greatest_drive(const reduction::Law& law, double mu, reductio
 }
 
 OrbitCells::Forces OrbitCells::forces(double k) const {
-  // If the ray is nearer to the start than k = 0, a start without slip lies beyond it, at k < 0; with reversed force.
+  // At k < 0, which a start without slip may have if a ray lies next to it, the force is reversed.
   const auto [size, moment] = law_(reduction::slip_of_ratio(std::abs(k)));
   const double B = inertia_.gamma * mu_ * mu_ * moment;
   return {inertia_.chi * (std::copysign(size, k) - drive_) - B * k, B};
@@ -165,7 +165,7 @@ OrbitCells::Powers OrbitCells::next_powers(double half_width, double& error) con
   add(T_, dT);
   add(slid, dT * mu_ * k * u);
   add(turned, dT * u);
-  // The exponential over a cell that is far too wide underflows.
+  // In a cell that is far too wide the exponential underflows.
   constexpr double steepest = 50;
   const double fall_of_ln_u = -falls.minCoeff(), share = std::min(1.0, 2 * half_width + fall_of_ln_u);
   error = std::max(basis.error(falls), basis.error(dT) / dT.maxCoeff() * share) / (accuracy_ + noise);
@@ -208,7 +208,7 @@ Speeds OrbitCells::speeds_at(double T) const {
     }
     const double last = z;
     z = std::clamp(z - (value - T) / slope, -1.0, 1.0);
-    if (std::abs(z - last) < 1e-6) break;  // the next error would be of the size of its square
+    if (std::abs(z - last) < 1e-6) break;  // the error of the next z would be about the square of this step
   }
   last_cell_ = number;
   last_z_ = z;
@@ -221,7 +221,7 @@ Speeds OrbitCells::speeds_at(double T) const {
 
 double OrbitCells::stop() const {
   if (start_.u == 0) return 0;
-  // Next to the axis u = 0, u of the cells is that of the neighbouring orbit start_.
+  // Next to the axis u = 0 the cells contain u of a neighbouring orbit, which begins at start_.
   if (u_share_ < 1) return start_.v / (inertia_.chi * (1 - drive_));
   return now_[T_] + mu_ * std::exp(now_[ln_u]) / forces(ratio(s_)).B;
 }

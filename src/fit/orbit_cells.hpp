@@ -12,7 +12,7 @@
 
 namespace contensou::fit {
 
-/// Sliding and pivoting speeds, m/s, and their integrals over T = f g t; or a derivative of these four.
+/// Sliding and pivoting speeds, m/s, and their integrals over T = f g t; or the derivatives of these numbers.
 struct Speeds {
   double v = 0, u = 0, slid = 0, turned = 0;
   double centre = 0, way = 0;  ///< speed of the centre along the slip, and its integral; only for FilmOrbit
@@ -35,10 +35,10 @@ enum class Kind {
 /// An orbit of a body's reduced system as a function of T = f g t, computed in cells.
 ///
 /// k = v/w, w = mu |u|, tends to an end k*: 0, the k of an invariant ray, or infinity. Let c = k, or c = 1/k if k grows
-/// without a drive. The substitution
+/// without a drive; c is c0 at the start and c* at the end. The substitution
 ///   c = c* + (c0 - c*) exp(-s)
-/// turns the orbit into two quadratures over s, and the integrals of v and u into two more. With B = gamma mu^2 Psi, D
-/// = chi (Phi - rho) - B k, and F = D/(k - k*), or F = -D c^2/(c - c*) for c = 1/k:
+/// turns the orbit into two quadratures over s, and the integrals of v and u into two more. For force Phi, moment Psi
+/// and drive rho let B = gamma mu^2 Psi, D = chi (Phi - rho) - B k and F = D/(k - k*), for c = 1/k F = -D c^2/(c - c*):
 ///   d ln |u|/ds = -B/F,   dT/ds = w/F.
 /// The cells of s are as wide as polynomials of degree 9 allow.
 class OrbitCells {
@@ -50,7 +50,7 @@ class OrbitCells {
   OrbitCells(const reduction::Law& law, double mu, reduction::Inertia inertia, Kind kind, reduction::State start,
              double drive, double accuracy);
 
-  /// Returns a drive for which there is a ray: 0.9 of the smallest drive without one.
+  /// Returns a drive for which there is a ray: 0.9 of the smallest drive without a ray.
   static double greatest_drive(const reduction::Law& law, double mu, reduction::Inertia inertia);
 
   /// Computes the orbit up to T, or to the stop.
@@ -89,7 +89,7 @@ class OrbitCells {
   double mu_;
   reduction::Inertia inertia_;
   Kind kind_;
-  reduction::State start_;  ///< next to an axis, that of a neighbouring orbit, whose smaller speed is then scaled
+  reduction::State start_;  ///< start of the cells; next to an axis a neighbouring start, whose smaller speed is scaled
   double drive_, accuracy_;
   double v_share_ = 1, u_share_ = 1;
   bool inverse_ = false;           ///< true: c = 1/k; false: c = k

@@ -21,8 +21,8 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-4;
 /// An estimate counts as better if its sum of squares is lower by at least this much.
 constexpr double better_by = 0.01;
-/// A number counts as at a limit if it is nearer to it than the share `near_limit` of its range. The limit then counts
-/// as the end if the sum of squares would fall beyond it by more than the share `telling` of the rise.
+/// A number counts as at a limit if its distance from the limit is below the share `near_limit` of its range. The limit
+/// is the end if the sum of squares would fall beyond the limit by more than the share `telling` of the rise.
 constexpr double near_limit = 1e-6, telling = 0.1;
 constexpr Index patch_place = 1;
 /// Widest step of a logarithm, and the ratio of the lengths of successive steps.
@@ -85,7 +85,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
   judge(foretold);
   for (const auto& [part, nearest] : parts) judge(*nearest.parameters);
   std::ranges::sort(found, {}, [](const auto& each) { return each.first; });
-  // First the best point, then the best point of another part.
+  // The first start is the best point. The following starts are the best points of other parts.
   std::vector<VectorXd> starts;
   for (auto& [cost, parameters] : found) {
     const bool is_new = std::ranges::none_of(starts, [&parameters = parameters](const VectorXd& start) {
@@ -98,7 +98,7 @@ std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, co
 }
 
 const VectorXd* Profile::nearest_guess(const Coordinate& number, double at) const {
-  constexpr double near = 1;  // the best of the guesses that are nearer than this; else the nearest
+  constexpr double near = 1;  // take the best guess nearer than this; if there is none, the nearest guess
   const VectorXd* nearest = nullptr;
   double least = endless;
   for (const VectorXd& guess : search_.guesses) {
@@ -126,7 +126,7 @@ const Profile::Point& Profile::lowest(const Coordinate& number, double at, const
 double Profile::end(const Coordinate& number, double sign, double error, double limit) {
   const double from = number.of(best_), room = sign * (limit - from);
   struct Reach {
-    double distance, height;  ///< from the estimate; root of the rise at the point minus root of the allowed rise
+    double distance, height;  ///< distance from the estimate; sqrt of the rise there minus sqrt of the allowed rise
   };
   Reach inside{0, -std::sqrt(rise_)}, outside{endless, endless};
   VectorXd last = best_;  // last point inside the interval
@@ -162,7 +162,7 @@ double Profile::end(const Coordinate& number, double sign, double error, double 
     before = last;
     if (look(distance, foretold, most_starts) >= 0) break;
   }
-  // Another valley may begin beyond the end of this one.
+  // Another valley may begin beyond the end of the valley that was followed.
   double stride = number.of_contact() ? widest : room / 64;
   for (double distance = outside.distance; wide_ && distance < room && !better_; stride *= growth) {
     distance = std::min(room, distance + stride);

@@ -14,8 +14,8 @@ namespace contensou::fit {
 /// given amount when all other numbers are fitted anew.
 ///
 /// The search follows the valley of small sums of squares outward from the farthest known point. Then it takes wide
-/// steps to the limits of the model. It starts from the guesses and from all points found before, also along other
-/// numbers. A second valley that it finds belongs to the interval.
+/// steps to the limits of the model. Minimisations start from the guesses and from all points found before, also along
+/// other numbers. A second valley that is found belongs to the interval.
 class Profile {
  public:
   /// @param search  search in which all standard deviations are set; kept by reference
@@ -27,7 +27,7 @@ class Profile {
   /// Sets the rise for the intervals that follow.
   void set_rise(double rise) { rise_ = rise; }
 
-  /// Returns the interval of a number. An end is infinite if it is set only by a limit of this or of another number.
+  /// Returns the interval of a number. An end is infinite if only a limit of this or of another number determines it.
   /// @param error      standard error of the number by curvature; infinite or 0 if there is none
   /// @param low, high  limits of the number
   Interval of(const Coordinate& number, double error, double low, double high);
@@ -67,7 +67,7 @@ class Profile {
   std::vector<Eigen::VectorXd> starts_at(const Coordinate& number, double at, const Eigen::VectorXd& foretold,
                                          std::size_t most) const;
 
-  /// Returns true if, with the number held, the sum of squares would fall if another number could go beyond its limit.
+  /// Returns true if, with the number held, only a limit of another number keeps the sum of squares from falling.
   bool is_held_by_limit(const Coordinate& number, const Eigen::VectorXd& parameters) const;
 
   /// Returns the best guess whose number is within 1 of `at`, else the nearest guess; null without guesses.

@@ -60,7 +60,7 @@ void Reporter::add_estimate(Parameter parameter, std::size_t track) {
   }
   if (is_of_contact(parameter)) {
     estimate.value = std::exp(estimate.value);
-    // By rounding the estimate may be larger than the ball, but no patch is.
+    // Rounding may make the estimate larger than the ball, but no patch is larger.
     if (parameter == Parameter::patch_radius) estimate.value = std::min(estimate.value, request_.ball.ball.radius);
     estimate.standard_error = error == 0 ? 0 : estimate.value * error;
     estimate.interval = {estimate.value * std::exp(-quantile_ * error), estimate.value * std::exp(quantile_ * error)};
@@ -125,7 +125,7 @@ void Reporter::set_noise() {
       sizes.push_back(std::abs(residuals_[row]));
     }
     const auto n = static_cast<double>(rows.size());
-    // The standard deviation of the other values, but at least the step to which values are rounded.
+    // The standard deviation follows from the median, but is at least the step to which values are rounded.
     constexpr double far = 6;
     const double border =
         far * std::max(sd_by_median(sizes),

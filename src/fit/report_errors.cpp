@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A combination is undetermined if its eigenvalue in the correlations of derivatives is below this.
+/// A combination counts as undetermined if its eigenvalue in the correlation matrix of the derivatives is below this.
 constexpr double undecided = 1e-10;
 
 /// A parabola is a poor model of the sum of squares in two cases. Either the correlation of friction and patch radius
@@ -26,7 +26,7 @@ constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear 
 /// Errors below this share of the range of values are not the noise of a film: the values are computed or rounded.
 constexpr double sharpest_film = 1e-4;
 
-/// Powers of f and eps in combinations that a film may determine: a slip gives f, a spin f eps, its end f/eps.
+/// Powers of f and eps in combinations that a film may show: a slip gives f, a spin f eps, the end of a slip f/eps.
 const Eigen::Vector2d combinations[]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
 
 Inverse inverse_of(const MatrixXd& information) {
@@ -49,7 +49,7 @@ Inverse inverse_of(const MatrixXd& information) {
   return result;
 }
 
-/// Returns the 2 by 2 information matrix of ln f and ln eps if all other parameters are free, too.
+/// Returns the 2 by 2 information matrix of ln f and ln eps. All other free parameters remain free.
 Eigen::Matrix2d information_of_contact(const MatrixXd& information) {
   const Index others = information.rows() - 2;
   if (others == 0) return information;
@@ -86,9 +86,9 @@ void Reporter::set_covariance(const MatrixXd& covariance) {
   fit_.correlation = inverse_deviation.asDiagonal() * covariance_ * inverse_deviation.asDiagonal();
 }
 
-/// The covariance of the estimate is C J^T E[e e^T] J C with errors e that may depend on each other. The derivatives J
-/// change little from value to value. So J^T E[e e^T] J of a column is g J^T J, with the growth g of the variance of
-/// means: n values are worth n/g independent values.
+/// C J^T E[e e^T] J C is the covariance of the estimate, with the derivatives J of the residuals, C = (J^T J)^-1, and
+/// errors e that may depend on each other. J changes little from value to value, and therefore J^T E[e e^T] J of a
+/// column is g J^T J with the growth g of the variance of means: n values are worth n/g independent values.
 void Reporter::set_dependence() {
   const MatrixXd rows_of_A = derivatives_ * inverse_.root;
   VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1 for each row
@@ -167,7 +167,7 @@ bool Reporter::needs_profile() const {
 void Reporter::set_only_by_curvature() {
   if (!both_free() || !planned_) return;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information_of_contact(information_));
-  constexpr double least_share = 1e-8;  // smallest eigenvalue that counts, relative to the larger one
+  constexpr double least_share = 1e-8;  // smallest eigenvalue that counts, divided by the larger eigenvalue
   const double strong = solver.eigenvalues()[1], weak = std::max(solver.eigenvalues()[0], least_share * strong);
   double least = infinity;
   for (const Eigen::Vector2d& powers : combinations) {

@@ -18,7 +18,7 @@ constexpr double too_rare = 3.7;
 
 }  // namespace
 
-/// Returns how many standard errors a free parameter at a limit would go beyond it; 0 for a parameter off its limits.
+/// Returns how many standard errors a free parameter at a limit would go beyond it; 0 for a parameter within limits.
 double Reporter::held_back(std::size_t free) const {
   const Index place = search_.free[free];
   const auto [low, high] = search_.model.range(place);
@@ -56,9 +56,9 @@ void Reporter::set_misfits() {
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
     const auto place = static_cast<std::size_t>(observable);
-    // The errors of rounded values are correlated with those of their neighbours.
+    // The errors of rounded values are correlated with the errors of their neighbours.
     const double correlation = noise.sd > search_.rounding[place] ? dependence_[place].neighbours : 0;
-    // With few values any correlation may be due to chance. A correlation of 0.9 means that the common error of
+    // Among few values any correlation may be due to chance. A correlation of 0.9 means that the common error of
     // neighbours is four times their independent error.
     constexpr double surely = 0.9, blurred = 0.5;
     const double by_chance = std::min(surely, too_rare / std::sqrt(static_cast<double>(noise.values)));

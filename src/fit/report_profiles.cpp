@@ -16,8 +16,8 @@ constexpr double of_two_numbers = 5.991 / (normal_quantile * normal_quantile);
 
 }  // namespace
 
-/// A motion depends on k = v/(patch radius |spin|) at the start. If the data do not show the spin, two values of k with
-/// different frictions may give nearly the same slip. The same holds for the spin if the data do not show the slip.
+/// A motion depends on k = slip/(patch radius |spin|) at the start. If no series shows the spin, two k with different
+/// frictions may give nearly the same slip. The same holds for the spin if no series shows the slip.
 void Reporter::set_other_motions(Profile& profile) {
   // If the patch radius is free, it compensates for any spin. Then profiles are wide, and cover the other motions.
   if (request_.free.patch_radius) return;
@@ -36,7 +36,7 @@ void Reporter::set_other_motions(Profile& profile) {
     const double slip = std::abs(parameters_[TrackModel::place(Parameter::slip, track)]);
     const double spin = std::abs(parameters_[TrackModel::place(Parameter::spin, track)]);
     const bool is_spin = TrackModel::parameter_at(place_of_hidden) == Parameter::spin;
-    // Beyond these k one of the speeds has hardly any effect on the other.
+    // Beyond |ln k| = `farthest` one of slip and spin has hardly any effect on the other.
     constexpr double farthest = 3.2, step = 0.4;
     std::vector<double> values;
     for (double ln_k = -farthest; ln_k <= farthest + step / 2; ln_k += step) {
@@ -55,7 +55,7 @@ void Reporter::set_other_motions(Profile& profile) {
 }
 
 void Reporter::set_profiles() {
-  // The orbits are as accurate as a film.
+  // A film is less accurate than 1e-6, so orbits of this accuracy suffice.
   Search quick(request_, accuracy_of_guess);
   quick.weight = search_.weight;
   quick.guesses = search_.guesses;
@@ -76,11 +76,11 @@ void Reporter::set_profiles() {
     for (const Eigen::Vector2d& powers : {Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
       numbers.push_back(combined(powers));
   }
-  // The patch radius comes first. Most films show it worst of all numbers, so its valley is the longest.
+  // Most films determine the patch radius worst of all numbers, so its valley is the longest and comes first.
   std::ranges::stable_sort(numbers, {},
                            [](const Number& number) { return number.coordinate.powers != Eigen::Vector2d(0, 1); });
-  // The best motion may be one of many. This is so if other motions were found, and for a slip or spin that no series
-  // shows, with a friction that no end of the motion determines.
+  // Several motions may fit equally well if other motions were found. The same holds for a slip or a spin that no
+  // series shows, if the interval of the friction has no end on one side.
   const auto rise_of = [&](const Number& number) {
     const double rise = least_rise * growth_of(number.coordinate);
     if (!fit_.other_motions.empty()) return of_two_numbers * rise;

@@ -41,7 +41,7 @@ class Reporter {
  private:
   /// Sets the ball and the law, the number of values and the goodness of the fit.
   void set_size();
-  /// Sets covariance and correlations by curvature.
+  /// Sets covariance and correlations from the curvature of the sum of squares.
   void set_errors();
   void set_covariance(const Eigen::MatrixXd& covariance);
   /// Estimates the dependence of errors of unknown size on each other, and increases the covariance accordingly.
@@ -50,7 +50,7 @@ class Reporter {
   double growth_of(const Coordinate& number) const;
   void set_estimates();
   void add_estimate(Parameter parameter, std::size_t track);
-  /// Sets, for a plan, the combination that the film determines if it does not determine friction and patch radius.
+  /// Sets, for a plan, the combination that the film determines if it does not separate friction and patch radius.
   void set_only_by_curvature();
   /// Returns true if a number is so uncertain that a parabola is a poor model of the sum of squares.
   bool is_vague() const;
@@ -82,7 +82,7 @@ class Reporter {
 
   bool is_free(Eigen::Index place) const { return std::ranges::find(search_.free, place) != search_.free.end(); }
   bool both_free() const { return request_.free.friction && request_.free.patch_radius; }
-  /// Returns true if a series shows this number of the start: the slip for slip; spin or angle for spin.
+  /// Returns true if a series shows this number of the start: slip shows the slip; spin or angle shows the spin.
   bool is_seen(Parameter parameter, std::size_t track) const;
   /// Returns true if the data contain x, y, vx or vy.
   bool moves(std::size_t track) const;

@@ -12,12 +12,12 @@
 
 namespace contensou::fit {
 
-/// Beyond this many standard deviations Huber's loss is linear. With it the fit is 95 % efficient for normal errors.
+/// Beyond this many standard deviations Huber's loss is linear. For normal errors the fit is then 95 % efficient.
 inline constexpr double huber_bend = 1.345;
 /// Largest number of instants of a film that the first fit uses.
 inline constexpr Eigen::Index max_of_first_solution = 5000;
 
-/// A number that is held while all others are fitted: ln(f^a eps^b), or a number of a start.
+/// A number held in a fit of all others: ln(f^a eps^b) of friction f and patch radius eps, or a number of a start.
 struct Coordinate {
   Eigen::Vector2d powers = Eigen::Vector2d::Zero();  ///< the exponents a and b
   Eigen::Index place = -1;                           ///< place of a number of a start among the parameters; else -1
@@ -49,14 +49,14 @@ auto series_of(AnyTrack& track, Observable observable) -> decltype(track.series.
   return found == track.series.end() ? nullptr : &*found;
 }
 
-/// Returns the place of the observable for the other axis: y for x and so on; for an observable without axes its own.
+/// Returns the place of the observable for the other axis: y for x and so on; the same place if there are no axes.
 std::size_t other_axis(std::size_t place);
 
 /// Returns the median; for an even number of values the larger one of the two in the middle.
 /// @param values  at least one
 double median(std::vector<double> values);
 
-/// Returns the standard deviation of normal errors whose absolute values have the median of the given ones.
+/// Returns the standard deviation of normal errors whose absolute values have the same median as the given sizes.
 double sd_by_median(std::vector<double> sizes);
 
 /// The weighted residuals of all tracks, and the free parameters.
@@ -136,7 +136,7 @@ class Search {
   std::optional<std::size_t> sharp_as[7] = {};
   void follow_other_axes();
 
-  /// Returns the tracks; where no standard deviations are given, they contain the estimated ones.
+  /// Returns the tracks. Series without given standard deviations contain the estimated ones.
   std::vector<Track> with_noise(std::vector<Track> tracks) const;
 
   /// Returns the best of several estimates. The starts of their searches are guessed from the data.

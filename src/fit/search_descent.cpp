@@ -32,7 +32,7 @@ struct Functor {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  /// The line on which ln f and ln eps keep a held combination. The functor's first input is the position on it.
+  /// The line on which ln f and ln eps keep a held combination. The functor's first input is the position on this line.
   struct Line {
     Eigen::Vector2d direction;
     double low = -std::numeric_limits<double>::infinity(), high = -low;  ///< positions that keep both within limits
@@ -135,12 +135,12 @@ std::vector<Index> Search::pushed_out(const VectorXd& parameters) const {
 
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
   if (request.each_search) request.each_search();
-  // If the sum of squares pushes a parameter beyond its limit, the parameter stays there while the others are improved,
-  // until it is pushed back. Otherwise steps that a limit cuts off are refused, and shorter ones end the search early.
+  // If the sum of squares pushes a parameter beyond its limit, the parameter stays there until it is pushed back, while
+  // the others are improved. Otherwise steps that a limit cuts off are refused, and shorter steps end the search early.
   constexpr int most_rounds = 5;
   std::vector<Index> kept;
   for (int i = 0; i < most_rounds; ++i) {
-    // A held combination has its own limits of friction and patch radius: those of its line.
+    // A held combination has its own limits of friction and patch radius: the limits of its line.
     VectorXd limited = model.limited(parameters);
     if (held != nullptr && held->of_contact()) limited.head<2>() = parameters.head<2>();
     std::vector<Index> pushed = pushed_out(limited);

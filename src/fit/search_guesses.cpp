@@ -20,7 +20,7 @@ namespace {
 constexpr Index max_of_guess = 30;
 constexpr double accuracy_of_score = 1e-4, tolerance_of_guess = 1e-5;
 
-/// The first values of a series and their times.
+/// The value and the slope of a series at its beginning.
 struct Beginning {
   double value = NAN;
   double slope = NAN;
@@ -87,7 +87,7 @@ VectorXd Search::placed(VectorXd parameters) const {
         Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(weights.asDiagonal() * columns).solve(weights.cwiseProduct(right)));
   };
   if (turns) {
-    // For any direction, friction changes x by this amount times the cosine and y by this amount times the sine.
+    // In the direction d, friction moves the body by cos(d) times its effect for d = 0 plus sin(d) times that for pi/2.
     VectorXd weights = VectorXd::Zero(weight.size());
     for (Observable observable : {Observable::x, Observable::y, Observable::vx, Observable::vy}) {
       for (Index row : rows_of[static_cast<std::size_t>(observable)]) weights[row] = weight[row];

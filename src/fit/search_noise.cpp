@@ -88,7 +88,7 @@ void Search::begin_noise() {
     }
     rounding[place] = resolution(data, rows_of[place]);
     if (rounding[place] == 0) {
-      // If all values of a column are equal, it takes the standard deviation of the other axis (same camera).
+      // If all values of a column are equal, the other axis gives the standard deviation, as the camera is the same.
       const std::size_t other = other_axis(place);
       const bool varies = other != place && !rows_of[other].empty() && resolution(data, rows_of[other]) > 0;
       if (!varies) {

@@ -13,14 +13,14 @@ inline constexpr double normal_quantile = 1.959963984540054;
 /// @param n  degrees of freedom, a whole number >= 1
 inline double student_share(double t, double n) {
   const double angle = std::atan2(t, std::sqrt(n)), sine = std::sin(angle);
-  double sum = 1;  // sum = 1 + (k - 1)/k cos^2 sum keeps its digits for a cosine near 1
+  double sum = 1;  // this form of sum = 1 + (k - 1)/k cos^2 sum keeps its digits for a cosine near 1
   for (double k = n - 2; k > 1; k -= 2) sum += 1 - sum * ((1 + (k - 1) * sine * sine) / k);
   if (std::fmod(n, 2) == 0) return sine * sum;
   return 2 / std::numbers::pi * (angle + (n > 1 ? sine * std::cos(angle) * sum : 0));
 }
 
-/// Returns t such that 95 % of Student's distribution lie between -t and t, to 1e-12. Boost's distribution, with which
-/// a test compares, would be a twentieth of the page of `contensou explore`.
+/// Returns t such that 95 % of Student's distribution lie between -t and t, to 1e-12. A test compares it with Boost's
+/// distribution, which would make up a twentieth of the page of `contensou explore`.
 /// @param n  degrees of freedom, a whole number >= 1
 inline double student_quantile(double n) {
   const double peak = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2)) / std::sqrt(n * std::numbers::pi);

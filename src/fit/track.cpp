@@ -65,7 +65,7 @@ void require(const Track& track) {
       largest = std::max(largest, std::abs(value));
       any = true;
     }
-    // A smaller relative error is below the rounding of a double. Sums of squares must not overflow.
+    // A standard deviation below `sharpest` of the values is near their rounding. Sums of squares must not overflow.
     constexpr double sharpest = 1e-15, least = 1e-100, most = 1e100;
     if (largest > most) reject(track, fmt::format("{} up to {:.3g} is required; got {:.3g}", name, most, largest));
     for (Eigen::Index i = 0; i < series.sd.size(); ++i) {

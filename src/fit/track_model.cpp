@@ -214,7 +214,7 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
           return {FilmOrbit::rolling, 0};
       }
     };
-    // The parameters that change this track. A parameter beyond its limit changes nothing.
+    // Collect the parameters that change this track. A parameter beyond its limit changes nothing.
     std::vector<std::pair<Index, Parameter>> columns;
     for (std::size_t column = 0; column < wanted.size(); ++column) {
       const Index at = wanted[column];

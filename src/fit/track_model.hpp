@@ -12,8 +12,8 @@ namespace contensou::fit {
 
 /// The motion of tracks under a law as a function of parameters, and its derivatives by the parameters.
 ///
-/// A vector of parameters contains ln f, ln eps and u_r. For each track the numbers of its start follow, in the order
-/// of Parameter. A negative slip is a slip in the opposite direction. With rolling friction the slip is >= 0.
+/// A vector of parameters: ln f, ln eps, u_r, and for each track the numbers of its start in the order of Parameter. A
+/// negative slip is a slip in the opposite direction. Under rolling friction u_r the slip is >= 0.
 class TrackModel {
  public:
   /// @param tracks    checked; they are kept by reference
@@ -51,7 +51,7 @@ class TrackModel {
   /// Returns the derivatives of the values by the wanted parameters, one column for each.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
-  /// Limits of a parameter. eps is at most R, and so small that a ball has no invariant ray. Slip and R spin are at
+  /// Limits of a parameter. eps is at most R, and so small that a ball has no invariant ray. Slip and R |spin| are at
   /// most max_speed.
   struct Range {
     double low, high;

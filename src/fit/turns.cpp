@@ -121,7 +121,7 @@ Turns set_turns(const FitRequest& request, Track& track) {
     }
   }
   if (trials.empty()) throw std::runtime_error("fit: the search for the parameters did not converge");
-  // Among the fits that are as good as the best, take the one with the slowest spin.
+  // Among the fits that are as good as the best fit, take the fit with the slowest spin.
   const double best = std::ranges::min(trials, {}, &Trial::criterion).criterion;
   std::erase_if(trials, [&](const Trial& trial) { return trial.criterion >= best + no_preference; });
   std::ranges::stable_sort(trials, {}, [](const Trial& trial) { return std::abs(trial.spin); });

@@ -98,7 +98,7 @@ int run(std::vector<const char*> command, const MemoryFile& input, const MemoryF
     }
     ::_exit(not_run);
   }
-  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // without a status, the picture decides about success
+  int status = child < 0 ? W_EXITCODE(not_run, 0) : 0;  // if there is no status, the picture decides about success
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return status;
 }

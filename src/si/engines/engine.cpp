@@ -15,7 +15,7 @@ constexpr EngineNumber f_alone{1, true}, f_a_psi{1, true, true, true}, a_psi{1, 
 constexpr EngineNumber five_millimetres{0.005};  ///< default of MuJoCo, and of engines that copy it
 
 /// Returns the use of an engine whose contact points lie on the rim of a cylinder. The distance of the points from the
-/// middle determines the moment. So the user sets the radius of the collision shape instead of a torsional friction.
+/// middle determines the moment. The user therefore sets the radius of the collision shape, and no torsional friction.
 /// @param name  name of f in the engine
 /// @param cone  box for an engine with one row of twist, points for an engine with friction at each point
 EngineUse face_on_rim(std::string_view name, Cone cone, std::vector<std::string_view> needs = {},

@@ -28,7 +28,7 @@ Velocities struck(const Ball& ball, const CueStrike& strike) {
   }
   const double gamma = ball.body.inertia.gamma;
   const double velocity =
-      2 * speed / (1 + mass_for("a cue's stroke", ball) / cue_mass + gamma * offset * offset);  // P/m of the header
+      2 * speed / (1 + mass_for("a cue's stroke", ball) / cue_mass + gamma * offset * offset);  // P/m of cue_strike.hpp
   const double spin = gamma * velocity / ball.radius;
   const double sine = std::sin(elevation), cosine = std::cos(elevation);
   return {{velocity * cosine, 0}, {spin * right * sine, spin * above, spin * right * cosine}};

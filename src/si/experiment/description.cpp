@@ -16,7 +16,7 @@ namespace {
 
 using Way = Ways::value_type;
 
-/// Returns the names in one text. A common section follows them once; otherwise each name has its own section.
+/// Returns the names in one text. If all names have one section, it follows them once; else it follows each name.
 std::string joined(const std::vector<Source>& sources) {
   const bool together =
       std::ranges::all_of(sources, [&](const Source& source) { return source.section == sources.front().section; });

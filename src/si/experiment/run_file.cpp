@@ -251,7 +251,7 @@ class Reader {
     }
   }
 
-  /// Returns the table with a path; it is null if it is missing. Its parent is one of the sections `before`.
+  /// Returns the section with a path; its table is null if missing. The parent is one of the sections `before`.
   Section section(const std::vector<Section>& before, std::string_view path) const {
     const std::size_t dot = path.rfind('.');
     const std::string_view of = dot == std::string_view::npos ? "" : path.substr(0, dot);

@@ -76,7 +76,7 @@ double drive_of(const Experiment& experiment) {
 void require_stop(const Experiment& experiment) {
   const auto& [ball, contact, start, environment, spreads] = experiment;
   if (environment.slope == 0) return;
-  // A body that turns has both drives. A body that resistance holds slides like a puck.
+  // Slope and rolling resistance both drive a body that turns. A held body slides like a puck: only the slope drives.
   const double chi = ball.body.inertia.chi, friction = contact.friction, u_r = contact.rolling_friction;
   const double most = (chi - 1) * friction > chi * u_r ? chi * (friction - u_r) : friction;
   const double angle = std::atan(most) * (180 / std::numbers::pi);

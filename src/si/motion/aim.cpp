@@ -67,7 +67,7 @@ bool comes_to(double there, double asked) {
   return std::isfinite(there) && std::abs(there - asked) <= close * asked;
 }
 
-/// @param least  least time, s, in which the other demand can be fulfilled
+/// Returns the message if the time is too short. @param least  least time, s, in which the other demand is possible
 std::string out_of_reach(const Goal& goal, double least) {
   const double most = *goal.time / least;
   const auto sentence = [&](const std::string& asked, const std::string& greatest, const char* how) {
@@ -85,12 +85,12 @@ std::string out_of_reach(const Goal& goal, double least) {
 
 /// Finds the start of a ball with rolling friction from its turns, and from the distance or time until nothing moves.
 /// Lengths and turns are proportional to the square of the speeds, and times to the speeds, except for the effect of
-/// resting_slip. So the ratio k at the start is the root of a quotient (reduction/README.md), and the speeds follow
-/// from it.
+/// resting_slip. The quotient of the two demands therefore determines the ratio k at the start (reduction/README.md),
+/// and one demand then determines the speeds.
 /// @param goal  turns and one other demand
 SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {
   struct Reached {
-    double turns, other;  ///< other: the distance or the square of the time; both grow like speed squared
+    double turns, other;  ///< other: the distance or the square of the time; turns and other grow like speed squared
   };
   const double R = experiment.ball.radius, turns = std::abs(*goal.turns);
   const double other = goal.distance ? *goal.distance : *goal.time * *goal.time;
@@ -100,9 +100,9 @@ SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& f
     const double time = motion.last_time();
     return {motion.turns(), goal.distance ? motion.rest()->place.x() : time * time};
   };
-  // Returns the start that has speeds of a given ratio and fulfils a demand.
+  // Returns the start whose speeds have a given ratio and that fulfils a demand.
   const auto settled = [&](const auto& start_of) {
-    // The results may jump by more than the first tolerance at the root.
+    // Near the solution the results may jump by more than `rounding`; then an error below `enough` passes.
     constexpr double rounding = 1e-11, enough = 1e-9;
     constexpr int most = 40, patience = 4;
     double speed = 1, least_off = std::numeric_limits<double>::infinity();

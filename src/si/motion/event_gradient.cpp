@@ -93,9 +93,9 @@ std::optional<VectorXd> EventNumbers::slopes(const Component& by) const {
   const bool by_velocities = std::holds_alternative<Velocities>(experiment_.start);
   const Eigen::Vector2d rolls = velocities_of(experiment_.start).angular_velocity.head<2>();
   const double slip_speed = slip_at_start(experiment_), at = value(by);
-  // Steps must not cross points at which the numbers have no derivative. The slip is the length of a vector and has
-  // such a point at 0; other components have their own at 0. All components that change the slip have one at the
-  // threshold of rolling.
+  // Steps must not cross points at which the numbers have no derivative. Such points are the value 0 of a component,
+  // the slip 0, because the slip is the length of a vector, and, for all components that change the slip, the threshold
+  // of rolling.
   constexpr double share = 1e-3, reach = 2.5 * share;
   const double beyond = std::abs(slip_speed - (experiment_.ball.body.lies_flat() ? 0 : rolling_below_.value_or(0)));
   const double free = std::min(slip_speed, beyond / reach);

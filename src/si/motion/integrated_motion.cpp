@@ -105,7 +105,7 @@ struct Ballistics {
   double spin_time_left(double omega) const { return omega * J_z / (normal_friction * eps * law.pivoting_moment()); }
 };
 
-/// The end of a motion under force or moment alone. The speed falls linearly in time.
+/// The end of a motion in which force or moment alone acts. The speed falls linearly in time.
 class Tail {
  public:
   /// @param start  time of `from`, s
@@ -114,7 +114,7 @@ class Tail {
     const double pivoting = ball.spin_time_left(ball.spin(from));
     slides_ = sliding > pivoting;
     left_ = std::max(sliding, pivoting);
-    // The logarithm of the other speed is a linear function of the logarithm of the first.
+    // The logarithm of the other speed is a linear function of the logarithm of the first speed.
     if (slides_) {
       constexpr double fast = 0x1p100;
       const double moment = fast * ball.law(reduction::Slip{fast, 1}).moment;  // k Psi at infinity
@@ -131,7 +131,7 @@ class Tail {
   Values at_time(double t) const {
     const double share = t < stop() && left_ > 0 ? std::min((stop() - t) / left_, 1.0) : 0.0;
     const double passed = std::min(t, stop()) - start_;
-    const double mean = (1 + share) / 2 * passed;  // time for the same distance at the speed of the start
+    const double mean = (1 + share) / 2 * passed;  // time in which the speed of the start covers the same distance
     const double v = slides_ ? ball_.slip(from_) : 0;
     const double omega = slides_ ? 0 : ball_.spin(from_);
     const double part = ball_.tilting / ball_.mobility();  // part of the lost slip that becomes rotation
@@ -160,7 +160,7 @@ class Tail {
   bool slides_;
 };
 
-/// Returns true if a Tail describes the rest up to rounding: one friction is negligible, or the time left is.
+/// Returns true if a Tail describes the remaining motion up to rounding: slip, spin or remaining time is negligible.
 bool in_tail(const Ballistics& ball, const Values& x, double t) {
   const double v = ball.slip(x);
   const double omega = ball.spin(x);
@@ -208,10 +208,10 @@ struct Integration {
 /// Integrates in SI units the equations of motion (2.5) of a ball, or of a body that lies flat, under any friction law,
 /// together with its position. The integration is independent of the reduction and of the first integrals.
 ///
-/// The variables are omega_x, omega_y and the position. In place of the velocity of the contact point they are ln v and
-/// the direction of v, and in place of omega_z they are ln |omega_z|, like the variables of Zh98 before (2.6).
-/// Logarithms cannot step through the stop. Once one friction is negligible, the exact limit replaces the remaining
-/// steps. Beyond the stop the ball rolls.
+/// The variables are omega_x, omega_y and the position. The velocity of the contact point is replaced by ln v and the
+/// direction of v, and omega_z by ln |omega_z|, like the variables of Zh98 before (2.6). Logarithms cannot step through
+/// the stop. Once force or moment is negligible, the exact limit replaces the remaining steps. Beyond the stop the ball
+/// rolls.
 ///
 /// @param times  times, s, >= 0, in any order
 Integration integrate(const Experiment& experiment, const reduction::Law& law, const Eigen::ArrayXd& times) {
@@ -297,7 +297,7 @@ Integration integrate(const Experiment& experiment, const reduction::Law& law, c
   }
   const Tail tail(ball, x, t * T);
   for (; next != order.end(); ++next) {
-    // By rounding a requested time may lie just before the end of the last step.
+    // Rounding may place a requested time just before the end of the last step.
     const double at = std::max(times[*next], t * T);
     motion.points.set(*next, point_of(ball, experiment.ball, tail.at_time(at), times[*next]));
   }

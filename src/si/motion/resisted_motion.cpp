@@ -78,7 +78,7 @@ struct Given {
         down(pull(given.environment)),
         tau_per_second(1 / seconds(given, 1)) {}
 
-  /// Returns the largest Phi at which resistance holds a ball that does not turn; infinity for a body that lies flat.
+  /// Returns the largest force Phi at which resistance holds a ball that does not turn; infinity if it lies flat.
   double holding() const {
     return lies_flat ? std::numeric_limits<double>::infinity() : inertia.chi * drive / (inertia.chi - 1);
   }
@@ -101,8 +101,8 @@ struct Given {
     return rolling.slides_after(sliding, down.norm() / inertia.chi);
   }
 
-  /// Returns the direction of a slip v that is slow compared with rolling. Since c' = chi (N - f g e) with N = d/chi +
-  /// a W/|W|, it is the direction n of N with the delay v n'/(chi |N|).
+  /// Returns the direction of a slip v that is slow compared with rolling. Because c' = chi (N - f g e) with N = d/chi
+  /// + a W/|W|, the slip has the direction n of N with the delay v n'/(chi |N|).
   Vector2d following(double v, const Vector2d& rolling) const {
     const Vector2d heading = rolling.normalized(), needed = down / inertia.chi + resisting * heading;
     const Vector2d n = needed.normalized();
@@ -177,7 +177,7 @@ class Resisted : public Motion::Solution {
 struct DrivenOut {};
 
 /// The motion of a ball that slides in the direction of rolling, and straight down a slope. It consists of pieces of
-/// three kinds: the ball turns, resistance holds the ball, the ball slides no more.
+/// three kinds: the ball turns, resistance holds the ball, or the ball slides no more.
 class Straight final : public Resisted {
  public:
   Straight(const Experiment& of, Given given, const State& start, const Vector2d& along, SharedFlows& flows)
@@ -321,7 +321,7 @@ class Straight final : public Resisted {
   std::optional<double> creep_ratio_;
 };
 
-/// c, W, w, position, slip length, turned, path, rolled. Speeds and lengths are divided by scales of the start.
+/// The integrated c, W, w, position, slip length, turned, path, rolled, divided by scales of the start.
 using Progress = std::array<double, 11>;
 
 /// The motion of any ball, integrated in steps.
@@ -421,7 +421,7 @@ class Integrated final : public Resisted {
     return now;
   }
 
-  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R56) with friction as A.
+  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R56) for A = friction.
   double time_to_hold(Step step) const {
     const Vector2d rolling(step.x[2], step.x[3]);
     if (rolling.norm() == 0) return 0;
@@ -487,7 +487,7 @@ class Integrated final : public Resisted {
           rest_ = stop_ + rolling.rest_time();
           break;
         }
-        // Then the ball slides. At first it slides so slowly that the equation of the slip is stiff.
+        // After the time `rolls` the ball slides. At first it slides so slowly that the equation of the slip is stiff.
         if (rolls > 0 || !now.follows)
           now = {.t = now.t + rolls, .x = progress_of(rolled_on(here, rolls, rolling)), .follows = true};
       }
@@ -539,7 +539,7 @@ SolvedMotion resisted_motion(const Experiment& experiment, const Law& law, Share
     try {
       return std::make_shared<Straight>(experiment, given, start, along, flows);
     } catch (const DrivenOut&) {
-      // The motion becomes faster for a while, so it has no pieces.
+      // The ball becomes faster for a while, so its motion has no pieces and is integrated in steps.
     }
   }
   return std::make_shared<Integrated>(experiment, given, start);

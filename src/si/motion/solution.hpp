@@ -11,7 +11,7 @@
 namespace contensou::si {
 
 /// A solution of the equations of motion, for times >= 0 and speeds >= 0. The default functions apply to a body on a
-/// level plane that rolls on for ever; they use only its states.
+/// level plane that rolls on for ever; they use only the states of the motion.
 class Motion::Solution {
  public:
   explicit Solution(const Experiment& of) : experiment(of) {}

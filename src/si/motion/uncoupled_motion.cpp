@@ -11,10 +11,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The motion of the uncoupled model. When a ball with rolling friction rolls, it rolls without slip along a straight
-/// line, slows down at a = u_r g and comes to rest. If the friction f g is less than a, the ball cannot roll: its
-/// centre slows down at f g, its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). Its spin
-/// is not affected.
+/// The motion of the uncoupled model. A ball with rolling friction first slides. Then it rolls without slip along a
+/// straight line, slows down at a = u_r g and comes to rest. If the friction f g is less than a, the ball cannot roll:
+/// its centre slows down at f g, its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). The
+/// spin is not affected.
 class Uncoupled final : public Motion::Solution {
  public:
   Uncoupled(const Experiment& of, const reduction::Law& law, double rolling_below) : Solution(of) {
@@ -116,7 +116,7 @@ class Uncoupled final : public Motion::Solution {
   double slip_end_, spin_end_;        ///< times without resistance, s
   SolvedMotion on_slope_;             ///< motion of the ball without spin
   std::optional<MotionPoint> rolls_;  ///< state at which rolling friction begins to act
-  double speed_ = 0;                  ///< speed in that state
+  double speed_ = 0;                  ///< speed of the centre in that state
   double slowing_ = 0, turning_ = 0;  ///< decelerations of the centre and of R omega, m/s^2
 };
 

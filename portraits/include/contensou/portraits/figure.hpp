@@ -138,7 +138,7 @@ struct Figure {
   Text subtitle;
   PaperSize size = {};
   double dpi = 300;       ///< resolution of a PNG
-  std::string font = {};  ///< font name; empty: a sans-serif font. TeX ignores it
+  std::string font = {};  ///< font name; empty: a sans-serif font. TeX ignores the name
   int max_columns = 4;    ///< largest number of panels side by side
   std::vector<Panel> panels;
   std::optional<ColourBar> colour_bar = {};

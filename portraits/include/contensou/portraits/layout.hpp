@@ -128,7 +128,7 @@ int panel_columns(double width_mm, int panels);
 
 /// Returns the size of a figure. Sides that are not wanted are chosen so that the panels keep their shape.
 /// @param usual        best size for all panels side by side
-/// @param panels       number of panels; with a wanted width alone, it determines how many stand side by side
+/// @param panels       number of panels; if only the width is wanted, it determines how many stand side by side
 /// @param max_columns  largest number of panels side by side; the number fills its rows
 PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked,
                  int max_columns = std::numeric_limits<int>::max());
@@ -137,7 +137,7 @@ PaperSize fitted(const PaperSize& usual, int panels, const AskedSize& asked,
 /// @throws std::domain_error  as lay_out
 Figure trimmed(Figure figure);
 
-/// Returns the approximate width and height in mm of one panel in such a figure, without names and ticks; at least 10.
+/// Returns the approximate width and height in mm of one of several panels, without names and ticks; at least 10.
 Point panel_size(const PaperSize& figure, int panels);
 
 }  // namespace contensou::portraits

@@ -47,9 +47,9 @@ constexpr bool shows_moments(View view) { return view == View::time || view == V
 /// Returns all views in the order in which lists show them.
 const std::vector<View>& views();
 
-/// An orbit, or its part in the window, as columns of equal length in the direction of the motion. An orbit of the
-/// equations of motion (2.6) of reduction::ReducedSystem ends with the row of the stop: u = v = 0, ln_v = -infinity, ln
-/// k of the terminal ratio, tau_left = 0.
+/// An orbit, or the part of an orbit in the window, as columns of equal length in the direction of the motion. An orbit
+/// of the equations of motion (2.6) of reduction::ReducedSystem ends with the row of the stop: u = v = 0, ln_v =
+/// -infinity, ln_k of the terminal ratio, tau_left = 0.
 struct PortraitOrbit {
   Eigen::ArrayXd u = {};
   Eigen::ArrayXd v = {};
@@ -107,18 +107,18 @@ struct PhasePortrait : Portrait {
   const reduction::ReducedSystem& system() const { return flow.system(); }
 };
 
-/// The requested contents of a portrait. By default the window follows from mu, and the view is uv.
+/// The requested contents of a portrait. The default window follows from mu, and the default view is uv.
 struct PortraitRequest {
   std::optional<View> view = {};  ///< only for (2.6)
   /// A rectangle of the plane. For (2.6) v >= 0, and the view must show the window. The orbits are those of the
-  /// smallest half-plane window that contains it, as far as they enter the rectangle.
+  /// smallest half-plane window that contains the rectangle, as far as they enter the rectangle.
   std::optional<Window> window = {};
-  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V; for another system |u| <= U and |v| <= V, relative to
-  /// its centre.
+  /// U and V instead of a rectangle: |u| <= U and 0 <= v <= V. For another system |u| <= U and |v| <= V, relative to
+  /// the centre of the system.
   std::optional<Eigen::Vector2d> sides = {};
   std::optional<reduction::State> highlight = {};  ///< a start; the default window contains it
   std::vector<reduction::State> through = {};      ///< points in the window; for (2.6) with u and v both not 0
-  /// Number of orbits, >= 0; for (2.6) on each side of u = 0. By default orbits fill the window.
+  /// Number of orbits, >= 0; for (2.6) on each side of u = 0. The default fills the window.
   std::optional<int> orbits = {};
   /// Number of isochrones, >= 0, about 7 by default. It is approximate, because their times are round numbers.
   std::optional<int> isochrones = {};
@@ -127,7 +127,7 @@ struct PortraitRequest {
   // Only for (2.6):
   std::optional<reduction::Law> comparison = {};
   bool stepped = false;  ///< true: orbits by steps of the regularised equations (2.7); false: by the flow
-  /// True: the axis of v is always linear. By default it is a SpeedScale if orbits are not stepped and a linear axis
+  /// True: the axis of v is always linear. The default is a SpeedScale if orbits are not stepped and a linear axis
   /// would show a comb of vertical lines. Such lines appear if orbits enter the origin along v = 0 and v falls faster
   /// than |u|^12; for the ball, mu < 0.48.
   bool linear = false;
@@ -138,8 +138,8 @@ struct PortraitRequest {
 
 /// Computes a portrait.
 ///
-/// Orbits start on the border at equal distances across the flow, for both signs of u. By the scaling symmetry all
-/// isochrones are scaled copies of one; only this one is computed.
+/// Orbits start on the border at equal distances across the flow, for both signs of u. One isochrone is computed; the
+/// others are copies of it by the scaling symmetry.
 ///
 /// @throws std::domain_error  if the sides of the window are not within 1e-150 to 1e150, a point has u or v = 0 (no
 ///                            orbit) or lies outside the window, a number is negative, or no requested isochrone is
@@ -156,7 +156,7 @@ PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest&
 std::vector<PhasePortrait> phase_portraits(const std::vector<reduction::Flow>& flows, const PortraitRequest& request);
 
 /// Returns the orbit through a state with u > 0, from beyond the window to the stop. The state is given by logarithms,
-/// because they do not underflow. It lies neither on an axis nor on an invariant ray.
+/// because they do not underflow. The state lies neither on an axis nor on an invariant ray.
 ///
 /// @param ln_k      ln of v/(mu u)
 /// @param ln_v      ln of v, in the unit of speed
@@ -173,16 +173,16 @@ struct PortraitSource {
 
 /// Returns one or more portraits as JSON. Numbers read back to the same doubles.
 ///
-/// seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]. On request also highlight (an
-/// orbit), through (orbits), against {law, orbits, isochrones}. Several portraits give the members schema and
-/// portraits; each portrait has the members above except schema.
-/// without schema.
+/// Members: schema, law, mu, body {chi, gamma}, view, window ([U, V] or the ends of both axes), drive (if > 0),
+/// version, ball, seconds_per_tau, orbits [{u, v, ln_v, k, tau_left}], isochrones [{tau_stop, u, v}]. On request also
+/// highlight (an orbit), through (orbits), against {law, orbits, isochrones}. Several portraits give the members schema
+/// and portraits; each of these portraits has the other members above.
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 /// Returns one or more portraits as CSV with the columns kind,index,u,v,tau,ln_v,k, and t for a ball. Several portraits
 /// have mu,law as first columns. kind is orbit, highlight, through or isochrone; for the compared law it is
-/// against_orbit or against_isochrone. tau and t (s) are the time left. Comment lines (#) above contain the members
-/// that precede the orbits in JSON.
+/// against_orbit or against_isochrone. tau and t (s) are the time left. Comment lines (#) at the top contain the
+/// members that stand before the orbits in JSON.
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits

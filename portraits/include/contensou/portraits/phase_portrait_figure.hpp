@@ -10,7 +10,7 @@
 
 namespace contensou::portraits {
 
-/// Texts and units of a drawing. The defaults are those of the dimensionless system (2.6).
+/// Texts and units of a drawing. The defaults suit the dimensionless system (2.6).
 struct PortraitCaption {
   Text title = {};                  ///< if empty, the title consists of the law and mu
   Text subtitle = {};               ///< if empty, the subtitle names the quantities that the view shows

@@ -29,8 +29,8 @@ struct PlanarPortrait : Portrait {
 /// window is a square about the centre, or about the origin, that contains the requested points. Without points it is
 /// |u|, |v| <= 1.
 ///
-/// With a scaling, every orbit is a scaled copy of the curve of its sector, and isochrones are copies likewise. With an
-/// inverse integrating factor alone, orbits are computed by quadrature, and there are no isochrones. Without a
+/// If there is a scaling, every orbit is a scaled copy of the curve of its sector, and isochrones are copies likewise.
+/// If there is only an inverse integrating factor, quadrature gives the orbits, and there are no isochrones. Without a
 /// reduction (reduction::by_steps), orbits are computed by steps in time.
 ///
 /// @param name  name of the system, for titles

@@ -7,14 +7,14 @@
 
 namespace contensou::portraits {
 
-/// Draws, for a law and all r = gamma mu^2/chi, the limits of k = v/(mu |u|) in three panels:
+/// Draws, for a law (force Phi, moment Psi) and all r = gamma mu^2/chi, the limits of k = v/(mu |u|) in three panels:
 ///
-///   - the invariant rays: their k* against r;
+///   - the invariant rays: k of each ray, k*, against r;
 ///   - D = Phi - r k Psi divided by Phi + r k Psi, with the direction of motion of k, for one r below r_low, one
 ///     between r_low and r_high, and one above r_high (TerminalRatios::low and high);
 ///   - the coefficient m(k) of the stop time for the same r, between its bounds if the law states them.
 ///
-/// A drive rho moves the rays to Phi = rho + r k Psi. The rays without the drive are drawn beside them. With a drive m
+/// A drive rho moves the rays to Phi = rho + r k Psi. The rays without the drive are drawn beside them. Under a drive m
 /// grows as 1/k towards k = 0.
 ///
 /// @param r      r of a body, marked in the first panel and drawn in the other panels

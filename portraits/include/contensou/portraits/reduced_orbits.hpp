@@ -12,8 +12,8 @@
 
 namespace contensou::portraits {
 
-/// An orbit in canonical coordinates as data: points (x, p) of a strip, where the symmetry shifts p alone. So a scaled
-/// copy of an orbit has the same points with another p.
+/// An orbit in canonical coordinates as data: points (x, p) of a strip, where the symmetry shifts p alone. A scaled
+/// copy of an orbit therefore has the same x, and p shifted by a constant.
 struct ReducedOrbits {
   Point start;
   /// Orbit of the start, in the direction of the motion; a focus has a line for each turn.
@@ -26,11 +26,11 @@ struct ReducedOrbits {
 /// Orbits are followed to this distance of p from its value at the start, above and below.
 inline constexpr double orbits_beyond = 12;
 
-/// Values of p of the copies in pictures, relative to p of the start. The copies are 1/8 to 8 times as large.
+/// Shifts of p between the orbit of the start and its copies in pictures. The copies are 1/8 to 8 times as large.
 inline constexpr std::array copy_shifts{-3 * std::numbers::ln2, -2 * std::numbers::ln2, -std::numbers::ln2,
                                         std::numbers::ln2,      2 * std::numbers::ln2,  3 * std::numbers::ln2};
 
-/// Returns orbits of a system solved by its scaling, with q and p of PlanarCanonical as x and p; q continues beyond pi.
+/// Returns orbits of a system solved by its scaling: x and p are q and p of PlanarCanonical; q continues beyond pi.
 /// For the equations of motion (2.6) solved by their flow it returns the orbit of the start alone, with x = ln k and p
 /// = ln |v|.
 /// @throws std::domain_error  for a start on a ray or at the centre; for a field with borders, except (2.6)

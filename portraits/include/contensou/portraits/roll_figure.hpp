@@ -43,7 +43,7 @@ struct RollPicture {
 /// @throws std::domain_error  if a column has fewer than 2 rows or columns differ in length
 Figure roll_figure(const RollPicture& picture);
 
-/// The times of the frames of a film, in s, and the factor by which it is slower than the motion.
+/// The times of the frames of a film, in s, and the factor by which the film is slower than the motion.
 struct FilmPace {
   Eigen::ArrayXd t;
   double slow;

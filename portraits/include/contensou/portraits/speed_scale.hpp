@@ -5,9 +5,9 @@ namespace contensou::portraits {
 /// An axis of v from height 0 at the stop to height 1 at the speed `top`: h = (x + x^s)/2 with x = v/top.
 ///
 /// The term x shows sliding, while v falls and u hardly changes. The term x^s shows the approach to the stop. There k =
-/// v/(mu |u|) tends to 0, Phi to Phi'(0) k and Psi to Psi(0). By the equations of motion (2.6), d ln|u|/d ln v = r k
-/// Psi/Phi then tends to s = r Psi(0)/Phi'(0). So |u| falls like v^s, and in x^s every orbit is straight at the origin.
-/// For s = 1 the axis is linear.
+/// v/(mu |u|) tends to 0, the force Phi to Phi'(0) k and the moment Psi to Psi(0). The equations of motion (2.6) give d
+/// ln|u|/d ln v = r k Psi/Phi, which tends to s = r Psi(0)/Phi'(0). Therefore |u| falls like v^s, and in x^s every
+/// orbit is straight at the origin. For s = 1 the axis is linear.
 struct SpeedScale {
   double top;
   double exponent = 1;  ///< s, in (0, 1]

@@ -33,7 +33,7 @@ struct StopTimeMap {
 ///                            overflows
 StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, double time_unit = 1);
 
-/// Texts and units of a map's drawing. The defaults are those of the dimensionless system.
+/// Texts and units of a map's drawing. The defaults suit the dimensionless system.
 struct MapCaption {
   Text title = {};  ///< if empty, mu and the law
   Text subtitle = "stop time " + math("τ*") + " of every start, in the unit of the speeds";

@@ -20,7 +20,7 @@ namespace contensou::fit {
 /// belong to the start of each track. `rolling` is the rolling speed along the slip. It replaces vx and vy for a ball
 /// with rolling friction, which must roll in the direction in which it slides, or not at all.
 enum class Parameter { friction, patch_radius, rolling_friction, slip, spin, direction, vx, vy, x, y, angle, rolling };
-inline constexpr int contact_parameters = 2;  ///< the first two; the search uses their logarithms
+inline constexpr int contact_parameters = 2;  ///< friction and patch_radius; the search uses their logarithms
 inline constexpr int shared_parameters = 3;
 inline constexpr int start_parameters = 9;
 
@@ -42,8 +42,8 @@ struct Free {
   bool rolling_friction = false;
 };
 
-/// Returns the numbers that are free by default: all except the patch of a body that rests on its whole face, and
-/// rolling friction of a ball without it.
+/// Returns the numbers that are free by default: all, except the patch radius of a body that rests on its whole face,
+/// and except rolling friction if the ball has none.
 Free usually_free(const si::Experiment& ball);
 
 /// The films, the model and the free numbers of a fit.
@@ -73,7 +73,7 @@ struct Estimate {
 
   bool determined() const { return std::isfinite(standard_error); }
 
-  /// Returns true if one end of the interval is more than twice as far from the value as the other. Then a single
+  /// Returns true if one end of the interval is more than twice as far from the value as the other end. Then a single
   /// standard error does not describe the interval.
   bool skewed() const {
     const double below = value - interval.low, above = interval.high - value;
@@ -92,12 +92,12 @@ struct Noise {
   Observable observable;
   Eigen::Index values;            ///< number of measured values
   double rms;                     ///< root mean square of the residuals, SI units
-  double sd;                      ///< standard deviation that the weights imply, as a root mean square
+  double sd;                      ///< root mean square of the standard deviations that the weights imply
   bool estimated;                 ///< true if sd is estimated from the residuals
-  std::vector<Outlier> outliers;  ///< values more than six standard deviations off, by the median of the residuals
+  std::vector<Outlier> outliers;  ///< values with residuals above 6 standard deviations, by the median of the residuals
 };
 
-/// The only combination f^a eps^b that the data determine: friction, patch radius, their product or their ratio.
+/// The only combination f^a eps^b that the data determine, f friction, eps patch radius: f, eps, f eps or f/eps.
 struct Combination {
   double friction_power, patch_power;
   double value;           ///< SI units
@@ -176,7 +176,7 @@ struct Fit {
 ///                             in another direction than it slides; for a track that `require` rejects; if fewer than
 ///                             10 values have no standard deviation; if no number is free; if a fixed friction or patch
 ///                             radius is outside the model: friction 1e-4 to 10, patch radius 8.3e-7 R to R, for a ball
-///                             one without an invariant ray
+///                             also so small that the law has no invariant ray
 /// @throws std::runtime_error  if the search does not converge
 Fit fit(const FitRequest& asked);
 

@@ -47,9 +47,9 @@ struct Track {
 };
 
 /// Throws for a track to which no motion can be fitted.
-/// @throws std::domain_error  with the name of the series: if sizes differ, a time or a standard deviation is invalid,
-///                            a
-///                            time is before the start, or there is neither a value nor a stop time
+/// @throws std::domain_error  with the name of the series: if sizes differ, if a time or a standard deviation is
+///                            invalid, if a time is before the start,
+///                            or if there is neither a value nor a stop time
 void require(const Track& track);
 
 }  // namespace contensou::fit

@@ -14,7 +14,7 @@ struct Body {
   std::string_view name = "ball";  ///< empty for a body without a name
   reduction::Inertia inertia = reduction::homogeneous_ball;
   std::optional<double> patch_ratio{};  ///< patch radius/R if the body fixes it: a puck rests on its whole face
-  bool rolls_on_a_small_patch = true;   ///< true: a ball, for which mu must be at most 1
+  bool rolls_on_a_small_patch = true;   ///< true: a ball, whose mu = patch radius/R must be at most 1
   std::string_view law = "exact";       ///< name of the friction law that follows from its pressure
   std::optional<double> factor = {};    ///< moment of inertia divided by m R^2, if given (with_factor)
 

@@ -18,11 +18,11 @@ struct Impact {
 /// @param gravity  g, m/s^2
 double drop_speed(double height, double gravity);
 
-/// Returns the patch radius, in m, of an elastic ball in an impact: its mean over the normal impulse.
+/// Returns the patch radius, in m, of an elastic ball in an impact: the mean radius over the normal impulse.
 ///
-/// The mean is B(1/2, 6/5)/2 = 0.89552 of the largest radius a, for which m v^2/2 = (8/15) E* a^5/R'^2 (H. Hertz, J.
-/// reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156). When the normal speed v has fallen to w v, the
-/// radius is (1 - w^2)^(1/5) a, and the impulse so far is m (1 - w) v.
+/// The mean is B(1/2, 6/5)/2 = 0.89552 (beta function B) of the largest radius a. m v^2/2 = (8/15) E* a^5/R'^2 gives a
+/// (H. Hertz, J. reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156); E* and R' as in hertz_contact.hpp. At
+/// the normal speed w v the radius is (1 - w^2)^(1/5) a, and the impulse so far is m (1 - w) v.
 ///
 /// @param mass    m, kg
 /// @param speed   v, m/s, along the normal
@@ -34,7 +34,7 @@ double hertz_impact_patch_radius(double mass, double speed, double radius, const
 struct Rebound {
   Velocities velocities;  ///< velocity of the centre along the plane; angular velocity, z up
   double slip;            ///< slip that remains, m/s
-  double grip;            ///< share of the impulse after which the ball rolls; above 1 it leaves before it rolls
+  double grip;            ///< share of the impulse after which the ball rolls; above 1 the ball leaves before it rolls
 };
 
 /// Returns the experiment whose time in s is the normal impulse so far, divided by the mass, in m/s; the impact ends at
@@ -44,9 +44,9 @@ Experiment pressed_in(const Impact& impact, const Experiment& experiment, const 
 
 /// Computes the rebound of a ball that hits the plane obliquely, sliding and spinning.
 ///
-/// The friction of a patch is proportional to the load. So slip and spin pass through the states of a sliding ball
-/// (Motion::reduced), with the normal impulse in place of time, no matter how the load varies. The bodies are rigid.
-/// The patch is constant, does not roll and does not yield sideways. Gravity is negligible during the impact.
+/// The friction of a patch is proportional to the load. Slip and spin therefore pass through the states of a sliding
+/// ball (Motion::reduced), with the normal impulse in place of time, no matter how the load varies. The bodies are
+/// rigid. The patch is constant, does not roll and does not yield sideways. Gravity is negligible during the impact.
 ///
 /// @param experiment     its start is the motion at the first contact
 /// @param rolling_below  slip below which the ball rolls, m/s, >= 0; with 0 it rolls when its spin ends

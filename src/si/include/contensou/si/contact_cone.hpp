@@ -7,14 +7,14 @@
 
 namespace contensou::si {
 
-/// A limit of an engine's contact for the friction force F and the moment M about the normal. Alone, each may reach F0
-/// = f N or M0 = c N, with the load N and a length c. Cones are models for comparison, not friction laws: except the
-/// ellipse and the points, they are not functions of v/|omega|.
+/// A limit of an engine's contact for the friction force F and the moment M about the normal. Alone, F may reach F0 = f
+/// N and M may reach M0 = c N, with the load N and a length c. Cones are models for comparison, not friction laws:
+/// except the ellipse and the points, they are not functions of v/|omega|.
 enum class Cone {
   elliptic,  ///< (F/F0)^2 + (M/M0)^2 <= 1
   box,       ///< F <= F0, M <= M0: slip and spin are independent
   pyramid,   ///< F/F0 + M/M0 <= 1
-  points,    ///< points at c/f from the middle with friction f times their load; the mean over a turn is the law ring
+  points,    ///< points at c/f from the middle, friction f times their load; the mean over a turn is the law ring
 };
 
 std::string_view name(Cone cone);
@@ -27,7 +27,7 @@ inline constexpr double faded = 1e-3;
 struct FadeTimes {
   double slip;         ///< time until the slip has fallen to `faded` of its start, s; 0 without slip
   double spin;         ///< time until the spin has fallen to this share, s; infinity for never
-  double slip_length;  ///< length that the contact slides until it stops, m; for a body that lies flat, the path
+  double slip_length;  ///< length that the contact point slides until the stop, m; for a body that lies flat, the path
   double turns;        ///< turns about the vertical until the stop; infinity for never
 };
 

@@ -86,10 +86,10 @@ class Description {
   /// Returns this description with the values of `above` in place of its own.
   ///
   /// A value in `above` removes the values that determine the same in another way (alternatives): a patch radius
-  /// removes moduli, a load removes gravity, and slip with spin removes velocities. A velocity replaces its part of
-  /// slip and spin; the other part stays. A slip or a spin replaces velocities. The result is a slip along x and a
-  /// spin; the one that `above` does not contain is computed from the velocities. A replaced number loses its standard
-  /// deviation; correlations of the others stay.
+  /// removes moduli, a load removes gravity, and slip with spin removes velocities. A velocity replaces the slip, an
+  /// angular velocity the spin; the other of slip and spin stays. A slip or a spin replaces velocities by a slip along
+  /// x and a spin; if `above` lacks one of these, the velocities determine it. A replaced number loses its standard
+  /// deviation; the correlations of the other numbers stay.
   Description under(const Description& above) const;
 
   /// Tests that no value is given in two ways, and that numbers with the given correlations exist.
@@ -99,7 +99,7 @@ class Description {
   /// Returns the place of a value; if the value is not given, the result of home_of.
   Source source_of(const Quantity& quantity) const;
 
-  /// Returns the place where a value would stand, in its section.
+  /// Returns the place, in the section of a quantity, at which its value would stand.
   Source home_of(const Quantity& quantity) const;
 
   /// Returns true if all values stand in one file.

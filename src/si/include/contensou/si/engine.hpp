@@ -23,7 +23,7 @@ struct EngineContact {
 /// @throws std::domain_error  as patch_radius_of
 EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
 
-/// A number of an engine in SI units: a factor, times those of f, a and Psi(0) that are set, times a power of R.
+/// A number of an engine in SI units: factor times f, a and Psi(0), each only if it is set to true, times a power of R.
 struct EngineNumber {
   double factor = 1;
   bool f = false, a = false, psi = false;
@@ -54,7 +54,7 @@ struct EngineSetting {
 /// The numbers that a user types into an engine for one kind of body, and their effect.
 struct EngineUse {
   std::vector<EngineParameter> parameters;  ///< numbers for sliding first; the number for the moment last; may be empty
-  std::string_view limit;                   ///< limit of the moment M under the load N, as the engine defines it
+  std::string_view limit;                   ///< limit of the moment M under the load N, as the engine defines M
   std::vector<std::string_view> needs;      ///< switches that must be on for the numbers to have an effect
   std::vector<EngineSetting> settings;      ///< the setting nearest to the law first, then other common settings
 };
@@ -66,7 +66,7 @@ struct Engine {
   std::string_view repository;  ///< repository on github.com
   std::string_view version;     ///< version whose source was read
   EngineUse ball;
-  EngineUse face;                ///< use for a body that lies flat; without settings if there is none or none was read
+  EngineUse face;                ///< use for a body that lies flat; no settings if there is none or none was read
   std::string_view combination;  ///< rule by which the numbers of two bodies are combined
   std::vector<std::string_view> remarks;  ///< known problems
   std::vector<std::string_view> sources;  ///< FILE:LINES

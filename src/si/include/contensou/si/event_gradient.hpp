@@ -24,8 +24,8 @@ struct EventNumber {
 /// length, turns, path and stop time.
 class EventNumbers {
  public:
-  /// @param rolling_below  as in Motion::rolls; if it is empty, the stop time is the only number. The rolling friction
-  ///                       is
+  /// @param rolling_below  as in Motion::rolls; if it is empty, the stop time is the only number. The rolling
+  ///                       friction is
   ///                       that of the experiment
   /// @throws std::domain_error  as Motion::reduced and finite; for a ball at rest
   EventNumbers(const Experiment& experiment, const reduction::Law& law, std::optional<double> rolling_below);
@@ -50,8 +50,8 @@ class EventNumbers {
   Eigen::VectorXd of(const Experiment& other) const;
 
   /// Returns the derivatives of the numbers by one component, by fourth-order differences over a thousandth of its
-  /// value. The result is empty if the numbers have no derivative: at a spin of 0, at the limits of the component, and,
-  /// for a component that changes the slip, if the slip is within 1e-6 of the threshold of rolling.
+  /// value. Empty if the numbers have no derivative: at a spin of 0, at the limits of the component, and, for a
+  /// component that changes the slip, if the slip is within 1e-6 of the threshold of rolling.
   ///
   /// Accuracy  1e-8 for the derivatives by the start and by friction, compared with the algebra of (R61), and for the
   ///           time of rest of a motion that is integrated in steps.

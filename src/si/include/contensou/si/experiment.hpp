@@ -114,7 +114,7 @@ std::string origin_of(const PatchSource& patch);
 /// Returns the name of the law of an experiment: the law of the contact if given, else the law of the body's pressure.
 std::string law_of(const Experiment& experiment);
 
-/// Returns the member of an experiment that stores a quantity; null for one of several ways to give a value.
+/// Returns the member of an experiment that stores a quantity; null if there is none, as for all of alternatives().
 double* member_of(Experiment& experiment, const Quantity& quantity);
 
 /// Returns the radius of the contact patch in m, from its source.
@@ -132,7 +132,7 @@ Experiment without_spin(Experiment experiment);
 /// omega_x). It is 0 if the terms cancel up to rounding.
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment);
 
-/// Returns the absolute value of this velocity in m/s.
+/// Returns the slip at the start in m/s, the absolute value of slip_velocity_at_start.
 double slip_at_start(const Experiment& experiment);
 
 /// Returns the spin omega_z at the start in rad/s.

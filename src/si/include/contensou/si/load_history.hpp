@@ -6,8 +6,8 @@ namespace contensou::si {
 
 /// A load that changes in time: linear between given times, and constant after the last.
 ///
-/// Friction is proportional to the load. So the motion passes through the same states as under a constant load, but at
-/// other times: its state at t is the state at clock(t) under the load nominal().
+/// Friction is proportional to the load. The motion therefore passes through the same states as under a constant load,
+/// at other times: its state at t is the state at the time clock(t) under the load nominal().
 class LoadHistory {
  public:
   /// @param t     times, s, from 0 on, not decreasing; two equal times are a jump

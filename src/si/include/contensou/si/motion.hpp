@@ -46,8 +46,8 @@ struct ReducedPiece {
   reduction::Orbit orbit;  ///< orbit that starts at tau; the piece may end before the orbit does
 };
 
-/// Return the state of a motion that consists of pieces: at the time tau after its start (rest beyond the stop), or at
-/// a time before its stop. beta is continuous from piece to piece.
+/// Return the state of a motion that consists of pieces: at the time tau after its start (at rest from the stop on), or
+/// at a time before its stop. The regularised time beta is continuous from piece to piece.
 /// @throws std::domain_error  as Orbit::at_time and at_time_left
 reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau);
 reduction::OrbitPoint state_at_time_left(const std::vector<ReducedPiece>& pieces, double left);
@@ -57,25 +57,25 @@ inline double stop_time(const std::vector<ReducedPiece>& pieces) {
   return pieces.back().tau + pieces.back().orbit.stop_time();
 }
 
-/// Slip in m/s below which a ball that no longer turns about a horizontal axis counts as resting. As long as the ball
-/// spins, it also slides; this sliding moves it by less than 0.1 mm.
+/// Slip in m/s below which a ball that no longer turns about a horizontal axis counts as resting. A ball that still
+/// spins also slides; this sliding moves it by less than 0.1 mm.
 inline constexpr double resting_slip = 1e-4;
 
 /// The whole motion of a ball, or of a body that lies flat, from its start on: equations (2.1) to (2.5) of V. F.
 /// Zhuravlev, 1998 (Zh98), with any friction law.
 ///
 /// Friction determines slip and spin. Everything else follows from first integrals (motion_by_slip). Rolling resistance
-/// is a torque chi J u_r g/R against turning about a horizontal axis; for a homogeneous ball (7/5) u_r m g R. Under it
-/// a ball that rolls without slip slows down at u_r g. The torque also acts while the ball slides, and up to its size
-/// it keeps a ball that does not turn from turning. On a slope of the angle alpha, g cos(alpha) presses and g
-/// sin(alpha) pulls. When slip and spin have ended, the ball rolls on or rests, in closed form (R56).
+/// is a torque chi J u_r g/R (J: moment of inertia) against turning about a horizontal axis; for a homogeneous ball
+/// (7/5) u_r m g R. Under it a ball that rolls without slip slows down at u_r g. The torque also acts while the ball
+/// slides, and up to its size it keeps a ball that does not turn from turning. On a slope of the angle alpha, g
+/// cos(alpha) presses and g sin(alpha) pulls. After slip and spin the ball rolls on or rests, in closed form (R56).
 ///
 /// A motion never changes. Copies, also in several threads, share its solution.
 class Motion {
  public:
   /// Computes the motion, if possible without steps in time. Slip and spin are then one orbit of the reduced system.
   ///
-  /// With rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)).
+  /// Under rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)).
   /// This requires that the body slides in the direction in which it rolls, and straight down a slope. Any other such
   /// motion is integrated by the method of Cash and Karp 5(4).
   ///
@@ -106,7 +106,7 @@ class Motion {
   /// the ball rolls, it slows down at u_r g and comes to rest. On a slope the ball moves as a ball without spin, and
   /// spins independently.
   /// @param law            law for Psi(0), the moment of pure pivoting
-  /// @param rolling_below  slip at which its rolling friction begins to act, m/s, >= 0
+  /// @param rolling_below  slip, m/s, >= 0, at which rolling friction begins to act in this model
   static Motion uncoupled(const Experiment& experiment, const reduction::Law& law, double rolling_below = rolling_slip,
                           const std::optional<LoadHistory>& history = {});
 
@@ -131,12 +131,12 @@ class Motion {
   /// Returns the time until the spin ends, s; 0 without spin at the start.
   double spin_end() const;
 
-  /// Returns the time after which the slip never exceeds a speed, s; 0 if it never does.
+  /// Returns the time after which the slip never exceeds a speed, s; 0 if the slip never exceeds this speed.
   /// @param speed  slip, m/s, >= 0
   /// @throws std::domain_error  if the speed is negative or not a number
   double slip_time(double speed) const;
 
-  /// Returns the time at which the spin, of either sign, has fallen to a speed, s; 0 if it never exceeds it.
+  /// Returns the time at which |spin| has fallen to a speed, s; 0 if |spin| never exceeds this speed.
   /// @param speed  spin, rad/s, >= 0
   /// @throws std::domain_error  if the speed is negative or not a number
   double spin_time(double speed) const;
@@ -165,7 +165,7 @@ class Motion {
   double spin_angle() const;
   double turns() const;
 
-  /// Returns the length of the centre's path until the time t >= 0 in s, in m, to 1e-9.
+  /// Returns the length in m of the path of the centre until the time t >= 0 in s, to 1e-9.
   double path_length(double t) const;
 
   EnergyBalance energy_balance() const;
@@ -176,11 +176,11 @@ class Motion {
   /// Returns true if the motion was computed from the reduced system, without time steps.
   bool is_reduced() const;
 
-  /// Returns the orbits of which the motion consists until slip and spin end; without a drive there is one. Empty for a
-  /// motion that is not reduced. With a drive it is also empty for a start without slip and spin.
+  /// Returns the orbits of which the motion consists until slip and spin end; without a drive there is one orbit. Empty
+  /// for a motion that is not reduced, and under a drive also for a start without slip and spin.
   std::vector<ReducedPiece> pieces() const;
 
-  /// Returns the ratio v/(eps |omega_z|) at which a body creeps while it spins; empty if it does not creep or spin.
+  /// Returns the ratio v/(eps |omega_z|) at which a spinning body creeps; empty if it does not spin or does not creep.
   std::optional<double> creep_ratio() const;
 
   /// Returns the number of integration steps; 0 without an integration.

@@ -41,8 +41,8 @@ struct EnergyLoss {
 
 EnergyLoss energy_loss(const Experiment& experiment);
 
-/// Returns the velocities of the final rolling of an experiment, or of the rest of a body that lies flat, under any
-/// friction law. The axes are those of the start (for SlipAndSpin x points along the initial slip).
+/// Returns the velocities of the final rolling of an experiment, under any friction law; 0 for a body that lies flat.
+/// The axes are the axes of the start (for SlipAndSpin x points along the initial slip).
 ///
 /// Let x point along the slip v. R omega_y + (1 - 1/chi) v is a first integral; for a homogeneous ball it is 7 R
 /// omega_y + 5 v. The velocity of the centre along the slip therefore falls by v0/chi, for this ball by 2 v0/7.
@@ -50,9 +50,9 @@ Velocities final_motion(const Experiment& experiment);
 
 /// Returns the state of a motion at a time, computed from slip, slip length and spin about the vertical.
 ///
-/// The slip keeps its direction e, and omega keeps its component along e. Along e the velocity of the centre falls by
-/// 1/chi of the lost slip, for a homogeneous ball 2/7; R omega across e takes the rest (V. F. Zhuravlev, 1998, after
-/// (2.5)). So V = V0 - (v0 - v) e/chi and X = V0 t - (v0 t - slip_length) e/chi.
+/// The slip keeps its direction e, and omega keeps its component along e. The velocity of the centre along e falls by
+/// 1/chi of the lost slip (homogeneous ball: 2/7). The rest of the lost slip changes R omega across e (V. F. Zhuravlev,
+/// 1998, after (2.5)). The result: velocity V = V0 - (v0 - v) e/chi, place X = V0 t - (v0 t - slip_length) e/chi.
 ///
 /// @param t            time, s
 /// @param slip         slip v, m/s

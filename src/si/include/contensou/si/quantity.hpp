@@ -101,8 +101,8 @@ struct Unit {
 /// A dimension: its SI unit (or degrees) and the other units that users may write.
 struct Dimension {
   std::string_view name;    ///< name in the program's help
-  std::string_view symbol;  ///< symbol of the unit of a number without a unit
-  std::string_view words;   ///< name of that unit in the plural
+  std::string_view symbol;  ///< symbol of the unit that a number without a unit has
+  std::string_view words;   ///< name of this unit in the plural
   std::vector<Unit> others;
 };
 const std::vector<Dimension>& dimensions();

@@ -9,7 +9,7 @@ namespace contensou::si {
 
 // The scaling between SI units and the variables u, v, tau of reduction; u, v and tau are in m/s.
 
-/// Returns mu = eps/R. Throws as patch_radius_of.
+/// Returns mu = eps/R, the patch radius divided by the ball radius. Throws as patch_radius_of.
 double patch_ratio(const Experiment& experiment, const reduction::Law& law);
 
 /// Returns the start in the variables of reduction: u = R omega_z, v = slip.

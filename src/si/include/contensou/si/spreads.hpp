@@ -54,10 +54,10 @@ struct Spreads {
   /// Returns the index of a number; empty if it has no spread.
   std::optional<Eigen::Index> place(const Component& of) const;
 
-  /// Adds a number that is independent of the others.
+  /// Adds a number that is independent of the other numbers.
   void add(const Component& of, double standard);
 
-  /// Returns the spreads of those numbers alone that satisfy a condition; the others may have any value.
+  /// Returns the spreads of the numbers that satisfy a condition. The other numbers may have any value.
   Spreads of(const std::function<bool(const Component&)>& kept) const;
 
   Eigen::MatrixXd covariance() const;

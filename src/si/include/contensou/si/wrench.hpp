@@ -24,7 +24,7 @@ struct Wrench {
 
 /// The wrench of a patch, that is, its force and moment, for a time step. It is finite and continuous down to rest.
 ///
-/// It is computed by the law with the sliding speed |v| replaced by V = sqrt(|v|^2 + s^2). With w = eps |omega|,
+/// The law computes the wrench with V = sqrt(|v|^2 + s^2) in place of the sliding speed |v|, and with w = eps |omega|:
 ///   F = -f N Phi(V, w) v/V,    M = -f N eps Psi(V, w) sign(omega)
 /// Every motion satisfies |F| <= f N, |M| <= f N eps Psi(0) and F.v + M omega <= 0.
 ///
@@ -33,18 +33,18 @@ struct Wrench {
 /// semidefinite, and an implicit step under a given load N has exactly one solution (reduction/README.md, (R36)).
 ///
 /// At rest the Jacobian is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, with K = lim k Psi (1/5
-/// for exact). With lengths in units of eps, it is below 5 f N/s for every motion under every law. (The law
+/// for exact). If eps is the unit of length, the Jacobian is below 5 f N/s for every motion under every law. (The law
 /// ring has a logarithm at k = 1, which differences cut off.) For the laws exact, uniform and elliptic of
 /// contensou/wrench_kernel.h, the Jacobian is symmetric up to rounding. For other laws it is symmetric to 1e-9, and to
 /// 1e-6 next to the kink of ring and similar laws.
 ///
 /// A body at rest under a force creeps. Under a tangential load T < f N alone, its speed is
-///   |v| = s T/sqrt((f N)^2 - T^2),
-/// under a moment Q < f N eps Psi(0) alone, eps |omega| = s/k with Psi(k) = Q/(f N eps); for small Q, s Q/(K f N eps).
+/// under a moment Q < f N eps Psi(0) alone it is eps |omega| = s/k, where Psi(k) = Q/(f N eps); for small Q this is s
+/// Q/(K f N eps). At speeds above s the effect of s is of the order of s^2 divided by the square of the larger speed.
 /// At speeds above s the effect of s is of the order of s^2 divided by the larger speed squared.
 ///
 /// A stepper with one Newton step per time step dt needs s >= a dt/2, where a is the deceleration by friction alone
-/// (for a ball 7/2 f g). With a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
+/// (for a ball 7/2 f g). For a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
 /// Steps that iterate to convergence need no such bound.
 class PatchFriction {
  public:
