@@ -76,7 +76,7 @@ TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law
   }
   CHECK(times.count() == 1000);
   CHECK_WITHIN_EPS(times, 2000);
-  CHECK_WITHIN_EPS(points, 4500);  // 1e-12
+  CHECK_WITHIN_EPS(points, 4500);  // 4500 eps are 1e-12
 }
 
 TEST_CASE("system (2.6) solved by its flow agrees with the solution by the values of its field", "[planar][route]") {
@@ -123,7 +123,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
     }
     REQUIRE(by_flow.sectors().size() == by_values.sectors().size());
     for (std::size_t j = 0; j < by_flow.sectors().size(); ++j) {
-      // Both lists are counter-clockwise. The first sector may be another one.
+      // Both lists run counter-clockwise, but they may begin with different sectors.
       const PlanarSector& got = by_flow.sectors()[j];
       const auto same = std::ranges::find_if(by_values.sectors(), [&](const PlanarSector& other) {
         return std::abs(wrapped(got.from - other.from)) < 1e-13 &&
@@ -132,7 +132,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       REQUIRE(same != by_values.sectors().end());
       const PlanarSector& wanted = *same;
       CHECK(std::pair(got.from_ray, got.to_ray) == std::pair(wanted.from_ray, wanted.to_ray));
-      // For two orbits of each sector the difference of both first integrals is the same.
+      // Two orbits of a sector have a difference of first integrals. Both solutions must give the same difference.
       const double one = uniform(0.05, 0.95), other = uniform(0.05, 0.95);
       double differences[2]{};
       for (int n : {0, 1}) {
@@ -189,7 +189,7 @@ TEST_CASE("where a ray of (2.6) merges with an axis, its order is that of the so
 }
 
 TEST_CASE("a focus whose centre is not smooth: its spiral and its stop are exact", "[planar][exact]") {
-  // r' = -1, angle' = b/r: angle = -b ln(1 - t/r0), and r shrinks by exp(-2 pi/b) in a turn
+  // r' = -1, angle' = b/r: the angle is -b ln(1 - t/r0), and r shrinks by the factor exp(-2 pi/b) in a turn.
   for (double b : {1.0, -0.3, 20.0}) {
     const PlanarReduction plane =
         reduced([b](const Vector2d& x) -> Vector2d { return Vector2d(-x[0] - b * x[1], b * x[0] - x[1]) / x.norm(); });
@@ -239,7 +239,7 @@ TEST_CASE("linear fields: kind, rays and motion against the exponential of the m
       CHECK(orbit.end() == end);
       CHECK(orbit.end_time() == infinity);  // a linear motion never reaches its end
       for (double t : {0.0, 0.5, 3.0, 12.0}) {
-        // exp(t m) by the series for a small part of t, squared repeatedly
+        // The exponential exp(t m) by its series for a small part of t, which is then squared repeatedly.
         Matrix2d exact = Matrix2d::Identity(), term = exact;
         for (int i = 1; i < 20; ++i) exact += term = (term * m * (t / 256 / i)).eval();
         for (int i = 0; i < 8; ++i) exact = (exact * exact).eval();
@@ -265,7 +265,7 @@ TEST_CASE("the rays of a node are its eigenvectors, and R and dT/dq its eigenval
 }
 
 TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors", "[planar][exact]") {
-  // z' = z^2, z = u + i v: z = z0/(1 - z0 t). Orbits are circles through the origin; only v = 0, u > 0 escapes.
+  // z' = z^2, z = u + i v, gives z = z0/(1 - z0 t). Orbits are circles through 0; on v = 0, u > 0 they reach infinity.
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); });
   CHECK(plane.kind() == "mixed");
@@ -300,7 +300,7 @@ TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][
 }
 
 TEST_CASE("weights that differ", "[planar][exact]") {
-  // u' = -1, v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. u and v become 0 at different times.
+  // u' = -1, v' = -3 sqrt|v| sign(v). Scaling: u -> c u, v -> c^2 v, t -> c t. u and v become 0 at different times.
   const PlanarReduction plane = reduced([](const Vector2d& x) {
     return Vector2d(-std::copysign(1, x[0]), -3 * std::copysign(std::sqrt(std::abs(x[1])), x[1]));
   });
@@ -334,7 +334,7 @@ TEST_CASE("about another centre", "[planar][exact]") {
 }
 
 TEST_CASE("a constant force beside friction: creeping rays, and a start that never stops", "[planar][exact]") {
-  // A drive of 0.2 or 1.5 of the friction along u = 0, which is 1: k tends to a ray, or v grows for ever.
+  // The drive is 0.2 or 1.5 times the friction along u = 0, which is 1. k tends to a ray, or v grows for ever.
   const double rate = ReducedSystem(PadeLaw{}, 0.5).scaled_time_rate();
   const auto driven = [&](double drive) {
     return reduced([=, friction = planar_field({PadeLaw{}, 0.5})](const Vector2d& x) -> Vector2d {
@@ -405,8 +405,8 @@ TEST_CASE("a relay about another point stops when the one about the origin does"
   const PlanarReduction here = reduced(relay(0), {0.5, 2}), there = reduced(relay(1), {1.5, 2});
   CHECK(there.kind() == "stable focus");
   CHECK(there.end_time({1.5, 2}) == Approx(here.end_time({0.5, 2})).epsilon(1e-12));
-  // By hand: let an orbit meet u = 0 at v, then at -w. In each half turn v^2 (1 + ...) falls by the same factor.
-  const double a = 0.7, b = 1.3;  // |v'| on the way out and on the way back
+  // Computed by hand: an orbit meets u = 0 at v, then at -w. In each half turn v^2 (1 + ...) falls by the same factor.
+  const double a = 0.7, b = 1.3;  // size of v' on the way out and on the way back
   const double out = 2 / b, top = 0.5 + 2 * out - b * out * out / 2, in = std::sqrt(2 * top / a), w = a * in;
   const double ratio = std::sqrt(a / b), half_turn = w / b + w * ratio / a;
   CHECK(there.end_time({1.5, 2}) == Approx(out + in + half_turn / (1 - ratio)).epsilon(1e-12));
@@ -435,7 +435,7 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
   // reference by SciPy's DOP853 in ln r and the angle, to 1e-11
   CHECK(reduced(node(1, 0.004)).end_time({1, 0.2}) == Approx(0.7710816980055679).epsilon(1e-8));
   CHECK(reduced(node(1, 0.03)).end_time({1, 0.2}) == Approx(0.7712289685393047).epsilon(1e-8));
-  // T touches 0 at a direction where it is not exactly 0. Up to its rounding there is one double ray.
+  // T touches 0 at a direction that is no double. Up to rounding of T there is one double ray.
   const PlanarReduction touching = reduced(node(0.96, 0));
   CHECK(touching.kind() == "stable node");
   REQUIRE(touching.rays().size() == 2);
@@ -462,7 +462,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
   }
   for (const auto& [m, eigenvalue, kind, end] : cases) {
     CAPTURE(m);
-    // The solution uses the given scaling of a linear field, even if the field has others.
+    // A linear field has several scalings. The solution uses the given one.
     const PlanarReduction plane(linear(m), {0, Matrix2d::Identity(), Vector2d::Zero(), true}, {1, 0.5}, 1e-15);
     CHECK(plane.kind() == kind);
     CHECK(plane.rays().size() == 2);
@@ -473,7 +473,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
       for (double t : {0.0, 0.4, 2.0, 20.0, 100.0}) {
         const Vector2d exact = std::exp(eigenvalue * t) * (start + t * (m * start - eigenvalue * start));
         CAPTURE(start, t);
-        // Next to a double ray p ~ 1/z ~ t. The angle of the ray is accurate to 1e-12.
+        // Next to a double ray, p ~ 1/z ~ t, with z the angle from the ray. The angle of the ray has an error of 1e-12.
         CHECK((orbit.at(t) - exact).norm() < 1e-12 * (1 + t * t) * exact.norm());
       }
     }
@@ -574,7 +574,7 @@ TEST_CASE("a ray that orbits join, and may leave, is not decided", "[planar][dom
   CHECK(branching.kind().empty());
   CHECK(branching.end({1, -0.1}) == PlanarEnd::undecided);
   CHECK_THAT(branching.undecided(), Contains("no single motion"));
-  // u' = -u, v' = -sqrt|u v| sign(v): v = 0 is reached from both sides
+  // u' = -u, v' = -sqrt|u v| sign(v): orbits reach v = 0 from both sides.
   const PlanarReduction joining =
       reduced([](const Vector2d& x) { return Vector2d(-x[0], -std::copysign(std::sqrt(std::abs(x[0] * x[1])), x[1])); },
               {1, -0.1});
@@ -584,7 +584,7 @@ TEST_CASE("a ray that orbits join, and may leave, is not decided", "[planar][dom
 }
 
 TEST_CASE("relays whose jumps lie on no axis", "[planar][exact]") {
-  // The same relay in sheared coordinates stops at the same time.
+  // The same relay in sheared coordinates must stop at the same time.
   const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
   std::mt19937 random(7);
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
@@ -613,7 +613,7 @@ TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exa
   const PlanarReduction resting = reduced([](const Vector2d& x) { return Vector2d(0, -x[1] / x.norm()); });
   CHECK(resting.kind() == "degenerate");
   CHECK(resting.end({2, 1}) == PlanarEnd::rest);
-  // The same field, rotated, so that the ray is not an axis.
+  // The same field is rotated, so that the ray is not an axis.
   const Vector2d n(std::cos(0.3), std::sin(0.3));
   const PlanarReduction turned =
       reduced([&](const Vector2d& x) -> Vector2d { return (-x.dot(n) / x.norm()) * n; }, {2, 1});
