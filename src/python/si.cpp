@@ -57,7 +57,7 @@ std::string words_of(const py::handle& value) {
   return words.size() > most ? words.substr(0, most) + "..." : words;
 }
 
-/// Writes the friction of contacts to `values`, and its slopes to `slopes` unless it is empty; NaN if a number is NaN.
+/// Writes the friction of contacts to `values`, and its slopes to `slopes` unless that is empty; NaN if an input is.
 /// @param given  loads, then friction, radius and creep of the patches; each has one value for each contact, or one for
 ///               all
 /// @throws std::domain_error  for the first contact with a wrong number, with its index in the message
