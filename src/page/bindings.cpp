@@ -259,7 +259,7 @@ class Plane {
 
   /// Returns the motion over the table until `end` in s, in the columns of `contensou roll`. The times are dense at the
   /// beginning. If a ball with rolling friction or on a slope comes to rest, {t, x, y} of the rest is included.
-  /// @param fields  a ball; its patch is that of the plane
+  /// @param fields  a ball; its patch is the patch of the plane
   val ride(const val& fields, double rolling_friction, double end) const {
     const si::Motion moves = motion_of(fields, rolling_friction);
     constexpr Eigen::Index pieces = 160;

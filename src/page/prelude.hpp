@@ -37,7 +37,7 @@ constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
 }
 
-/// The algorithms of std::ranges, replaced by those of the library range-v3, from which they come.
+/// The algorithms of std::ranges, replaced by the algorithms of range-v3, the library on which std::ranges is modelled.
 namespace ranges {
 using namespace ::ranges;
 }

@@ -209,7 +209,7 @@ void require_ascii(const std::string& text) {
   const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (at == text.end()) return;
   const auto place = static_cast<std::size_t>(at - text.begin());
-  // The first byte of a character in UTF-8 begins with one 1 bit per byte of it, later bytes with 10. Else Latin-1.
+  // In UTF-8 the first byte has as many leading 1 bits as there are bytes; later bytes begin with 10. Else Latin-1.
   std::size_t size = 1;
   while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
   const std::string letter = text.substr(place, size);
@@ -408,7 +408,7 @@ class Parser {
 
 using Steps = std::vector<Step>;
 
-/// A factor of a product, with its exponent.
+/// A factor of a product: the steps that compute this factor, and the variables in it.
 struct Factor {
   Steps steps;
   unsigned char variables;  ///< coded like Step::left

@@ -34,7 +34,7 @@ class InstantsOption {
 
   bool given() const { return !names().empty(); }
 
-  /// Returns the names of those of the three options that were given, joined for a message.
+  /// Returns the names of the given ones of these three options, joined for a message.
   std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
 
   /// Returns the instants of --at, in the order given; null without --at.

@@ -126,7 +126,7 @@ class StartOptions {
   /// Returns the name of the law that belongs to the body or the ball. Throws as read.
   std::string standard_law() const;
 
-  /// Returns true if the ball has a law of its own, or if its body has another default law than a ball.
+  /// Returns true if the ball has its own law, or if its body has another default law than a ball.
   bool brings_law() const;
 
   /// Prints which spreads in the ball's run file do not apply, because options replace their numbers.

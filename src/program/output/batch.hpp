@@ -27,7 +27,7 @@ struct BatchRequest {
   ShowProgress progress = ShowProgress::never;
 };
 
-/// Computes a table of any length; only a few blocks of it are in memory. Rows are written in order, as soon as
+/// Computes a table of any length; only a few blocks of the table are in memory. Rows are written in order, as soon as
 /// possible. The bytes do not depend on the number of threads. Standard error shows the number of infinite results.
 ///
 /// @param output  file for the table; the caller finishes it

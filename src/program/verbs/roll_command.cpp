@@ -265,7 +265,7 @@ class RollCommand final : public Verb {
                          .progress = bulk_.progress(out.path)};
     std::vector<std::string>& names = request.results;
     if (still.ball.body.lies_flat())
-      std::copy(names.end() - 3, names.end(), names.begin());  // the columns of the rest replace those of rolling
+      std::copy(names.end() - 3, names.end(), names.begin());  // columns of the rest, in place of columns of rolling
     if (!may_rest) names.resize(names.size() - 3);
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
