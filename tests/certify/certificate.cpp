@@ -68,7 +68,7 @@ class Ball {
 
 thread_local slong Ball::precision = 128;
 
-/// Smallest number of bits of an enclosure: 25 decimals and a thousandth of an ulp.
+/// Smallest number of correct bits of an enclosure, enough for 25 decimals and for a thousandth of an ulp.
 constexpr slong wanted_bits = 90;
 constexpr slong max_bits = 1 << 16;
 

@@ -60,7 +60,7 @@ int main(int count, char** words) {
   std::printf("t,vx,vy,wx,wy,wz\n");
   for (long step = 0; step * dt <= std::atof(words[2]); ++step) {
     if (step % 50 == 0) std::printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", step * dt, v[0], v[1], w[0], w[1], w[2]);
-    const double vx = v[0] - (ball ? R * w[1] : 0), vy = v[1] + (ball ? R * w[0] : 0);  // of the point of contact
+    const double vx = v[0] - (ball ? R * w[1] : 0), vy = v[1] + (ball ? R * w[0] : 0);  // velocity of the contact
     const auto [fx, fy, moment] = elliptic ? kernel::wrench<kernel::Elliptic>(vx, vy, w[2], limit, a)
                                   : ball   ? kernel::wrench<kernel::Exact>(vx, vy, w[2], limit, a)
                                   : ring   ? kernel::wrench<Rim>(vx, vy, w[2], limit, a)

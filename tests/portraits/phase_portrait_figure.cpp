@@ -570,7 +570,7 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
 
 TEST_CASE("Every sector between two invariant half-lines has its orbits in every panel, and no orbit leaves it",
           "[limit]") {
-  using Function = double (*)(portraits::Point);  // ln k at a point, for mu = 1
+  using Function = double (*)(portraits::Point);  // returns ln k at a point, for mu = 1
   const Function speeds = [](portraits::Point p) { return std::log(p.y / std::abs(p.x)); };
   const Function up = [](portraits::Point p) { return p.y; };
   const std::map<View, std::vector<Function>> ln_k{

@@ -64,7 +64,7 @@ TEST_CASE("portraits with a drive: orbits begin at v = 0, isochrones end there, 
     from_below += orbit.at("v")[0] == 0;
   }
   CHECK(from_below > 4);
-  // A body that only spins begins to creep. Its speed grows at first, and its stop time is that of `stop`.
+  // A body that only spins begins to creep. Its speed v grows at first. Its stop time is the stop time of `stop`.
   const auto& creeping = data.at("highlight");
   CHECK(creeping.at("v")[0] == 0);
   CHECK(creeping.at("v")[20].get<double>() > 0);

@@ -102,7 +102,7 @@ TEST_CASE("topics of help", "[cli]") {
 }
 
 TEST_CASE("every kind and every end that reduce prints stands in the help on fields", "[cli]") {
-  // Take the part of the help about columns, with single blanks.
+  // Take the part of the help about columns, with each run of blanks as one blank.
   std::string help = run_program("help fields").out;
   help = std::regex_replace(help.substr(help.find("Columns and fields of reduce --system:")), std::regex("\\s+"), " ");
   const auto listed = [&](const std::string& field) {

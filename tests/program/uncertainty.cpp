@@ -111,7 +111,7 @@ TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
             Approx(at(falls ? -z : z, sign)).epsilon(3e-3));
     }
     if (sign < 0) continue;
-    // A spread on the command line replaces the spread of the ball and is independent of the others.
+    // A spread on the command line replaces the spread of the ball. Its error is independent of all other errors.
     const auto named = uncertainty(start + "--uncertainty fit,radius=1mm");
     const auto& shares = named.at("shares");
     CHECK(shares == known.at("shares"));

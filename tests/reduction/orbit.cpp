@@ -265,7 +265,7 @@ TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") 
       const OrbitPoint point = orbit.at_time_left(left);
       const OrbitPoint closer = orbit.at_time_left(left / 2);
       CHECK(point.u == Approx(5 * mu / 16 * left).epsilon(1e-12));
-      // v is proportional to the power 14/(5 mu^2) of the time left.
+      // Here v is proportional to the power 14/(5 mu^2) of the time left.
       CHECK(point.ln_v - closer.ln_v == Approx(14 / (5 * mu * mu) * std::numbers::ln2).epsilon(1e-11));
     }
   }

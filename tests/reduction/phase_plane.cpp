@@ -153,7 +153,7 @@ TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit
 }
 
 TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plane][table]") {
-  // Psi' = -k Phi' gives D' = Phi' (1 + r k^2) - r Psi. Weight: W = (16 + 15 pi)(8 + 3 pi); rate: 2 chi/(3 pi).
+  // D = Phi - r k Psi has D' = Phi' (1 + r k^2) - r Psi. W is (16 + 15 pi)(8 + 3 pi), and the rate is 2 chi/(3 pi).
   const double scale = 2 / (3 * pi) * (16 + 15 * pi) * (8 + 3 * pi);
   const auto angular = [](const char* law, double r) {
     return point_of(phase_plane(ReducedSystem(*find_law(law), 1, {1, r})), InvariantDirection::ray,

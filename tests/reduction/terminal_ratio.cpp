@@ -27,7 +27,7 @@ TerminalRatio end_of(const Law& law, double r) {
 
 TEST_CASE("published and closed terminal ratios", "[terminal_ratio][table]") {
   const auto ratio = [](const char* law, double r) { return end_of(*find_law(law), r).k; };
-  // Reference for a uniform disc on its own face: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
+  // Reference for a flat uniform disc: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
   CHECK(ratio("uniform", 2) == Approx(0.653001789205597639).epsilon(1e-14));
   CHECK(ratio("uniform", 3) == Approx(1).epsilon(1e-14));
   CHECK(ratio("ring", 1) == Approx(1).epsilon(1e-14));

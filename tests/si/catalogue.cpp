@@ -18,7 +18,7 @@ TEST_CASE("patches of the built-in balls", "[table]") {
     double patch;  // m
     double mu;
   };
-  // values of the theory: Hertz's formula and the spin deceleration, rounded there to three digits
+  // Values of the theory, rounded to three digits: from Hertz's formula and from the spin deceleration.
   const std::vector<Row> rows{{"pool", 2.83e-3, 0.099},     {"steel", 3.51e-5, 0.0035},
                               {"bowling", 1.33e-3, 0.0123}, {"rubber", 1.71e-3, 0.0685},
                               {"gel", 7.24e-3, 0.241},      {"basketball", 5.84e-3, 0.0483},

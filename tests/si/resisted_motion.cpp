@@ -185,7 +185,7 @@ TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole
       CHECK(near.slip_length() == Approx(there.slip_length()).epsilon(1e-5));
     }
   }
-  // Friction just suffices to hold the ball, so it rolls.
+  // Friction f N just suffices to keep the ball rolling.
   const Motion held = motion_of(pool(Velocities{{1, 0}, {0, 1 / R, 0}}, 0.2));
   CHECK(held.is_reduced());
   CHECK(held.slip_length() == 0);

@@ -48,7 +48,7 @@ Rigid rates(const Experiment& experiment, const reduction::Law& law, const Rigid
   const double cx = x[2] - R * x[5], cy = x[3] + R * x[4], v = std::hypot(cx, cy);
   const auto [force, moment] = law({v, eps * std::abs(x[6])});
   const double Fx = v > 0 ? -f * N * force * cx / v : 0, Fy = v > 0 ? -f * N * force * cy / v : 0;
-  // Rolling resistance is a torque against the turning about a horizontal axis.
+  // Rolling resistance is a torque against the rotation about a horizontal axis.
   const double turning = std::hypot(x[4], x[5]);
   const double torque = 1.4 * experiment.contact.rolling_friction * N * R;
   const double tx = turning > 0 ? -torque * x[4] / turning : 0, ty = turning > 0 ? -torque * x[5] / turning : 0;

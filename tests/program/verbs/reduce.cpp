@@ -291,7 +291,7 @@ TEST_CASE("reduce solves quotients with their denominator cleared", "[cli]") {
   const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7"};
   const Json plain = json_of_system("y' = x/y + 1/(x*y)", start);
   CHECK_FALSE(plain["tried"].back().contains("cleared"));
-  // The product of V and the common denominator D is a polynomial, but V is not.
+  // The inverse integrating factor V is no polynomial, but V times the common denominator D is one.
   const Json reduced = json_of_system("y' = (y^2-3*x^2*y+x)/(x^3-2*x*y)", start);
   CHECK(reduced["form"] == "constant");
   CHECK(reduced["tried"].back()["cleared"] == true);

@@ -104,7 +104,7 @@ TEST_CASE("every law keeps 4 eps for every k", "[laws][table]") {
       const long double force = row.result("phi_" + column), moment = row.result("psi_" + column);
       given.add(force, law({k, 1}).force, row.where());
       given.add(moment, law({k, 1}).moment, row.where());
-      // Compare only if the difference in long double keeps its digits.
+      // Compare only if the difference 1 - moment/pure_pivoting in long double keeps enough digits.
       if (const long double wanted = 1 - moment / pure_pivoting; wanted > 1e-3L) {
         deficit.add(wanted, law.moment_deficit({k, 1}), row.where());
       }

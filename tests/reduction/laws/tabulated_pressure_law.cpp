@@ -43,7 +43,7 @@ class RingsOfTable {
  private:
   struct Place {
     long double radius;
-    bool inside;        ///< k < radius
+    bool inside;        ///< true if k < radius
     long double along;  ///< (2/pi) E
     long double cross;  ///< (2/pi) (E - (1 - q^2) K)/q
   };

@@ -114,7 +114,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       CHECK(got.to_centre == wanted.to_centre);
       CHECK(std::isnan(wanted.k));
       CHECK(std::atan(mu * got.k) == Approx(std::abs(std::asin(std::sin(got.q)))).margin(1e-14));
-      // sigma depends on the scale of the closed curve p = 0.
+      // The value of sigma depends on the scale of the closed curve p = 0.
       radial.add(wanted.radial * around.norm(), got.radial, what);
       if (std::isfinite(wanted.angular)) {
         angular.add(wanted.angular * around.norm(), got.angular, what);
@@ -189,7 +189,7 @@ TEST_CASE("where a ray of (2.6) merges with an axis, its order is that of the so
 }
 
 TEST_CASE("a focus whose centre is not smooth: its spiral and its stop are exact", "[planar][exact]") {
-  // r' = -1, angle' = b/r: the angle is -b ln(1 - t/r0), and r shrinks by the factor exp(-2 pi/b) in a turn.
+  // The field is r' = -1, angle' = b/r. The angle is -b ln(1 - t/r0), and r shrinks by exp(-2 pi/b) in a turn.
   for (double b : {1.0, -0.3, 20.0}) {
     const PlanarReduction plane =
         reduced([b](const Vector2d& x) -> Vector2d { return Vector2d(-x[0] - b * x[1], b * x[0] - x[1]) / x.norm(); });
@@ -237,7 +237,7 @@ TEST_CASE("linear fields: kind, rays and motion against the exponential of the m
     for (const Vector2d& start : {Vector2d(0.7, 0.2), Vector2d(-0.1, 1.5), Vector2d(-1, -1e-3)}) {
       const PlanarOrbit orbit = plane.orbit(start);
       CHECK(orbit.end() == end);
-      CHECK(orbit.end_time() == infinity);  // a linear motion never reaches its end
+      CHECK(orbit.end_time() == infinity);  // a linear motion needs infinite time
       for (double t : {0.0, 0.5, 3.0, 12.0}) {
         // The exponential exp(t m) by its series for a small part of t, which is then squared repeatedly.
         Matrix2d exact = Matrix2d::Identity(), term = exact;
@@ -265,7 +265,7 @@ TEST_CASE("the rays of a node are its eigenvectors, and R and dT/dq its eigenval
 }
 
 TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors", "[planar][exact]") {
-  // z' = z^2, z = u + i v, gives z = z0/(1 - z0 t). Orbits are circles through 0; on v = 0, u > 0 they reach infinity.
+  // The field z' = z^2, z = u + i v, gives z = z0/(1 - z0 t). Orbits are circles through 0; on v = 0 < u they escape.
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); });
   CHECK(plane.kind() == "mixed");
@@ -286,7 +286,7 @@ TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors"
 }
 
 TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][exact]") {
-  // z' = z^2/|z|^2 has the same circles with another time: |z| = d sin(angle), dt = d d(angle); d (pi - angle) is left.
+  // The field z' = z^2/|z|^2 has the same circles: |z| = d sin(angle), dt = d d(angle). Time left: d (pi - angle).
   const PlanarReduction plane = reduced([](const Vector2d& x) -> Vector2d {
     return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]) / x.squaredNorm();
   });
@@ -300,7 +300,7 @@ TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][
 }
 
 TEST_CASE("weights that differ", "[planar][exact]") {
-  // u' = -1, v' = -3 sqrt|v| sign(v). Scaling: u -> c u, v -> c^2 v, t -> c t. u and v become 0 at different times.
+  // Scaling of u' = -sign(u), v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. u and v end at different times.
   const PlanarReduction plane = reduced([](const Vector2d& x) {
     return Vector2d(-std::copysign(1, x[0]), -3 * std::copysign(std::sqrt(std::abs(x[1])), x[1]));
   });
@@ -309,10 +309,10 @@ TEST_CASE("weights that differ", "[planar][exact]") {
   CHECK(plane.scaling()->matrix(1, 1) == Approx(2 * plane.scaling()->time).epsilon(1e-13));
   const PlanarCanonical here = plane.canonical({0.3, 0.7});
   CHECK((plane.point(here.q, here.p) - Vector2d(0.3, 0.7)).norm() < 1e-14);
-  // a smooth field: u' = v, v' = -u^3 - v |v| has the weights 1, 2 and the weight -1 of time
+  // The field u' = v, v' = -u^3 is smooth. Its scaling has the weights 1 of u, 2 of v and -1 of time.
   const PlanarReduction oscillator = reduced([](const Vector2d& x) { return Vector2d(x[1], -x[0] * x[0] * x[0]); });
   CHECK(oscillator.kind() == "center");
-  // energy v^2/2 + u^4/4; period of amplitude a: (4/a) K(1/sqrt 2), K = 1.8540746773013719
+  // The energy is v^2/2 + u^4/4. The period of amplitude a is (4/a) K(1/sqrt 2), with K(1/sqrt 2) = 1.8540746773013719.
   const PlanarOrbit orbit = oscillator.orbit({1.3, 0});
   CHECK(orbit.end() == PlanarEnd::periodic);
   const double period = 4 / 1.3 * 1.8540746773013719184;
@@ -328,7 +328,7 @@ TEST_CASE("about another centre", "[planar][exact]") {
       reduced([&](const Vector2d& x) -> Vector2d { return -(x - centre) / std::sqrt((x - centre).norm()); }, {1, 2});
   CHECK((plane.centre() - centre).norm() < 1e-12);
   CHECK(plane.kind() == "stable star");
-  // r' = -sqrt r: the time left is 2 sqrt r
+  // For r' = -sqrt r the time left is 2 sqrt r.
   CHECK(plane.end_time({6, 3}) == Approx(2 * std::sqrt(5)).epsilon(1e-12));
   CHECK(plane.end_time(plane.centre()) == 0);
 }
@@ -361,7 +361,7 @@ TEST_CASE("a first integral is one number along an orbit, and moves with the sca
 }
 
 TEST_CASE("a field with values in a part of the plane", "[planar][domain]") {
-  // u' = -1 for v > u: orbits leave this region through v = u, or end at the border of the values
+  // For v > u the field has u' = -1. Orbits leave this region through v = u, or end where the field has no value.
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return x[1] > 0 ? Vector2d(1, -1) : Vector2d(not_a_number, 0); });
   CHECK(plane.kind() == "bordered");
@@ -385,7 +385,7 @@ TEST_CASE("a matrix that is no scaling is refused", "[planar][domain]") {
 
 namespace {
 
-/// r' = R(angle), angle' = T(angle)/r
+/// The field r' = R(angle), angle' = T(angle)/r.
 template <class Radial, class Angular>
 PlanarField polar(const Radial& radial, const Angular& angular) {
   return [=](const Vector2d& x) -> Vector2d {
@@ -432,7 +432,7 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
       CHECK(plane.end_time({1, 0.2}) > 0.5);
     }
   }
-  // reference by SciPy's DOP853 in ln r and the angle, to 1e-11
+  // The reference was computed by SciPy's DOP853 in ln r and the angle, to 1e-11.
   CHECK(reduced(node(1, 0.004)).end_time({1, 0.2}) == Approx(0.7710816980055679).epsilon(1e-8));
   CHECK(reduced(node(1, 0.03)).end_time({1, 0.2}) == Approx(0.7712289685393047).epsilon(1e-8));
   // T touches 0 at a direction that is no double. Up to rounding of T there is one double ray.
@@ -447,7 +447,7 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
 }
 
 TEST_CASE("nodes with a double ray", "[planar][exact]") {
-  // exp(t m) = exp(l t) (1 + t (m - l))
+  // If l is the double eigenvalue of m, exp(t m) = exp(l t) (1 + t (m - l)).
   struct Case {
     Matrix2d m;
     double eigenvalue;
@@ -481,7 +481,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
 }
 
 TEST_CASE("resonant nodes", "[planar][exact]") {
-  // u' = -u, v' = -k v + c u^k: v exp(k t) = v0 + c u0^k t
+  // The field u' = -u, v' = -k v + c u^k has the motions v exp(k t) = v0 + c u0^k t.
   for (int k : {2, 3}) {
     for (double c : {-2.0, -0.3, 0.7, 2.0}) {
       CAPTURE(k, c);
@@ -501,14 +501,14 @@ TEST_CASE("resonant nodes", "[planar][exact]") {
 }
 
 TEST_CASE("poles are borders", "[planar][exact]") {
-  // u' = u^2/(2 v), v' = u - v/2: u/v = x grows by x' = x - x^2/2, and v reaches 0 at t = 2 ln 2 from (-1, 1)
+  // The field is u' = u^2/(2 v), v' = u - v/2. For x = u/v, x' = x - x^2/2. From (-1, 1), v reaches 0 at t = 2 ln 2.
   const PlanarReduction pole =
       reduced([](const Vector2d& x) { return Vector2d(0.5 * x[0] * x[0] / x[1], x[0] - 0.5 * x[1]); }, {-1, 1});
   CHECK(pole.kind() == "bordered");
   CHECK(pole.end({-1, 1}) == PlanarEnd::centre);
   CHECK(pole.end_time({-1, 1}) == Approx(2 * std::numbers::ln2).epsilon(1e-12));
   CHECK(pole.end_time_error({-1, 1}) < 1e-12);
-  // u' = 1, v' = 3 v/u - u: v = (v0/u0^3 - 1/u0) u^3 + u^2
+  // The field u' = 1, v' = 3 v/u - u has the orbits v = (v0/u0^3 - 1/u0) u^3 + u^2.
   const PlanarReduction linear_equation =
       reduced([](const Vector2d& x) { return Vector2d(1, 3 * x[1] / x[0] - x[0]); }, {1.3, 0.7});
   const PlanarOrbit orbit = linear_equation.orbit({1.3, 0.7});
@@ -520,13 +520,13 @@ TEST_CASE("poles are borders", "[planar][exact]") {
   }
   CHECK(linear_equation.end({-1, 0.5}) == PlanarEnd::centre);
   CHECK(linear_equation.end_time({-1, 0.5}) == Approx(1).epsilon(1e-12));
-  // u' = 1, v' = -u/v: a circle, which ends at v = 0
+  // The orbit of u' = 1, v' = -u/v is a circle, which ends at v = 0.
   const PlanarReduction circle = reduced([](const Vector2d& x) { return Vector2d(1, -x[0] / x[1]); }, {0.6, 0.8});
   CHECK(circle.end({0.6, 0.8}) == PlanarEnd::border);
   CHECK(circle.end_time({0.6, 0.8}) == infinity);
   CHECK((circle.orbit({0.6, 0.8}).at(0.3) - Vector2d(0.9, std::sqrt(0.19))).norm() < 1e-12);
   CHECK_THROWS_WITH(circle.orbit({0.6, 0.8}).at(0.5), Contains("border"));
-  // u' = 1, v' = v/u + u on one of its rays: v = u^2
+  // The start lies on a ray of the field u' = 1, v' = v/u + u: v = u^2.
   const PlanarReduction on_ray = reduced([](const Vector2d& x) { return Vector2d(1, x[1] / x[0] + x[0]); }, {1, 1});
   CHECK((on_ray.orbit({1, 1}).at(2) - Vector2d(3, 9)).norm() < 1e-11);
 }
@@ -568,18 +568,18 @@ TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
 }
 
 TEST_CASE("a ray that orbits join, and may leave, is not decided", "[planar][domain]") {
-  // u' = -u, v' = sqrt|u v|: v = 0 is reached from below. The motion may stay there or continue.
+  // Motions of u' = -u, v' = sqrt|u v| reach v = 0 from below. They may stay there or continue.
   const PlanarReduction branching =
       reduced([](const Vector2d& x) { return Vector2d(-x[0], std::sqrt(std::abs(x[0] * x[1]))); }, {1, -0.1});
   CHECK(branching.kind().empty());
   CHECK(branching.end({1, -0.1}) == PlanarEnd::undecided);
   CHECK_THAT(branching.undecided(), Contains("no single motion"));
-  // u' = -u, v' = -sqrt|u v| sign(v): orbits reach v = 0 from both sides.
+  // Motions of u' = -u, v' = -sqrt|u v| sign(v) reach v = 0 from both sides.
   const PlanarReduction joining =
       reduced([](const Vector2d& x) { return Vector2d(-x[0], -std::copysign(std::sqrt(std::abs(x[0] * x[1])), x[1])); },
               {1, -0.1});
   CHECK(joining.end({1, -0.1}) == PlanarEnd::centre);
-  // sqrt|v| falls by (1 - exp(-t/2)) sqrt u0: v = 0 at exp(-t/2) = 1 - sqrt 0.1
+  // In the time t, sqrt|v| falls by (1 - exp(-t/2)) sqrt u0. It reaches 0 at exp(-t/2) = 1 - sqrt 0.1.
   CHECK((joining.orbit({1, -0.1}).at(2) - Vector2d(std::exp(-2), 0)).norm() < 1e-12);
 }
 
@@ -620,7 +620,7 @@ TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exa
   CHECK(turned.kind() == "degenerate");
   CHECK(turned.end({2, 1}) == PlanarEnd::rest);
   CHECK(reduced([](const Vector2d&) { return Vector2d(-1, -1); }).kind() == "regular point");
-  // u' = v, v' = u^2: v^2/2 = u^3/3 + const
+  // Orbits of u' = v, v' = u^2 satisfy v^2/2 = u^3/3 + constant.
   CHECK(reduced([](const Vector2d& x) { return Vector2d(x[1], x[0] * x[0]); }).kind() == "cusp");
 }
 
@@ -635,7 +635,7 @@ TEST_CASE("far from 1, too", "[planar][domain]") {
 TEST_CASE("the period of a centre is that of closed forms", "[planar]") {
   CHECK(reduced(linear((Matrix2d() << 0, 1, -4, 0).finished())).orbit({1, 0.3}).period().value() ==
         Approx(pi).epsilon(1e-13));
-  // u'' = -u^3 from rest at a has the period 4 K(1/2)/a, where 1/2 is the parameter of K.
+  // From rest at u = a, the motion of u'' = -u^3 has the period 4 K(1/2)/a, where 1/2 is the parameter of K.
   const PlanarReduction quartic = reduced([](const Vector2d& x) { return Vector2d(x[1], -std::pow(x[0], 3)); });
   constexpr double k_half = 1.8540746773013719184338503471953;
   for (double a : {0.1, 1.0, 7.0}) {

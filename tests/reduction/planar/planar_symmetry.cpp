@@ -78,7 +78,7 @@ TEST_CASE("friction with a constant force, of another degree, about another poin
 }
 
 TEST_CASE("the weights of a scaling are found", "[planar][symmetry]") {
-  // u -> c u, v -> c^(2/3) v, t -> c^(1/3) t: by hand
+  // Computed by hand: the scaling is u -> c u, v -> c^(2/3) v, t -> c^(1/3) t.
   check_one(symmetries([](const Vector2d& x) {
               const double r = std::sqrt(x[0] * x[0] + std::pow(std::abs(x[1]), 3));
               return Vector2d(-x[0] * std::pow(r, -1. / 3), -x[1] * std::pow(r, -1. / 3) - 0.3 * std::cbrt(r));
@@ -95,7 +95,7 @@ TEST_CASE("linear fields have several, and a plain scaling among them", "[planar
     REQUIRE(found.scaling);
     CHECK(found.scaling->matrix == Matrix2d::Identity());
     CHECK(found.scaling->time == Approx(0).margin(1e-13));
-    // the second generator commutes with m and is no multiple of 1
+    // The second generator commutes with m and is no multiple of the identity.
     const Matrix2d& other = found.generators[1].matrix;
     CHECK((other * m - m * other).norm() < 1e-11);
     CHECK((other - other.trace() / 2 * Matrix2d::Identity()).norm() > 0.1);
@@ -135,7 +135,7 @@ TEST_CASE("no symmetry: viscous drag beside dry friction", "[planar][symmetry]")
 }
 
 TEST_CASE("a symmetry that is no scaling", "[planar][symmetry]") {
-  // x' = 1 + sin y, y' = cos y: a translation along x
+  // The field x' = 1 + sin y, y' = cos y has a translation along x as its symmetry.
   const PlanarSymmetries found =
       symmetries([](const Vector2d& x) { return Vector2d(1.5 + std::sin(3 * x[1]), std::cos(3 * x[1])); });
   CAPTURE(found.singular_values, found.level);
@@ -260,7 +260,7 @@ TEST_CASE("of several scalings within sectors the one that leaves the jumps wher
 }
 
 TEST_CASE("a translation with a rate is no scaling", "[planar][symmetry]") {
-  // u' = exp(u): u -> u + s, t -> exp(-s) t
+  // The only symmetry of u' = exp(u), v' = exp(v) is u -> u + s, v -> v + s, t -> exp(-s) t.
   const PlanarSymmetries found =
       find_symmetries([](const Vector2d& x) { return Vector2d(std::exp(x[0]), std::exp(x[1])); }, {2, 1});
   REQUIRE(found.generators.size() == 1);
