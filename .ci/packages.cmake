@@ -1,4 +1,4 @@
-# Makes packages by cpack: for Debian one for each component, from a build with CMAKE_INSTALL_PREFIX=/usr; for Windows a zip.
+# Makes packages by cpack: for Debian, one for each component, with CMAKE_INSTALL_PREFIX=/usr; for Windows, a zip.
 set(CPACK_PACKAGE_CONTACT "The contensou maintainers <contensou@users.noreply.github.com>")
 set(CPACK_STRIP_FILES ON)
 
