@@ -1,4 +1,4 @@
-# Makes one HTML file from the template, the style, and the bundle of modules and library; then a C++ string with this file.
+# Makes one HTML file from the template, the style, and the bundle of modules and library; then a C++ string of it.
 #   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D VERSION= -D ROOT= -D PAGE= -D EMBEDDED= -P assemble.cmake
 cmake_minimum_required(VERSION 3.25)
 
