@@ -1,9 +1,9 @@
-# Checks the #include lines: each folder ("room") may include only certain other rooms. Within reduction, answers and si, rooms
-# lie on floors.
+# Checks the #include lines: each folder ("room") may include only certain other rooms. Within reduction, answers and
+# si, rooms lie on floors.
 #   cmake -D ROOT=<top of the tree> -P layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Each room is followed by the rooms whose headers it may include. The program also includes embedded_page.hpp of the page.
+# Each room is followed by the rooms whose headers it may include. The page gives the program embedded_page.hpp.
 set(house reduction portraits text platform si fit answers program python page)
 set(reduction_uses "")
 set(portraits_uses reduction)
@@ -71,8 +71,8 @@ foreach(floor IN LISTS floors)
   math(EXPR floor_count "${floor_count} + 1")
 endforeach()
 
-# Finds the rooms of the files that a file includes. A private header belongs to its room. A public header belongs to the room
-# of the source of its name, or, without such a source, to the rooms of the files that it includes itself.
+# Finds the rooms of the files that a file includes. A private header belongs to its room; a public header to the room
+# of the source of its name, or, without such a source, to the rooms of the files that the header includes.
 function(included_rooms file result)
   set(rooms "")
   file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include")
