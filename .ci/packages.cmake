@@ -1,4 +1,4 @@
-# Packages by cpack: for Debian, of a build with CMAKE_INSTALL_PREFIX=/usr, one for each component; for Windows a zip.
+# Makes packages by cpack: for Debian, one for each component, with CMAKE_INSTALL_PREFIX=/usr; for Windows, a zip.
 set(CPACK_PACKAGE_CONTACT "The contensou maintainers <contensou@users.noreply.github.com>")
 set(CPACK_STRIP_FILES ON)
 
@@ -39,7 +39,7 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION "${what}
 .
 This package contains the module for Python 3, with arrays of NumPy.")
 
-if(WIN32)  # the program alone, in a folder to be put anywhere
+if(WIN32)  # the zip contains the program alone, in a folder that may lie anywhere
   set(CPACK_GENERATOR ZIP)
   set(CPACK_COMPONENTS_ALL program)
   set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)

@@ -1,5 +1,5 @@
-# What the program is made of, by headers alone and behind the compiler's own, because Debian's libraries of C lie beside
-# them.
+# Gives the program only headers of Debian's libraries, after the headers of the compiler. Debian's C library lies in
+# the same folder and must not come first.
 function(from_debian target)
   add_library(${target} INTERFACE IMPORTED GLOBAL)
   target_compile_options(${target} INTERFACE -idirafter/usr/include -idirafter/usr/include/eigen3)

@@ -1,5 +1,5 @@
-# The equations (R1), (R2), ... of reduction/README.md and reduction/numerics.md: each number stands there once, none is left
-# out, and whatever cites one, in any file of the project, finds it.
+# Checks the equations (R1), (R2), ... of reduction/README.md and reduction/numerics.md. Each number must occur there
+# once, none may be missing, and a citation in any file of the project must name an existing number.
 #   cmake -D ROOT=<top of the tree> -P citations_test.cmake
 cmake_minimum_required(VERSION 3.25)
 

@@ -1,9 +1,9 @@
-# The direction of the arrows, read from the includes: between the rooms of the house, and between the rooms of reduction
-# floor by floor.
+# Checks the #include lines: each folder ("room") may include only certain other rooms. Within reduction, answers and
+# si, rooms lie on floors.
 #   cmake -D ROOT=<top of the tree> -P layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Room -> the other rooms whose headers it may include. The program includes embedded_page.hpp, which the page gives it.
+# Each room is followed by the rooms whose headers it may include. The page gives the program embedded_page.hpp.
 set(house reduction portraits text platform si fit answers program python page)
 set(reduction_uses "")
 set(portraits_uses reduction)
@@ -37,12 +37,12 @@ foreach(folder IN ITEMS reduction portraits src)
       if(other STREQUAL "embedded_page")
         set(other page)
       elseif(NOT other IN_LIST house AND (EXISTS ${ROOT}/src/program/${other} OR EXISTS ${ROOT}/src/program/${other}.hpp))
-        set(other program)  # whose own rooms its sources name as they are
+        set(other program)  # sources of the program name its rooms without a prefix
       endif()
       if(other IN_LIST house AND NOT other STREQUAL room AND NOT other IN_LIST ${room}_uses)
         list(APPEND faults "${name}: ${include}")
       endif()
-      # Another folder's private headers, by way of a relative path.
+      # A relative path would reach the private headers of another folder.
       if(include MATCHES "\"[^\"]*\\.\\./")
         list(APPEND faults "${name}: ${include}")
       endif()
@@ -60,7 +60,7 @@ foreach(folder IN ITEMS reduction portraits src)
   endforeach()
 endforeach()
 
-# The rooms of reduction: a file may use its own room and those of the floors before it.
+# The rooms of reduction lie on floors. A file may include its own room and the rooms of earlier floors.
 set(floors numerics laws system similarity "motion planar" check)
 set(floor_count 0)
 foreach(floor IN LISTS floors)
@@ -71,8 +71,8 @@ foreach(floor IN LISTS floors)
   math(EXPR floor_count "${floor_count} + 1")
 endforeach()
 
-# The rooms of what a file includes. A private header lies in its room. A public header belongs to the room of the source
-# of its name, and one that has no source to the rooms of what it includes itself.
+# Finds the rooms of the files that a file includes. A private header belongs to its room; a public header to the room
+# of the source of its name, or, without such a source, to the rooms of the files that the header includes.
 function(included_rooms file result)
   set(rooms "")
   file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include")
@@ -106,7 +106,7 @@ foreach(file IN LISTS files)
     rooms_of_public(${stem} room)
     list(LENGTH room count)
     if(NOT count EQUAL 1)
-      continue()  # it has no source: judged where it is included
+      continue()  # a header without a source counts in the files that include it
     endif()
   endif()
   included_rooms(${file} used)
@@ -119,7 +119,7 @@ foreach(file IN LISTS files)
   endforeach()
 endforeach()
 
-# The rooms of answers and of si, in the same way.
+# Rooms of answers and of si follow the same rule.
 set(answers_floors "input" "asked table" "verbs" "figures")
 set(si_floors "experiment" "motion" "engines")
 foreach(part IN ITEMS answers si)

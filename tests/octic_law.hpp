@@ -10,8 +10,8 @@
 namespace contensou::tests {
 
 /// A law for which Phi/(k Psi) has a minimum, 1.9909 at k = 0.144. For r between this minimum and 2 there are two rays,
-/// of which the first repels. The law is the gradient of a convex potential R, R^8 = k^8 + 0.8 k^6 + 0.321466 k^4 + 8
-/// R0^8 k^2 + R0^8 with R0 = 3 pi/16. So the stop times have the bounds of Coulomb friction.
+/// of which the first repels. The law is the gradient of a convex potential R, with R^8 = k^8 + 0.8 k^6 + 0.321466 k^4
+/// + 8 R0^8 k^2 + R0^8 and R0 = 3 pi/16. Therefore the stop times have the bounds of Coulomb friction.
 struct OcticLaw {
   static constexpr std::string_view name = "octic";
   static constexpr reduction::SlidingBounds sliding_bounds{0, 1};

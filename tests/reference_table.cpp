@@ -49,7 +49,7 @@ long double ReferenceRow::result(std::string_view column) const { return std::st
 std::string ReferenceRow::where() const {
   std::string sentence;
   for (std::string_view column : {"law", "k", "chi", "gamma", "mu", "u0", "v0", "fraction"}) {
-    if (!has(column) || (column == "k" && has("mu"))) continue;  // with mu, k is a result
+    if (!has(column) || (column == "k" && has("mu"))) continue;  // if the table has mu, k is no input
     sentence += (sentence.empty() ? "" : ", ") + std::string(column) + " = " + text(column);
   }
   return sentence;

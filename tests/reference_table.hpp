@@ -17,7 +17,7 @@ class ReferenceRow {
   /// @throws std::out_of_range  if the table has no such column
   const std::string& text(std::string_view column) const;
 
-  /// Returns an input: the double in COLUMN_hex if this exists, else the double nearest to the decimal number.
+  /// Returns an input: the double in COLUMN_hex, or without this column the double nearest to the decimal number.
   double input(std::string_view column) const;
 
   /// Returns a result of many digits, rounded to long double; infinity if it is too large.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the steps of .ci/test and .ci/full make of a step that fails: steps_test.sh FILE, the file .ci/steps.
+# Tests how the steps of .ci/test and .ci/full report a step that fails: steps_test.sh FILE, where FILE is .ci/steps.
 told=$(bash -c '
   source "$1"
   good() { echo "$1 ran" >&2; }

@@ -1,4 +1,4 @@
-# One HTML file from the template, the style and the bundle of modules and compiled library; and that as a string of C++.
+# Makes one HTML file from the template, the style, and the bundle of modules and library; then a C++ string of it.
 #   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D VERSION= -D ROOT= -D PAGE= -D EMBEDDED= -P assemble.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -12,7 +12,7 @@ foreach(part IN ITEMS STYLE BUNDLE)
   string(REPLACE "/*${part}*/" "${text}" html "${html}")
 endforeach()
 string(REPLACE "@VERSION@" "${VERSION}" html "${html}")
-# The licences, as a comment. The texts of Apache-2.0 and MPL-2.0 are left out: a page must only name their addresses.
+# Insert the licences as a comment. For Apache-2.0 and MPL-2.0 the address suffices, so their texts are left out.
 file(READ ${ROOT}/LICENSE licence)
 file(READ ${ROOT}/.github/THIRD_PARTY.txt others)
 string(REGEX REPLACE "=+\nBSD-3-Clause\n=.*" "" others "${others}")

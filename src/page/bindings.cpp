@@ -90,14 +90,14 @@ std::vector<State> states_of(const val& points) {
   return states;
 }
 
-/// Returns a state of the motion from one start that lies in the window: the start, or the entry into the window.
+/// Returns the first state in the window of the motion from a start: the start itself, or the entry into the window.
 State inside(const Flow& flow, State start, const Eigen::Vector2d& sides) {
   const auto is_inside = [&](const auto& state) { return std::abs(state.u) <= sides[0] && state.v <= sides[1]; };
   if (is_inside(start)) return start;
   const Orbit orbit = flow.orbit(start);
   const auto comes_in = [&](double time) { return is_inside(orbit.at_time(time)); };
   const auto point = orbit.at_time(reduction::last_where(comes_in, orbit.stop_time(), 0));
-  // Next to an axis a speed may underflow, but the orbit must not become the axis.
+  // Next to an axis a speed may underflow to 0. But the orbit must not become the orbit on the axis.
   constexpr double least = std::numeric_limits<double>::min();
   return {std::copysign(std::max(std::abs(point.u), least), start.u), std::max(point.v, least)};
 }
@@ -121,11 +121,11 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   const auto chosen = static_cast<std::size_t>(asked["chosen"].as<int>());
   if (chosen < orbits.size()) question.start = experiment ? si::reduced_start(*experiment) : orbits[chosen];
   for (std::size_t i = 0; i < orbits.size(); ++i) {
-    // Axes are always drawn.
+    // orbits on the axes are drawn in any case
     if (i == chosen || orbits[i].u == 0 || orbits[i].v == 0) continue;
     request.through.push_back(request.sides ? inside(question.flow, orbits[i], *request.sides) : orbits[i]);
   }
-  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // otherwise the program's default number applies
+  if (asked["isochrones"].as<int>() == 0) request.isochrones = 0;  // else the default number of the program applies
   if (has("against")) request.comparison = law_of(asked["against"].as<std::string>());
   using Field = portraits::PortraitStyle::Field;
   question.style.field = asked["field"].as<std::string>() == "motion" ? Field::motion : Field::none;
@@ -133,21 +133,21 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   return question;
 }
 
-/// The plane that the page shows. If a new plane is rejected, the last valid one stays.
+/// The plane that the page shows. If choose() rejects new values, the last valid plane stays.
 class Plane {
  public:
   /// Sets the law, patch, body and the drive of a slope or of rolling friction. Returns the limit of k and its meaning.
   val choose(const std::string& law, double mu, double chi, double gamma, double drive) {
     flow_.emplace(ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}, drive));
     level_.emplace(drive == 0 ? *flow_ : ReducedSystem(law_of(law), mu, {.chi = chi, .gamma = gamma}));
-    // If the limit depends on the start, take motions with equal sliding and pivoting speeds.
+    // If the limit of k depends on the start, take k = 1, at which sliding and pivoting speeds are equal.
     const auto end = flow().terminal().end_of(1);
     return object("terminalRatio", end.k, "meaning", reduction::meaning(end.regime));
   }
 
-  /// Draws the portrait that the program draws for a request. The page draws the requested orbits itself. For them the
-  /// result contains the motions from start to stop and, for each panel, the line and the place of its arrow.
-  /// @param behind  true to draw everything behind these orbits again; false if it is unchanged, in the same window
+  /// Draws the portrait that the program draws for a request, but without the requested orbits, which the page draws.
+  /// The result contains their motions from start to stop and, for each panel, the line and the place of its arrow.
+  /// @param behind  true to draw everything behind these orbits again; false if nothing but these orbits has changed
   val portrait(const val& asked, bool behind) {
     answers::PortraitSpec question = question_of(asked, flow());
     question.request.drawn_only = true;
@@ -185,20 +185,20 @@ class Plane {
   /// Returns the stop time of one start.
   double stop(double u, double v) const { return flow().orbit({.u = u, .v = v}).stop_time(); }
 
-  /// Returns the stop time of one start under another law, with its own mu.
+  /// Returns the stop time of one start under another law, with the mu that belongs to that law.
   double stop_by(const std::string& law, double mu, double u, double v) const {
     const Flow other(ReducedSystem(law_of(law), mu, system().inertia(), system().drive()));
     return other.orbit({.u = u, .v = v}).stop_time();
   }
 
-  /// Returns the motion from one start to its stop, at dense times while it slides and at equal times.
+  /// Returns the motion from one start to its stop, at equal times and, while the body slides, also at dense times.
   val motion(double u, double v) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const double stop = orbit.stop_time();
     constexpr int count = 120;
     std::vector<double> times;
     for (int i = 0; i <= count; ++i) times.push_back(stop * i / count);
-    // Sliding may end long before the stop, so steps of the time of pure sliding are added.
+    // Sliding may end long before the stop. Therefore steps that are fractions of the time of pure sliding are added.
     const double sliding = std::min(stop, 2 * system().sliding_limit(v));
     for (int i = 1; i < count; ++i) times.push_back(sliding * i / count);
     std::ranges::sort(times);
@@ -207,7 +207,7 @@ class Plane {
     return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
   }
 
-  /// Returns a state of the motion from a start, its friction as a fraction of f N, and its place in each panel.
+  /// Returns a state of the motion from a start, the friction as a fraction of f N, and the place in each panel.
   val instant(double u, double v, double tau) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const auto point = orbit.at_time(tau);
@@ -220,13 +220,13 @@ class Plane {
                   places(now, state({u, v}, orbit.stop_time())));
   }
 
-  /// Returns the place of a state in each panel: x and y in turn.
+  /// Returns the place of a state in each panel: alternately x and y.
   val place(double u, double v) const {
     const Instant at = state({u, v}, 1);
     return column(places(at, at));
   }
 
-  /// Returns the state at a point of a panel; null if there is none.
+  /// Returns the state at a point of a panel; null if no state belongs to the point.
   val at(int panel, double x, double y) const {
     const auto& map = drawn_.maps.at(static_cast<std::size_t>(panel));
     const auto there = map.state ? map.state({x, y}) : std::nullopt;
@@ -236,7 +236,7 @@ class Plane {
 
   /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, its change of
   /// direction in degrees, and the time at which slip and spin end. A ball ceases to slide when its slip has fallen to
-  /// `least` m/s; a body that lies flat, when it stops.
+  /// `least` m/s, a body that lies flat when it stops.
   /// @param fields  fields, see ride
   val slide(const val& fields, double rolling_friction, double least) const {
     const si::Motion motion = motion_of(fields, rolling_friction);
@@ -251,9 +251,9 @@ class Plane {
                   turned * 180 / std::numbers::pi, "stop", motion.stop_time());
   }
 
-  /// Returns the motion over the table until `end` in s, in the columns of `contensou roll`, at times that are dense at
-  /// the beginning. With rolling friction or on a slope it contains {t, x, y} of the place of rest, if the ball rests.
-  /// @param fields  a ball; its patch is that of the plane
+  /// Returns the motion over the table until `end` in s, in the columns of `contensou roll`. The times are dense at the
+  /// beginning. If a ball with rolling friction or on a slope comes to rest, {t, x, y} of the rest is included.
+  /// @param fields  a ball; its patch is the patch of the plane
   val ride(const val& fields, double rolling_friction, double end) const {
     const si::Motion moves = motion_of(fields, rolling_friction);
     constexpr Eigen::Index pieces = 160;
@@ -267,7 +267,7 @@ class Plane {
     return result;
   }
 
-  /// Returns the lines in each panel of all states with one stop time, for u > 0 and u < 0.
+  /// Returns the lines of all states with one stop time, for each panel, and for u > 0 and u < 0.
   val isochrone(double tau) const {
     std::vector<State> states;
     const auto add = [&](State direction) {
@@ -275,7 +275,7 @@ class Plane {
       states.push_back({scale * direction.u, scale * direction.v});
     };
     add({.u = 1, .v = 0});
-    // Add directions of small k, then equal angles, where each speed is measured by the time that it takes to stop.
+    // Add directions of small k. Then add equal angles of a plane in which each speed is measured by its own stop time.
     for (int decade = -8; decade <= -3; ++decade) add({.u = 1, .v = system().mu() * std::pow(10, decade)});
     const double aspect = system().pivoting_limit(1) / system().sliding_limit(1);
     constexpr int pieces = 96;
@@ -374,11 +374,11 @@ class Plane {
     return own;
   }
 
-  std::optional<Flow> flow_, level_;  ///< level_: the flow without a drive
+  std::optional<Flow> flow_, level_;  ///< level_: the same flow, but without a drive
   portraits::MappedFigure drawn_;     ///< the last portrait
 };
 
-/// Returns {name, meaning} of each law; for a family also {letter, example} of its number.
+/// Returns {name, meaning} of each law; for a family of laws also {letter, example} of its parameter.
 val laws() {
   val all = list(reduction::names_of_laws(), [](std::string_view name) {
     return object("name", name, "meaning", reduction::meaning_of_law(name));
@@ -390,12 +390,12 @@ val laws() {
   return all;
 }
 
-/// Returns the end of a message about a name that is none of an array's: the nearest of them, or nothing.
+/// Returns the end of a message about an unknown name: the most similar name of the array, or nothing.
 std::string suggestion_of(const std::string& typed, const val& names) {
   return suggestion(typed, emscripten::vecFromJSArray<std::string>(names));
 }
 
-/// Returns the library's name of a law.
+/// Returns the name of a law in the library.
 std::string law_name(const std::string& called) {
   const Law law = law_of(called);
   return called.starts_with(table_of_pressure) ? called : law.name();
@@ -410,7 +410,7 @@ val bodies() {
   });
 }
 
-/// Returns the reason why a body cannot have a mu; empty if it can.
+/// Returns the reason why a body cannot have this mu; empty if the body can.
 std::string complaint(const std::string& body, double mu) {
   return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }
@@ -445,8 +445,8 @@ val catalogue() {
   });
 }
 
-/// Returns the reason why the plane does not contain the motion; empty if it does. Rolling friction may turn the slip,
-/// or at first keep the ball from turning.
+/// Returns the reason why the plane cannot show the motion with its rolling friction; empty if it can. Rolling friction
+/// may turn the slip, or prevent the ball from turning at first.
 std::string without_rolling_friction(const si::Experiment& experiment, const Law& law) {
   const double u_r = experiment.contact.rolling_friction;
   const State start = si::reduced_start(experiment);
@@ -460,13 +460,13 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// Returns the data of the plane for a ball. Its drive includes slope and rolling friction; else `without` says why.
+/// Returns the data of the plane for a ball. The drive includes slope and rolling friction, or `without` says why not.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));
   if (!without.empty()) experiment.contact.rolling_friction = 0;
   const double radius = si::patch_radius_of(experiment, law_of(law));
-  // The patch radius is proportional to the deceleration.
+  // The patch radius is proportional to the measured deceleration.
   const double per_deceleration = si::patch_radius_of_deceleration(
       experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
       law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);

@@ -1,4 +1,4 @@
-// A film that a reader gives to the page. The page finds friction and patch of the ball, like `contensou fit`.
+// The page reads a film (a table) of a reader and finds friction and patch of the ball, like `contensou fit`.
 #include <string>
 #include <utility>
 #include <vector>

@@ -87,7 +87,7 @@ Axis axis_of(const val& axis) {
   return {text_of(axis["name"]), axis["low"].as<double>(), axis["high"].as<double>(), false, ticks_of(axis["ticks"])};
 }
 
-/// Returns the parts of a figure on which the layout depends.
+/// Returns the parts of a figure that determine the layout.
 portraits::Figure outline_of(const val& figure) {
   portraits::Figure outline{.title = {}, .subtitle = text_of(figure["title"]), .panels = {}};
   outline.max_columns = figure["columns"].as<int>();

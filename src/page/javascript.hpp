@@ -22,7 +22,7 @@ namespace contensou::page {
 using emscripten::val;
 
 /// Returns the result of a call. An exception becomes an Error with its message, because JavaScript cannot read C++
-/// exceptions. A fault of the library becomes an Error with the name Fault; the page adds the request to its message.
+/// exceptions. A fault of the library becomes an Error with the name Fault, to which the page adds the request.
 template <class Call>
 auto answer(Call call) {
   std::string problem;
@@ -38,7 +38,7 @@ auto answer(Call call) {
   error.throw_();
 }
 
-/// Wraps a function, or a method, so that it is called through `answer`.
+/// Wraps a function, or a method, so that the page calls it through `answer`.
 template <auto function>
 inline constexpr auto answering = nullptr;
 
@@ -55,7 +55,7 @@ inline constexpr auto answering<method> = +[](const Class& self, Given... given)
   return answer([&] { return (self.*method)(given...); });
 };
 
-/// Returns the law of that name. Laws are cached, because some need a table.
+/// Returns the law of that name. Laws are kept, because the tables of some laws take time.
 /// @throws std::domain_error  if there is no such law
 reduction::Law law_of(const std::string& name);
 
@@ -71,7 +71,7 @@ val column(const Numbers& values) {
 /// Returns the points of all lines in one column, with NaN between lines: x0, y0, x1, y1, ...
 val column(const std::vector<portraits::Polyline>& lines);
 
-/// Returns an array with the function's value for each entry.
+/// Returns an array with the value of the function for each entry of a range.
 template <class Range, class Function>
 val list(const Range& range, Function value) {
   val result = val::array();
@@ -106,7 +106,7 @@ val object(const KeysAndValues&... keys_and_values) {
   return result;
 }
 
-/// Returns the fields of portraits/figure.hpp by name. Colours are as in CSS; the visible parts of lines are columns.
+/// Returns an object with the fields of portraits/figure.hpp. Colours are as in CSS, visible parts of lines as columns.
 val figure_value(const portraits::Figure& figure);
 
 /// Returns the number of rows of panels in a figure (figure_value) that has the given width in pixels.

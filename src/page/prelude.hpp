@@ -1,8 +1,8 @@
-// Included in every file that is compiled for the page. It keeps the page small. It adds those parts of C++20 that this
-// library needs and that the C++ library of Debian 12's emscripten (LLVM 14) lacks.
+// Included in every file that is compiled for the page. It keeps the page small. It adds parts of C++20 that this
+// library needs and that the C++ library of emscripten in Debian 12 (LLVM 14) lacks.
 #pragma once
 
-// Leave out streams and locales, a tenth of the page, and long doubles, which WebAssembly computes in software.
+// Leave out streams and locales, a tenth of the page, and long doubles, which WebAssembly computes slowly in software.
 #define FMT_HEADER_ONLY
 #define FMT_STATIC_THOUSANDS_SEPARATOR ','
 #define FMT_USE_FLOAT 0
@@ -19,7 +19,7 @@
 
 #include "platform/charconv/from_chars.hpp"
 
-/// Returns a number in a message of Boost, which would use a stream.
+/// Returns a number as text for a message of Boost. The original function would need a stream.
 template <>
 inline std::string boost::math::policies::detail::prec_format(const double& value) {
   return fmt::format("{}", value);
@@ -37,7 +37,7 @@ constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
 }
 
-/// The algorithms of std::ranges, replaced by their models in range-v3.
+/// The algorithms of std::ranges, replaced by the algorithms of range-v3, the library on which std::ranges is modelled.
 namespace ranges {
 using namespace ::ranges;
 }

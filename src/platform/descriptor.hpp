@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Functions for file descriptors that each system implements. A function that fails returns -1 and sets errno.
-/// Programs that this one starts do not inherit the descriptors.
+/// Functions for file descriptors, with one implementation for each operating system. A function that fails returns -1
+/// and sets errno. Programs that this program starts do not inherit the descriptors.
 namespace contensou::platform {
 
 int open_to_read(const char* path);
@@ -17,10 +17,10 @@ int create_unfinished(char* name);
 /// Removes a file, even if it is open. It may be called in a signal handler.
 void remove_file(const char* path);
 
-/// Renames a file, replacing the file of the new name.
+/// Renames a file. If a file with the new name exists, it is replaced.
 int replace_file(const char* path, const char* target);
 
-/// Returns true if a read, also at the end of the file, does not wait.
+/// Returns true if a read would not wait. A read at the end of the file does not wait either.
 bool is_ready(int file);
 
 /// Reserves room on the disk, if the file system supports it.

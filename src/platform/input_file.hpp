@@ -10,7 +10,7 @@ class InputFile {
  public:
   /// @param path  "-" is standard input
   /// @param name  name of the file in messages
-  /// @throws std::system_error  if the file cannot be read; so do the other functions
+  /// @throws std::system_error  if the file cannot be read; the other functions throw it, too
   InputFile(const std::string& path, std::string name);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -19,10 +19,10 @@ class InputFile {
   /// Returns the number of bytes; NaN for a pipe or a device.
   double size() const;
 
-  /// Appends the bytes of one read, at most `most`; returns false at the end of the file.
+  /// Appends the bytes of one read, at most `most` bytes. Returns false at the end of the file.
   bool read(std::string& buffer, std::size_t most);
 
-  /// Returns true if read does not wait.
+  /// Returns true if the next read does not wait.
   bool ready() const;
 
  private:

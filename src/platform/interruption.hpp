@@ -5,9 +5,9 @@
 namespace contensou::platform {
 
 /// Handles the signals that end the program, and in Windows Ctrl-C and the closing of the console. The handler removes
-/// the unfinished file, prints a message, and ends the program as the signal would: in a shell with status 130 after
-/// Ctrl-C, also as process 1 of a container. Signals that are ignored, such as SIGHUP under nohup, stay ignored. If a
-/// file exceeds its size limit, write() returns an error.
+/// the unfinished file, prints a message, and ends the program as the signal would. After Ctrl-C a shell shows status
+/// 130, even for process 1 of a container. Ignored signals, such as SIGHUP under nohup, stay ignored. If a file exceeds
+/// its size limit, write() returns an error.
 void handle_ending_signals();
 
 /// Delays the signals that end the program as long as an object of this class exists.

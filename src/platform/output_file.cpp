@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr mode_t writable = S_IWUSR | S_IWGRP | S_IWOTH;
 
-/// Returns the target of a link, even if it does not exist; any other path unchanged.
+/// Returns the target of a link, even if the target does not exist. Any other path is returned unchanged.
 fs::path followed(fs::path path) {
   std::error_code error;
   while (fs::is_symlink(path, error)) {
@@ -55,7 +55,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     if (file_ < 0) fail(errno);
     return;
   }
-  // A file that must not be written is not replaced, not even by root, and not if its folder allows it.
+  // A read-only file is never replaced, although its folder or the rights of root would allow this.
   if (is_there && ((there.st_mode & writable) == 0 || ::access(path_.c_str(), W_OK) != 0)) fail(EACCES);
   mode_ = is_there ? there.st_mode : standard_mode();
   target_ = text_of(followed(path_of(path_)));

@@ -6,13 +6,13 @@
 
 namespace contensou::platform {
 
-/// A file for results. Either the whole file appears or nothing: it is written under another name in the same folder,
-/// then renamed. Links are kept and lead to the new file, which has the old permissions. Standard output, devices and
-/// pipes are written directly.
+/// A file for results. Either the whole file appears or nothing: the file is written under another name in the same
+/// folder, then renamed. A link stays and leads to the new file, which has the permissions of the old one. Standard
+/// output, devices and pipes are written directly.
 class OutputFile {
  public:
   /// @param path  "-" is standard output
-  /// @throws FileFailure  with file name and reason; no file is left behind. The other functions throw it, too
+  /// @throws FileFailure  with file name and reason; no file is left behind. The other functions throw FileFailure, too
   explicit OutputFile(std::string path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -30,8 +30,8 @@ class OutputFile {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_;      ///< file to which links lead, so that this file is replaced and the links stay
-  std::string unfinished_;  ///< name until the file is renamed; empty if it is written directly
+  std::string target_;      ///< file at the end of the links; this file is replaced, and the links stay
+  std::string unfinished_;  ///< name of the file until it is renamed; empty if the file is written directly
   unsigned mode_ = 0;       ///< permissions
   int file_ = -1;
 };

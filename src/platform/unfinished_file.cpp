@@ -13,7 +13,7 @@ namespace contensou::platform {
 
 namespace {
 
-/// The data of the signal handler, if there is an unfinished file.
+/// The data that the signal handler reads. They are valid if there is an unfinished file.
 std::atomic<bool> is_unfinished = false;
 static_assert(decltype(is_unfinished)::is_always_lock_free);
 std::array<char, PATH_MAX> unfinished{};
@@ -22,11 +22,11 @@ std::array<char, PATH_MAX + 100> message{};
 }  // namespace
 
 int open_unfinished(const std::string& folder, const std::string& target, std::string& path) {
-  // The line of a terminal may contain ^C or a progress bar.
+  // A terminal may already show ^C or a progress bar on this line.
   const char* new_line = is_terminal(Stream::error) ? "\n" : "";
   std::snprintf(message.data(), message.size(), "%scontensou: interrupted: %s was not written, nothing is left of it\n",
                 new_line, target.c_str());
-  // The handler has the name before the file exists.
+  // The handler must have the name before the file exists. A signal right after the creation then removes the file.
   path = folder + "/.contensou-XXXXXX";
   if (path.size() >= unfinished.size()) return errno = ENAMETOOLONG, -1;
   unfinished[path.copy(unfinished.data(), path.size())] = '\0';

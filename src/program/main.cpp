@@ -99,7 +99,7 @@ class Verbs {
   std::vector<std::string> names_;
 };
 
-/// Throws for words that CLI11 could not place: an unknown verb or option, or a word too many.
+/// Throws for words that CLI11 could not assign: an unknown verb or option, or a superfluous word.
 /// @param names  names of the verbs if one was expected, else empty
 /// @throws BadInput  if there is such a word
 void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::string>& names) {
@@ -127,7 +127,7 @@ void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::strin
       fmt::format("unknown verb {}{}; verbs: {}", quotation(typed), suggestion(typed, names), fmt::join(names, ", ")));
 }
 
-/// Throws for two uses that CLI11 accepts but that mean nothing: a value of a flag, and -- as the last word.
+/// Throws for two uses that CLI11 accepts although they have no meaning: a value of a flag, and -- as the last word.
 void reject_what_means_nothing(const CLI::App& app, const std::vector<std::string>& arguments) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_items_expected_max() > 0) continue;

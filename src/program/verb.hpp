@@ -34,7 +34,7 @@ struct VerbEntry {
   std::string summary;  ///< one line of help
   std::string example;  ///< a command line that works, for the help
   std::vector<VerbFields> fields;
-  std::vector<std::string_view> words;  ///< entries of the glossary that its help needs
+  std::vector<std::string_view> words;  ///< entries of the glossary that the help of this verb shows
   std::unique_ptr<Verb> (*make)();
 };
 

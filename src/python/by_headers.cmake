@@ -1,4 +1,4 @@
-# fmt and toml++ by their headers, so that a wheel needs no library of theirs where it is installed.
+# Uses fmt and toml++ by their headers, so that an installed wheel needs no library of these.
 macro(contensou_by_headers target header definition)
   if(NOT TARGET ${target})
     find_path(contensou_${header} ${header} REQUIRED NO_CACHE)

@@ -1,4 +1,4 @@
-// contensou::fit in Python: one film.
+// contensou::fit in Python, for one film.
 #include "contensou/fit/fit.hpp"
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace contensou::python {
 
 namespace {
 
-/// A law that a signal can stop. A search in one thread calls it again and again.
+/// A law whose call a signal such as Ctrl-C can end. A search in one thread calls the law again and again.
 class InterruptibleLaw {
  public:
   explicit InterruptibleLaw(std::shared_ptr<const reduction::Law> law) : law_(std::move(law)) {}

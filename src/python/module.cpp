@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Returns a message of the library without names of its functions, and with arguments in place of options.
+/// Returns a message of the library without names of functions of the library, and with arguments in place of options.
 std::string in_words_of_python(std::string text) {
   text = contensou::answers::words_of(std::move(text));
   for (const auto& [words, instead] : {std::pair<std::string, const char*>{"fit: track t: ", ""},
@@ -33,7 +33,7 @@ PYBIND11_MODULE(_core, module) {
       throw;
     } catch (const std::exception& error) {
       if (!contensou::answers::is_fault(error)) throw;
-      // Otherwise pybind11 raises an IndexError, a ValueError or an OverflowError, as if the input were wrong.
+      // pybind11 would raise an IndexError, a ValueError or an OverflowError, as if the input were wrong.
       PyErr_SetString(PyExc_RuntimeError, contensou::answers::message_of(error, "the call above").c_str());
     }
   });

@@ -55,7 +55,7 @@ double stop_time_of(const PlanarOrbit& orbit) {
   return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity;
 }
 
-/// Returns a number at each of the points; NaN for an error.
+/// Returns the value of a function at each of the points; NaN at points where the function throws an error.
 template <class Function>
 py::array_t<double> at_points(const Numbers& u, const Numbers& v, Function function) {
   py::array_t<double> result = like(u);
@@ -200,7 +200,7 @@ void bind_planar(py::module_& module) {
           try {
             x = interruptible([&] { return orbit.at(time); });
           } catch (const std::domain_error&) {
-            if (!(time >= 0)) throw;  // otherwise the motion has gone to infinity, or beyond a border
+            if (!(time >= 0)) throw;  // a later time gives NaN: the orbit has ended
           }
           us.mutable_data()[i] = x[0];
           vs.mutable_data()[i] = x[1];

@@ -12,12 +12,12 @@
 
 namespace contensou::python {
 
-/// A signal during a call of a field. It is not a std::exception, which would mean a point without value.
+/// Thrown after a signal during a call of a field. Not a std::exception, as the library takes one for a missing value.
 struct Interrupted {
   py::error_already_set error;
 };
 
-/// Calls a function that uses a field of Python, which a signal such as Ctrl-C may end.
+/// Calls a function that uses a field of Python. A signal such as Ctrl-C may end this call.
 template <class Function>
 auto interruptible(Function compute) {
   try {
@@ -27,7 +27,7 @@ auto interruptible(Function compute) {
   }
 }
 
-/// A planar system, its symmetries, and its motions if one of them is a scaling.
+/// A planar system with its symmetries, and with its motions if it is solved.
 class Planar {
  public:
   /// @param known  solution, if there is one

@@ -58,7 +58,7 @@ class FunctionLaw {
   }
 
  private:
-  std::shared_ptr<py::function> function_;  ///< deleted under Python's lock, in whichever thread the last copy ends
+  std::shared_ptr<py::function> function_;  ///< the last copy may end in any thread, so the deleter takes Python's lock
   std::string name_;
   std::vector<double> kinks_;
 };
@@ -106,8 +106,8 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
 }
 
-/// Returns tau and its derivatives by u, v, mu, chi, gamma and drive, a row each: NaN for an invalid start, derivatives
-/// at rest.
+/// Returns rows of tau and of its derivatives by u, v, mu, chi, gamma and drive. An invalid start gives NaN in all
+/// rows, a start at rest NaN in the derivatives.
 /// @param gradient  computes them for the start with a number
 template <class Gradient>
 py::array_t<double> stop_time_gradients(const Numbers& u, const Numbers& v, Gradient gradient) {
@@ -130,7 +130,7 @@ py::array_t<double> stop_time_gradients(const Numbers& u, const Numbers& v, Grad
   return result;
 }
 
-/// Computes stop times like stop_times, with a mu for each start.
+/// Computes stop times like stop_times, but each start has its own mu.
 void stop_times_of_mus(const reduction::StopTimesOfMu& stop_time, const Numbers& mu, const Numbers& u, const Numbers& v,
                        py::array_t<double>& out) {
   const auto count = static_cast<std::size_t>(out.size());

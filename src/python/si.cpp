@@ -39,7 +39,7 @@ using reduction::Law;
 
 using Pair = std::array<double, 2>;
 
-/// An entry of the array of a motion's states.
+/// The state of a motion at one instant, an entry of the array.
 struct Instant {
   double t, x, y, vx, vy, wx, wy, wz, slip, energy;
 };
@@ -57,7 +57,7 @@ std::string words_of(const py::handle& value) {
   return words.size() > most ? words.substr(0, most) + "..." : words;
 }
 
-/// Writes the friction of contacts to `values`, and its slopes to `slopes` unless it is empty; NaN if a number is NaN.
+/// Writes the friction of contacts to `values`, and its slopes to `slopes` unless that is empty; NaN if an input is.
 /// @param given  loads, then friction, radius and creep of the patches; each has one value for each contact, or one for
 ///               all
 /// @throws std::domain_error  for the first contact with a wrong number, with its index in the message
@@ -140,7 +140,7 @@ si::Velocities start_of(const double* row) { return {{row[0], row[1]}, {row[2], 
 
 constexpr py::ssize_t columns_of_start = 5;
 
-/// Writes the events of a motion in the order of Python's fields; a rest that never comes is infinite.
+/// Writes the events of a motion in the order of the fields in Python. If the ball never rests, that time is infinite.
 void write_events(const si::Motion& motion, double rolling_below, double* row) {
   const si::Events events = motion.finite().events(rolling_below);
   for (const si::Event& event :
@@ -222,7 +222,7 @@ py::dict dict_of(const si::Spreads& spreads) {
   return result;
 }
 
-/// Returns the description of a ball by the fields of Python's Ball; None is left out.
+/// Returns the description of a ball from the fields of Python's Ball; fields that are None are left out.
 si::Description described_by(const py::dict& fields) {
   si::Description described;
   for (const auto& [key, value] : fields) {
@@ -273,7 +273,7 @@ py::dict fields_of(const si::Description& described) {
 
 namespace {
 
-/// Returns all fields of Python's Ball, with the defaults.
+/// Returns all fields of Python's Ball, including default values.
 py::dict fields_of_ball(const si::Description& described) {
   py::dict fields = fields_of(described);
   fields["law"] = si::law_of(si::experiment_of(described));

@@ -27,7 +27,7 @@ using Released = py::call_guard<py::gil_scoped_release>;
 /// Numbers of any shape, in C order.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Ends a long computation without Python's lock on a signal such as Ctrl-C. It looks for one ten times a second.
+/// Ends a long computation, which runs without Python's lock, on a signal such as Ctrl-C, checked ten times a second.
 class Interruption {
  public:
   /// @throws py::error_already_set  KeyboardInterrupt, or another exception of a handler in Python
@@ -45,7 +45,7 @@ class Interruption {
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 
-/// Returns an array of the shape of `given` with the function's value for each number.
+/// Returns an array of the shape of `given` with the value of the function for each number.
 template <class Value, class Function>
 py::array_t<Value> mapped(const Numbers& given, Function function) {
   py::array_t<Value> result(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));

@@ -50,7 +50,7 @@ struct Field {
   }
 };
 
-/// Steps until |u| is small. A step through the stop is halved. try_step(tau, x, dt) advances tau and x if it accepts.
+/// Steps until |u| is small; a step beyond the stop is halved. try_step(tau, x, dt) advances tau and x if it succeeds.
 template <class Step>
 double halving(double mu, double u0, double v0, Step try_step) {
   double tau = 0;
@@ -80,7 +80,7 @@ RivalResult by_odeint(double mu, double u0, double v0) {
   const double tau = halving(mu, std::abs(u0), v0, [&](double& time, State& x, double& dt) {
     stepper.try_step(system, x, time, dt);
     if constexpr (requires { stepper.reset(); }) {
-      if (!(x[0] > 0)) stepper.reset();  // the stepper keeps the rate of the last step
+      if (!(x[0] > 0)) stepper.reset();  // the stepper must forget the rate of the last step
     }
   });
   return {tau, field.evaluations};
@@ -124,7 +124,7 @@ RivalResult by_cvode(double mu, double u0, double v0) {
   CVodeInit(
       solver,
       [](realtype, N_Vector at, N_Vector rate, void* user) {
-        // A corrector may try a state beyond the stop: a recoverable error makes the step shorter.
+        // A corrector may try a state beyond the stop. This return value, a recoverable error, makes the step shorter.
         if (!(NV_Ith_S(at, 0) > 0)) return 1;
         static_cast<Data*>(user)->field(NV_DATA_S(at), NV_DATA_S(rate));
         return 0;

@@ -40,7 +40,7 @@ namespace {
 using namespace contensou::reduction;
 using contensou::tests::ReferenceRow;
 
-/// Least time of one call in nanoseconds, by name. It is processor time, or clock time if threads share the work.
+/// The least time of one call in nanoseconds, by name: processor time, or clock time if threads share the work.
 class Times : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -71,7 +71,7 @@ void measure(const std::string& name, std::function<void()> call, double seconds
       ->UseRealTime();
 }
 
-/// Registers a call whose time depends on memory, which other programs use, too. So it is repeated more often.
+/// Registers a call that waits for memory, which other programs use, too. The call is repeated more often.
 void measure_in_memory(const std::string& name, std::function<void()> call) {
   measure(name, std::move(call), 0.03, 15);
 }
@@ -95,7 +95,7 @@ std::vector<Start> starts() {
   return found;
 }
 
-/// The results of one method for one start after the other: number of evaluations and error.
+/// The results of one method, which computes one start after the other: number of evaluations and error.
 struct Answers {
   double evaluations = 0;  ///< mean
   double error = 0;        ///< worst, relative
@@ -226,7 +226,7 @@ int main() {
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });
   measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(HertzLaw{}, 0.1))); });
 
-  // A mu of its own for each start: what is solved for all of them is included.
+  // Each start has its own mu. The time includes the solution that serves all these mu.
   constexpr std::size_t own = 10'000;
   std::uniform_real_distribution<double> some_mu(0.05, 0.3), some_speed(0.1, 2);
   std::vector<std::pair<double, State>> own_starts;
@@ -271,7 +271,7 @@ int main() {
     }
   }
 
-  // Calls that are compared are measured in turn, so that a slow minute of the machine affects all of them.
+  // Measure compared calls alternately, so that a slow minute of the machine affects all of them.
   std::array<std::string, 2> options{"benchmark_stop_times", "--benchmark_enable_random_interleaving=true"};
   std::array<char*, 2> arguments{options[0].data(), options[1].data()};
   int count = arguments.size();

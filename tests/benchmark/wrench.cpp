@@ -25,7 +25,7 @@ constexpr contensou_patch patch{0.2, 3e-3, 1e-4};
 constexpr double load = 1.7;
 
 /// Returns the time of one call in ns, the least of many rounds.
-/// @param k     sliding speed divided by rim speed; 0: each call has its own, log-uniform in 1e-3 .. 1e3
+/// @param k     sliding speed divided by rim speed; 0: each call has another k, log-uniform in 1e-3 .. 1e3
 /// @param call  function of vx, vy and omega
 template <class T, class Call>
 double nanoseconds(double k, const Call& call) {
@@ -51,7 +51,7 @@ double nanoseconds(double k, const Call& call) {
   return least;
 }
 
-/// Prints a cell of the table: ns of calls with random k, and of calls with the slowest k.
+/// Prints a cell of the table: the time in ns of a call with random k, and with the slowest k.
 template <class T, class Call>
 void cell(const Call& call) {
   double slowest = 0;
@@ -60,7 +60,7 @@ void cell(const Call& call) {
   fmt::print(" {:.0f}, {:.0f} |", nanoseconds<T>(0, call), slowest);
 }
 
-/// Prints the cells of the header: force and moment in double and float, and with slopes in double.
+/// Prints the cells for the header: force and moment in double and in float, and with slopes in double.
 template <class Law>
 void kernel_cells() {
   const auto values = [](const auto& at) {

@@ -45,7 +45,7 @@ class Ball {
   bool is_negative() const { return arb_is_negative(value_) != 0; }
   double approximately() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
 
-  /// Returns the number of bits to which the ball is known, at least.
+  /// Returns a lower bound of the number of correct bits of the ball.
   slong accuracy() const { return arb_rel_accuracy_bits(value_); }
 
   friend Ball operator+(const Ball& a, const Ball& b) { return of(arb_add, a, b, precision); }
@@ -68,11 +68,11 @@ class Ball {
 
 thread_local slong Ball::precision = 128;
 
-/// Smallest number of bits of an enclosure: 25 decimals and a thousandth of an ulp.
+/// Smallest number of correct bits of an enclosure, enough for 25 decimals and for a thousandth of an ulp.
 constexpr slong wanted_bits = 90;
 constexpr slong max_bits = 1 << 16;
 
-/// The numbers of (R28) in ball arithmetic. begin and end are exact, or 5/r.
+/// The numbers of (R28) in ball arithmetic. begin is m at T = 0, end is m at T = infinity; both are exact, or 5/r.
 struct Relaxation {
   Ball begin, end, p, q, excess, T;
 };
@@ -111,8 +111,8 @@ Relaxation relaxation(const ReducedSystem& system, State start) {
   return {ray, 2.5, p, Ball(-2) * chi / alpha, Ball(-5) * alpha / (Ball(3) * g), alpha * distance / z};
 }
 
-/// Returns G by the continued fraction (R29). Its terms are positive. So the omitted rest lies between its first two
-/// approximations, and every later step keeps the enclosure.
+/// Returns G by the continued fraction (R29). All its terms are positive. Therefore the first two approximations of the
+/// omitted part enclose this part, and every later step keeps the enclosure.
 Ball by_fraction(const Relaxation& at) {
   const auto b = [&](slong n) { return Ball(1) + at.p * static_cast<double>(n); };
   const auto a = [&](slong n) {
@@ -127,12 +127,12 @@ Ball by_fraction(const Relaxation& at) {
     arb_union(rest.get(), nearest.get(), farthest.get(), Ball::precision);
     for (slong n = depth - 1; n >= 0; --n) rest = b(n) + a(n + 1) / rest;
     G = Ball(1) / rest;
-    if (G.accuracy() >= wanted_bits + 8) break;  // m and the stop time lose some
+    if (G.accuracy() >= wanted_bits + 8) break;  // m and the stop time lose some bits
   }
   return G;
 }
 
-/// Returns G by Arb's own functions: 2F1, or Tricomi's U for p = 0.
+/// Returns G by a function of Arb: 2F1, or Tricomi's U if p = 0.
 Ball by_hypergeometric(const Relaxation& at) {
   Ball G;
   if (at.p.is_zero()) {

@@ -13,11 +13,11 @@ namespace contensou::reduction {
 /// @throws std::domain_error  if start is not a state (finite, v >= 0), or the law is not pade
 double certify_stop_time(const ReducedSystem& system, State start, double tau, double more = 0);
 
-/// Returns the error of a computed m(k) of the Pade law for these r and k, in units in the last place.
+/// Returns the error of a computed m(k), the sliding coefficient of the Pade law, in units in the last place.
 /// @param r, k  positive and finite; not checked
 double certify_sliding_share(double r, double k, double m);
 
-/// The errors of a computed Resistance relative to the exact Hertz law, in units in the last place.
+/// The errors of a computed Resistance compared with the exact Hertz law, in units in the last place.
 struct ResistanceError {
   double force_ulp;
   double moment_ulp;

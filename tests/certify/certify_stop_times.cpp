@@ -31,7 +31,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 
 constexpr int points = CONTENSOU_FULL_TESTS ? 100'000 : 10'000;
 
-/// Error that the library promises for the closed form, and for quadrature beyond PadeCurve::max_r.
+/// Error that the library promises for the closed form, and, above PadeCurve::max_r, for quadrature.
 constexpr double promised_ulp = 4;
 constexpr double promised_beyond = 8;
 
@@ -122,7 +122,7 @@ TEST_CASE("stop times keep the accuracy they state up to mu = 1e6", "[certify]")
   std::string where;
   for (int i = 0; i < points / 4; ++i) {
     const double mu = random.log_uniform(i % 2 == 0 ? 1e-10 : 1, 1e6);
-    // m affects the stop time only if k is at least of the size of 1/r.
+    // The sliding coefficient m matters to the stop time only if k is at least of the size of 1/r.
     const double k0 = random.log_uniform(1e-3, 1e3) / (i % 3 == 0 ? 1 : std::max(1.0, mu * mu));
     const ReducedSystem system(PadeLaw{}, mu, homogeneous_ball);
     const State start{1, mu * k0};
@@ -170,7 +170,7 @@ TEST_CASE("stop times at the ends of the double range against their enclosures",
   }
   for (double mu : {1e-10, 0.1, 1.0, 1.7, 2.5, 2.8}) {
     for (double fraction = 0.999999; fraction < 1.000001; fraction += 1e-7) {
-      // P alone, near the largest double, from both sides.
+      // v is negligible, so the stop time is its pivoting part P, just below or above the largest double.
       const double u = std::min(largest / 3.2 * mu * fraction, largest);
       ends.add(ReducedSystem(PadeLaw{}, mu, homogeneous_ball), {u, u * (mu * 1e-9)});
       ends.add(ReducedSystem(PadeLaw{}, mu, homogeneous_ball), {std::ldexp(random.uniform(0.5, 1), -1060), 5e-324});
@@ -183,7 +183,7 @@ TEST_CASE("the exact law at random k against its enclosure", "[certify]") {
   Random random;
   double worst_force = 0, worst_moment = 0, sum_force = 0, sum_moment = 0;
   for (int i = 0; i < points; ++i) {
-    // Half of the starts lie around k = 1, where the formulas change over.
+    // Half of the starts lie around k = 1, at which other formulas of the law begin.
     const double k = i % 2 == 0 ? random.log_uniform(1e-10, 1e10) : random.log_uniform(0.5, 2);
     const auto [force, moment] = certify_hertz_law(k, HertzLaw{}({k, 1}));
     worst_force = std::max(worst_force, force);

@@ -14,7 +14,7 @@ function(run)
   endif()
 endfunction()
 
-# The text between the next FENCE line and its end, from the position in rest; rest moves behind it.
+# Finds the text between the next line FENCE and the end of its block. `rest` becomes the text behind this block.
 macro(next_block fence result)
   string(FIND "${rest}" "```${fence}\n" start)
   if(start EQUAL -1)
@@ -33,7 +33,7 @@ endmacro()
 
 file(REMOVE_RECURSE ${WORK})
 configure_file(${ROOT}/tests/consumer/project.cmake ${WORK}/source/CMakeLists.txt COPYONLY)
-# The one program of each document, with its output. Those of si need more than contensou::reduction.
+# Finds the single program of a document, and its output. Programs of si need more than contensou::reduction.
 #   take_program(NAME document language ending)
 set(programs "")
 function(take_program name document language ending)
@@ -55,7 +55,7 @@ take_program(si_motion src/si/README.md cpp cpp)
 take_program(wrench src/si/README.md c c)
 take_program(wrench_kernel src/si/README.md c++ cpp)
 
-# The program of a document prints what the document shows.
+# Compares the output of a program with the output that its document shows.
 function(compare name program)
   execute_process(COMMAND ${program} RESULT_VARIABLE status OUTPUT_VARIABLE printed)
   if(NOT status EQUAL 0 OR NOT printed STREQUAL "${shown_${name}}")
@@ -72,7 +72,7 @@ endif()
 if(MODE STREQUAL "find" OR MODE STREQUAL "shared")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
   list(APPEND options -D CMAKE_PREFIX_PATH=${WORK}/installed)
-  # The installed program runs from where it is, with nothing in its environment.
+  # The installed program must run in its folder without any variable of the environment.
   execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=LD_LIBRARY_PATH --unset=PATH
     ${WORK}/installed/bin/contensou stop --mu 1 --u0 0 --v0 0 --format csv
     RESULT_VARIABLE status OUTPUT_VARIABLE output)
@@ -88,7 +88,7 @@ else()
   list(APPEND options -D CONTENSOU_SOURCE=${ROOT})
 endif()
 
-# The header of the wrench needs neither CMake nor Eigen nor C++20.
+# Users of wrench_kernel.h need neither CMake nor Eigen nor C++20.
 set(include ${ROOT}/reduction/include)
 if(EXISTS ${WORK}/installed/include)
   set(include ${WORK}/installed/include)
@@ -105,14 +105,14 @@ run(${CMAKE_COMMAND} --build ${WORK}/build --target programs)
 foreach(program IN LISTS programs)
   compare(${program} ${WORK}/build/${program})
 endforeach()
-if(NOT MODE STREQUAL "add")  # which asks for contensou::reduction alone
+if(NOT MODE STREQUAL "add")  # in MODE add the project uses contensou::reduction alone
   compare(wrench ${WORK}/build/wrench_from_c)
 endif()
 if(NOT MODE STREQUAL "find")
   return()
 endif()
 
-# The project of INSTALL, and its commands for pkg-config, in a folder with the files that they name.
+# Builds the project of INSTALL, and runs its commands for pkg-config, in a folder with the files that they name.
 set(mine ${WORK}/mine)
 configure_file(${WORK}/source/readme_flow.cpp ${mine}/mine.cpp COPYONLY)
 configure_file(${WORK}/source/wrench.c ${mine}/wrench.c COPYONLY)
@@ -126,7 +126,7 @@ compare(readme_flow ${mine}/build/mine)
 find_program(pkg_config pkg-config)
 if(pkg_config)
   set(ENV{PKG_CONFIG_PATH} ${WORK}/installed/lib/pkgconfig)
-  # eval: pkg-config writes the blank of this folder's name with a backslash.
+  # eval is needed because pkg-config writes a backslash before the blank in the name of this folder.
   string(REGEX REPLACE "([^\n]+)" "eval \"\\1\"" commands "${commands}")
   file(WRITE ${mine}/commands.sh "set -e\n${commands}")
   run(${CMAKE_COMMAND} -E chdir ${mine} sh commands.sh)

@@ -1,11 +1,11 @@
-# CMakeLists.txt of somebody else's project, made of the programs that the documents show (consumer_test.cmake).
+# CMakeLists.txt of a user's project, which consists of the programs in the documents (consumer_test.cmake).
 cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES C CXX)
 
 if(CONTENSOU_SOURCE)
   add_subdirectory(${CONTENSOU_SOURCE} contensou)
 else()
-  # The mathematics alone asks for nothing that only the other parts need.
+  # contensou::reduction alone must not search for packages that only other parts need.
   foreach(package IN ITEMS Boost nlohmann_json tomlplusplus CLI11)
     set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)
   endforeach()

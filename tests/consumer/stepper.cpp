@@ -1,4 +1,4 @@
-// Integrates a reference motion with contensou/wrench_kernel.h alone, in explicit steps of 0.1 ms; prints each 50th.
+// Integrates a reference motion with contensou/wrench_kernel.h alone, in steps of 0.1 ms, and prints each 50th state.
 //   stepper CASE.toml SECONDS [elliptic]     prints t, vx, vy, wx, wy, wz; with the elliptic cone in place of the law
 #include <contensou/wrench_kernel.h>
 
@@ -20,7 +20,7 @@ struct Rim {
   template <class T>
   kernel::Friction<T> operator()(const kernel::Slip<T>& at) const {
     kernel::Friction<T> mean{};
-    constexpr int points = 64;  // of a quarter of the rim; each stands for the opposite point, too
+    constexpr int points = 64;  // number of points on a quarter of the rim; each also counts for its opposite point
     for (int i = 0; i < points; ++i) {
       const T s = std::sin((i + T(0.5)) * T(1.5707963267948966) / points), p = at.p, r = at.r;
       const T one = std::sqrt(p * p + r * r + 2 * p * r * s), other = std::sqrt(p * p + r * r - 2 * p * r * s);
@@ -34,7 +34,7 @@ struct Rim {
 
 int main(int count, char** words) {
   if (count < 3) return 2;
-  std::map<std::string, std::vector<double>> numbers;  // of "key = 1" and "key = [1, 2]"
+  std::map<std::string, std::vector<double>> numbers;  // numbers of lines "key = 1" and "key = [1, 2]"
   std::string line, key, body;
   for (std::ifstream file(words[1]); std::getline(file, line);) {
     line = line.substr(0, line.find('#'));
@@ -60,13 +60,13 @@ int main(int count, char** words) {
   std::printf("t,vx,vy,wx,wy,wz\n");
   for (long step = 0; step * dt <= std::atof(words[2]); ++step) {
     if (step % 50 == 0) std::printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", step * dt, v[0], v[1], w[0], w[1], w[2]);
-    const double vx = v[0] - (ball ? R * w[1] : 0), vy = v[1] + (ball ? R * w[0] : 0);  // of the contact
+    const double vx = v[0] - (ball ? R * w[1] : 0), vy = v[1] + (ball ? R * w[0] : 0);  // velocity of the contact
     const auto [fx, fy, moment] = elliptic ? kernel::wrench<kernel::Elliptic>(vx, vy, w[2], limit, a)
                                   : ball   ? kernel::wrench<kernel::Exact>(vx, vy, w[2], limit, a)
                                   : ring   ? kernel::wrench<Rim>(vx, vy, w[2], limit, a)
                                            : kernel::wrench<kernel::Uniform>(vx, vy, w[2], limit, a);
     v[0] += (fx / m + pull) * dt, v[1] += fy / m * dt, w[2] += moment / inertia * dt;
-    if (!ball) continue;  // a disc or ring does not tip
+    if (!ball) continue;  // only a ball turns about x and y
     w[0] += R * fy / inertia * dt, w[1] -= R * fx / inertia * dt;
     const double turning = std::hypot(w[0], w[1]), loss = std::min(turning, resist / inertia * dt);
     for (int i = 0; i < 2 && turning > 0; ++i) w[i] -= w[i] / turning * loss;

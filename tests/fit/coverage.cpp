@@ -1,4 +1,4 @@
-// Test of intervals and standard errors: films of a known ball with random errors are fitted one after the other.
+// Tests intervals and standard errors: random errors are added to films of a known ball, and each film is fitted.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -23,7 +23,7 @@ TEST_CASE("intervals of 95 % hold the truth in 95 of 100 films", "[invariant]") 
     check(scores({track_of({pool_ball()}, half_second, slip_and_spin, false), slip_and_spin}));
   }
   SECTION("friction and patch radius hardly told apart") {
-    // Only two of these instants show the slip, which ends after 0.2 s. The correlation is -0.99.
+    // Only two of these instants show the slip, which ends after 0.2 s. Errors of both have the correlation -0.99.
     check(scores({track_of({pool_ball()}, ArrayXd::LinSpaced(90, 0, 9), slip_and_spin), slip_and_spin}));
   }
   SECTION("positions and angles") {
@@ -48,7 +48,7 @@ TEST_CASE("intervals of 95 % hold the truth in 95 of 100 films", "[invariant]") 
 
 TEST_CASE("of a ball with rolling friction the intervals hold the truth as often, of all three numbers",
           "[invariant]") {
-  // A model without rolling friction finds an f that is 4 % too low here.
+  // A fit without rolling friction finds an f that is 4 % too low here.
   si::Experiment ball = pool_ball();
   ball.contact.rolling_friction = 0.01;
   using enum Observable;
@@ -75,7 +75,7 @@ TEST_CASE("of a ball with rolling friction the intervals hold the truth as often
                                 << held[place] << " of " << trials_with_rolling_friction << ", bias " << bias[place]);
       CHECK(held[place] >=
             (0.95 - 3 * std::sqrt(0.95 * 0.05 / trials_with_rolling_friction)) * trials_with_rolling_friction);
-      // The rolling of the second film is at a limit: the ball starts without rolling, and no value is smaller.
+      // The second film begins without rolling, the smallest possible value. Therefore its estimates have a mean error.
       if (seen.size() == 2) CHECK(std::abs(bias[place]) < 3 / std::sqrt(trials_with_rolling_friction) + 0.1);
     }
   }
@@ -83,8 +83,8 @@ TEST_CASE("of a ball with rolling friction the intervals hold the truth as often
 
 TEST_CASE("of a puck by x and y the intervals hold the truth, and every motion that fits as well is told",
           "[invariant]") {
-  // Another spin with another friction gives nearly the same slip. The sums of squares of both differ by less than
-  // chance does in one film of six.
+  // Another spin and another friction give nearly the same slip. In one film of six, chance makes up for the difference
+  // of their sums of squares.
   si::Experiment puck = si::find_ball("puck")->experiment;
   const si::Experiment asked = puck;
   puck.contact.friction = 0.1;
@@ -120,7 +120,7 @@ TEST_CASE("of a puck by x and y the intervals hold the truth, and every motion t
 }
 
 TEST_CASE("where three instants hardly decide friction and patch radius the intervals hold, too", "[invariant]") {
-  // Two of the instants come after the slip. Then the sum of squares is no parabola, and errors are not normal.
+  // Two of the instants come after the slip. The sum of squares is then no parabola, and errors are not normal.
   const Scores found = scores({track_of({pool_ball()}, Eigen::Array3d(0, 0.25, 0.5), slip_and_spin), slip_and_spin});
   CHECK(found.friction.covered > 0.93);
   CHECK(found.patch.covered > 0.93);
@@ -148,11 +148,11 @@ TEST_CASE("films that decide little: intervals hold the truth, or are open", "[i
       {"pool, slip alone, spin 300", fast, 240, 0.8, {{slip, 0.01}}, false},
   };
   constexpr int films = CONTENSOU_FULL_TESTS ? 200 : 6;
-  // The limit is two standard deviations of such a count.
+  // A count of films may lie two standard deviations below its mean.
   const auto least = [](int of, double share = 0.95) {
     return CONTENSOU_FULL_TESTS ? share - 2 * std::sqrt(share * (1 - share) / std::max(of, 1)) : 0.66;
   };
-  // Chance also decides in which films one combination alone is reported: for the angle in 620 of 1000, correct in 574.
+  // Chance selects films with one reported combination. For the angle it is correct in 574 of 620 films, out of 1000.
   constexpr double share_of_only = 0.926;
   constexpr double most = CONTENSOU_FULL_TESTS ? 0.98 : 1;
   constexpr Parameter numbers[]{Parameter::friction, Parameter::patch_radius, Parameter::slip, Parameter::spin};

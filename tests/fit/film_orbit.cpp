@@ -26,7 +26,7 @@ TEST_CASE("an orbit in cells is that of the ball to 1e-9, from start to rest", "
         ball.start = si::SlipAndSpin{.slip = slip, .spin = spin};
         const si::Motion motion = si::Motion::reduced(ball, law);
         const double rate = 0.2 * ball.environment.gravity, stop = motion.stop_time();
-        ArrayXd t(122);  // the whole motion and beyond, and where it slides
+        ArrayXd t(122);  // times of the slide, of the whole motion, and after its end
         t << ArrayXd::LinSpaced(61, 0, 0.999 * std::min(stop, 2 * slip / (7 * rate) + 1e-9)),
             ArrayXd::LinSpaced(61, stop, 1.5 * stop);
         INFO(law.name() << ", mu = " << mu << ", slip " << slip << ", spin " << spin);
@@ -83,7 +83,7 @@ TEST_CASE(
                                      (now.turned - is.turned / tau_per_T) / (u0 * stop)})
               worst = std::max(worst, std::abs(off));
           }
-          // If a ray merges with an axis, D has lost all digits next to both.
+          // If a ray is close to an axis, D (src/fit/orbit_cells.hpp) has lost all digits next to both.
           const auto merges = [&](double r) { return std::abs(flow.system().r() / r - 1) < 1e-9; };
           CHECK(worst < (merges(flow.terminal().low) || merges(flow.terminal().high) ? 1e-6 : 1e-9));
         }

@@ -33,7 +33,7 @@ struct Film {
       case angle:
         break;
     }
-    // Simpson's rule, from the start.
+    // Integrate from the start by Simpson's rule.
     constexpr int steps = 2000;
     double sum = 0;
     for (int i = 0; i <= steps; ++i) {

@@ -55,8 +55,8 @@ TEST_CASE("positions and the angle alone give the ball, in any axes", "[route]")
         std::vector<Seen>{{Observable::vx, 1e-3}, {Observable::vy, 1e-3}, {Observable::spin, 1e-2}}}) {
     Track track = track_of(film, t, seen);
     for (Series& series : track.series) {
-      if (series.observable == Observable::x) series.value += 7;  // the corner of the picture
-      // A mark shows its angle up to whole turns.
+      if (series.observable == Observable::x) series.value += 7;  // the origin is the corner of the picture
+      // A mark on the ball shows its angle only up to whole turns.
       if (series.observable == Observable::angle) {
         series.value = series.value.unaryExpr([](double angle) { return std::remainder(angle, 2 * std::numbers::pi); });
       }
@@ -146,7 +146,7 @@ TEST_CASE("of a puck the way says slip and friction, whose velocity is the slip"
 }
 
 TEST_CASE("an interval has every value with which a fit anew is as good", "[route]") {
-  // x and y alone determine little: slip and friction can change together by decades, up to the limits of the model.
+  // Observations of x and y determine little: slip and friction can change together by decades, up to their limits.
   const si::Experiment gel = gel_ball();
   const std::vector<Seen> seen{{Observable::x, 0.001}, {Observable::y, 0.001}};
   const Track film = track_of({gel}, ArrayXd::LinSpaced(120, 0, 119 / 120.0), seen);
@@ -169,7 +169,7 @@ TEST_CASE("an interval has every value with which a fit anew is as good", "[rout
 }
 
 TEST_CASE("standard errors are Cramer and Rao's bound, for films of every kind", "[table]") {
-  // Data of another program: the exact law, f = 0.2, eps = 2.827 mm, v0 = 1 m/s, 100 rad/s, errors 1 cm/s and 1 rad/s.
+  // A table by another program: exact law, f = 0.2, eps = 2.827 mm, v0 = 1 m/s, 100 rad/s; errors 1 cm/s and 1 rad/s.
   struct Row {
     double end, rate;
     bool slip, spin;

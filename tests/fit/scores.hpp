@@ -15,8 +15,8 @@ namespace contensou::fit {
 
 inline constexpr int trials = CONTENSOU_FULL_TESTS ? 1000 : 40;
 
-/// Score of a parameter over many films: share of the 95 % intervals that contain the true value; mean error, relative
-/// and in standard errors; root mean square of the error in standard errors.
+/// Score of a parameter over many films: the share of the 95 % intervals that contain the true value; the mean error,
+/// relative and in standard errors; the root mean square of the error in standard errors.
 struct Score {
   double covered = 0, error = 0, bias = 0, spread = 0;
 };
@@ -65,14 +65,14 @@ inline Scores scores(const Films& films) {
 
 inline const Eigen::ArrayXd half_second = Eigen::ArrayXd::LinSpaced(60, 0, 0.5);
 
-/// Checks that the intervals contain the truth in 95 % of the films, within three standard deviations of such a count.
+/// Checks that intervals contain the truth in 95 % of the films, minus three standard deviations of such a count.
 inline void check_covered(const Scores& scores) {
   for (const Score& score : {scores.friction, scores.patch}) {
     CHECK(score.covered == Approx(0.95).margin(3 * std::sqrt(0.95 * 0.05 / trials)));
   }
 }
 
-/// Checks the same, and that the errors are as large as reported.
+/// Checks the intervals as check_covered does, and checks that the errors are as large as reported.
 inline void check(const Scores& scores) {
   check_covered(scores);
   const double n = trials;

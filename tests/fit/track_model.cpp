@@ -25,14 +25,14 @@ void check_derivatives(const TrackModel& model, const VectorXd& parameters, Inde
   const Eigen::MatrixXd derivatives = model.derivatives(parameters, all);
   for (Index place : all) {
     const double size = std::abs(parameters[place]);
-    // The step of a number that is bounded by 0 is a share of the number.
+    // For a number with the lower limit 0, the step is a share of the number.
     const bool bounded = size > 0 && model.range(place).low == 0;
     const double step = 1e-4 * (bounded ? size : std::max(1.0, size));
     const VectorXd more = parameters + step * VectorXd::Unit(parameters.size(), place);
     const VectorXd less = parameters - step * VectorXd::Unit(parameters.size(), place);
     const VectorXd expected = (model.values(more) - model.values(less)) / (2 * step);
     INFO("parameter " << place);
-    // Compare series by series, because the effect of the patch on one series is small compared with another.
+    // Compare each series alone, because the patch affects one series much less than another.
     for (Index first = 0; first < model.rows();) {
       const Index count = first % (7 * of_series + 1) == 7 * of_series ? 1 : of_series;
       INFO("rows from " << first);
@@ -59,7 +59,7 @@ TEST_CASE("derivatives of all that is seen are those of differences", "[route]")
   for (const reduction::Law& law : reduction::paper_laws()) {
     for (const auto& [slip, spin] :
          std::vector<std::pair<double, double>>{{1, 100}, {-0.4, -70}, {0.02, 60}, {1, 0.5}, {1, 0}, {0, 60}}) {
-      // On an axis the step crosses a kink of |u| or |v|.
+      // On an axis the step of a difference crosses a kink of |u| or |v|.
       const double tolerance = slip == 0 || spin == 0 ? 1e-4 : 3e-6;
       const TrackModel model(pool_ball(), law, tracks, FilmOrbit::standard_accuracy);
       VectorXd parameters(model.parameters());
@@ -83,7 +83,7 @@ TEST_CASE("derivatives of a ball with rolling friction are those of differences,
       VectorXd parameters(model.parameters());
       parameters << std::log(0.2), std::log(2e-3), 0.01, slip, spin, 0.7, 0, 0, 4, 5, 6, rolling;
       INFO(law.name() << ", slip " << slip << ", spin " << spin << ", rolling " << rolling);
-      // When the ball no longer turns, its slip vanishes in a hundredth of a second.
+      // After the ball has ceased to turn, its slip vanishes within a hundredth of a second.
       check_derivatives(model, parameters, track.t.size(), 3e-4);
     }
   }

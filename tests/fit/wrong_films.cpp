@@ -17,13 +17,13 @@ using Eigen::ArrayXd;
 
 namespace {
 
-/// Counts the films of a motion for which the fit reports a misfit, or determines neither friction nor patch radius nor
-/// a combination of both.
+/// Counts those films of a motion for which the fit reports a misfit, or determines neither friction nor patch radius
+/// nor a combination of both.
 struct Told {
   int misfits = 0, open = 0;
 };
 
-/// @param values  of the columns at a time, with their errors
+/// @param values  returns the values of the columns at a time, with their errors
 template <class Values>
 Told told(const char* name, const std::vector<Observable>& columns, int films, Values values) {
   const si::Experiment ball = si::find_ball(name)->experiment;
@@ -76,7 +76,7 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
   SECTION("a speed that falls as exp(-2 t): x and y alone do not tell it from a ball whose patch is wide") {
     const Told slowing =
         told("pool", place, films, [&](double t) { return with_errors(1 - std::exp(-2 * t), 1e-3, 0, 1e-3); });
-    // The model contains such a motion with a fast spin. Some films show how fast it is by one of the combinations.
+    // A fast spin gives such a motion in the model, too. Some films determine this spin by one of the combinations.
     CHECK(slowing.misfits + slowing.open >= 0.85 * films);
   }
   SECTION("a slip 2/(1 + t) beside a spin that falls as exp(-t/2)") {
@@ -104,7 +104,7 @@ TEST_CASE("films of the ball itself fit, with errors and without", "[invariant]"
 }
 
 TEST_CASE("intervals grow where errors depend on their neighbours", "[invariant]") {
-  // c_j = c^j, so the mean of many values has (1 + c)/(1 - c) times the variance.
+  // Errors j rows apart have the correlation c^j. The variance of their mean is therefore (1 + c)/(1 - c) times larger.
   const double c = 0.3;
   const auto spoil = [&](Track& track, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
@@ -137,7 +137,7 @@ TEST_CASE("how errors depend on each other is found from their residuals", "[rou
     CHECK(found.neighbours == Approx(c).margin(0.01));
     CHECK(found.growth == Approx((1 + c) / (1 - c)).epsilon(0.1));
   }
-  // A line is fitted to white noise, so the residuals are nearly the errors themselves.
+  // The fit takes only a line from the white noise, so the residuals are nearly the errors themselves.
   double neighbours = 0, growth = 0;
   constexpr int films = 1000;
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, -1, 1);
@@ -202,12 +202,12 @@ TEST_CASE("what a film that is wrong makes of friction and patch radius", "[inva
     const Scores lost = scores({film, slip_and_spin, false, lose});
     CHECK(lost.friction.error == Approx(0.107).margin(0.01));
     CHECK(lost.friction.covered < 0.5);
-    CHECK(lost.reduced_chi2 > 1.3);  // the film tells that something is wrong
+    CHECK(lost.reduced_chi2 > 1.3);  // chi^2 shows that the film is wrong
   }
   SECTION("the law is another one") {
     const Film other{pool_ball(), reduction::PressureLaw::uniform()};
     const Scores wrong = scores({track_of(other, half_second, slip_and_spin), slip_and_spin});
-    // This film shows only f and f eps Psi(0). The wrong law fits both, so the film does not show that it is wrong.
+    // This film shows only f and f eps Psi(0). The wrong law can fit both, so the film cannot exclude this law.
     const double factor = other.law.pivoting_moment() / reduction::Law(reduction::HertzLaw{}).pivoting_moment();
     CHECK(std::abs(wrong.friction.error) < 0.01);
     CHECK(wrong.patch.error == Approx(std::log(factor)).margin(0.02));

@@ -78,7 +78,7 @@ void write_files() {
         "spin = 100\n");
 }
 
-/// Changes to an empty folder of its own. The fuzzer's own paths are made absolute before.
+/// Changes to a new empty folder. Before that, relative paths in the fuzzer's own arguments are made absolute.
 void move_to_own_folder(int count, char** arguments) {
   static std::list<std::string> absolute;
   constexpr std::string_view prefix = "-artifact_prefix=";
@@ -100,7 +100,7 @@ void move_to_own_folder(int count, char** arguments) {
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   move_to_own_folder(*count, *arguments);
   guard();
-  ::setenv("PATH", "", 1);  // no gnuplot
+  ::setenv("PATH", "", 1);  // so that gnuplot is not found
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(nothing, STDOUT_FILENO);

@@ -22,7 +22,7 @@ struct Row {
 
 struct Table {
   std::vector<Row> rows;
-  std::string complaint;  ///< without the name of the text
+  std::string complaint;  ///< message without the name of the text
   bool operator==(const Table&) const = default;
 
   void add(const answers::CsvRow& row, long before = 0) {
@@ -108,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   fuzz::require(!from_file.rows.empty(), from_file.complaint);
-  from_file.rows.front().text = whole.rows.front().text;  // the reader does not return the text of the header
+  from_file.rows.front().text = whole.rows.front().text;  // the reader does not keep the text of the header
   fuzz::require(from_file.rows == whole.rows, "rows from a file");
   fuzz::require(whole.complaint.empty() || from_file.complaint == whole.complaint, from_file.complaint);
   return 0;

@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   } catch (const std::domain_error& error) {
     fuzz::require_readable(error.what());
-  } catch (const std::runtime_error& error) {  // a patch that is loaded in a point
+  } catch (const std::runtime_error& error) {  // the whole load of the patch is in one point
     fuzz::require(typeid(error) == typeid(std::runtime_error), error.what());
     fuzz::require_readable(error.what());
   }

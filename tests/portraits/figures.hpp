@@ -13,7 +13,7 @@
 
 namespace contensou::portraits {
 
-/// Returns those lines of a panel whose legend begins with the given text.
+/// Returns the lines of a panel whose legend begins with the given text.
 inline const Lines& layer(const Panel& panel, std::string_view legend) {
   const auto found =
       std::ranges::find_if(panel.lines, [&](const Lines& lines) { return lines.legend.words().starts_with(legend); });

@@ -91,7 +91,7 @@ TEST_CASE("A script is whole: it needs no file, has no gaps, and is the same eac
   CHECK(script.find("set terminal svg") != std::string::npos);
   CHECK(script.find("nan") == std::string::npos);
   CHECK(script.find("inf") == std::string::npos);
-  // The script has as many blocks of data as plots that read one.
+  // The script must contain one block of data for each plot that reads a block.
   const auto count = [&](const std::string& text) {
     int found = 0;
     for (std::size_t at = 0; (at = script.find(text, at)) != std::string::npos; at += text.size()) ++found;
@@ -123,7 +123,7 @@ TEST_CASE("A film has all its frames, and a mark is as wide on paper in every fo
   for (std::size_t at = 0; (at = film.find("\x21\xF9\x04", at)) != std::string::npos; ++at) delays += film[at + 4] == 4;
   CHECK(delays == 3);
 
-  // A circle of radius 1 in the units of gnuplot's symbols, of 5 to the millimetre.
+  // Read the radius of the circle from the SVG. The picture has 5 units for each millimetre.
   const std::string svg = portraits::render(figure, PictureFormat::svg);
   const std::size_t scale = svg.find("scale(");
   REQUIRE(scale != std::string::npos);
@@ -250,7 +250,7 @@ TEST_CASE("Any text is XML in SVG", "[domain]") {
 
 TEST_CASE("A picture has the size of its figure and no date: the same bytes at any time", "[invariant]") {
   CHECK(portraits::render(sample(), PictureFormat::svg).find("width=\"190mm\" height=\"125mm\"") != std::string::npos);
-  // The date in the picture is fixed, whatever date Cairo writes.
+  // The date in the picture is fixed: the date that Cairo writes is replaced.
   CHECK(portraits::render(sample(), PictureFormat::pdf).find("/CreationDate (D:19700101000000") != std::string::npos);
   CHECK(portraits::render(sample(), PictureFormat::eps).find("%%CreationDate: Thu Jan  1 00:00:00 1970") !=
         std::string::npos);

@@ -47,7 +47,7 @@ TEST_CASE("A line is cut at the axes, and where it is not finite", "[table]") {
   CHECK(clipped(panel, {{2, 2}, {3, 0.5}}).empty());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(clipped(panel, {{0.1, 0.1}, {0.2, 0.1}, {nan, 0.1}, {0.4, 0.1}, {0.5, 0.1}}).size() == 2);
-  CHECK(clipped(square(), {{0, 50}, {0, 0}, {0.5, 50}, {0.6, 50}}).size() == 1);  // 0 is nowhere on a logarithmic axis
+  CHECK(clipped(square(), {{0, 50}, {0, 0}, {0.5, 50}, {0.6, 50}}).size() == 1);  // a logarithmic axis has no 0
   CHECK(clipped(panel, {{0.3, 0.3}}).empty());
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("A panel to scale leaves no height empty when its figure is trimmed", 
   figure.panels.front().to_scale = true;
   const Box before = lay_out(figure).panels.front().box;
   figure = trimmed(figure);
-  CHECK(figure.size.height_mm < 90);  // of 120
+  CHECK(figure.size.height_mm < 90);  // the height was 120 mm before
   const Box after = lay_out(figure).panels.front().box;
   CHECK(after.width == Approx(before.width));
   CHECK(after.height == Approx(before.height));

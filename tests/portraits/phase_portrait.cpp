@@ -68,7 +68,7 @@ TEST_CASE("Every orbit runs unbroken from the border of the window to the origin
         CHECK(std::abs(orbit.u[i]) <= std::abs(orbit.u[i - 1]));
         CHECK(orbit.v[i] <= orbit.v[i - 1]);
       }
-      CHECK(longest < (portrait.scale.linear() ? 0.05 : 0.1));  // rays are straight
+      CHECK(longest < (portrait.scale.linear() ? 0.05 : 0.1));  // orbits along rays are straight
     }
     for (std::size_t i = 0; i < portrait.orbits.size(); i += 2) {
       CHECK((portrait.orbits[i].u == -portrait.orbits[i + 1].u).all());
@@ -82,7 +82,7 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
     if (!portrait.scale.linear()) return;
     const double U = portrait.window.u(), V = portrait.window.v();
-    // The distance across the flow from the left end of the right half of the border, by the midpoint rule.
+    // The distance across the flow, from the left end of the right half of the border. The midpoint rule integrates it.
     const auto across = [&](const PortraitOrbit& orbit) {
       const auto fraction = [&](State at, bool top) {
         const auto rate = system.field(at);
@@ -228,7 +228,7 @@ TEST_CASE("Orbits have no visible corners, also where v is far below mu u", "[in
           const double before = paper_distance(portrait, orbit, i, i - 1);
           const double after = paper_distance(portrait, orbit, i + 1, i);
           const double chord = paper_distance(portrait, orbit, i + 1, i - 1);
-          if (std::min(before, after) < 0.01) continue;  // too short to be seen as a corner
+          if (std::min(before, after) < 0.01) continue;  // such pieces are too short for a visible corner
           const double cosine = (before * before + after * after - chord * chord) / (2 * before * after);
           sharpest = std::max(sharpest, std::acos(-1) - std::acos(std::clamp(cosine, -1.0, 1.0)));
         }
@@ -263,7 +263,7 @@ TEST_CASE("What cannot be drawn is rejected", "[domain]") {
   bad.push_back({.window = Window{{0, -1}, {1, 1}}});
   bad.push_back({.window = Window{{1, 0}, {0, 1}}});
   bad.push_back({.view = portraits::View::disc, .window = Window{{0, 0}, {1, 1}}});
-  // Points on an axis, or outside the window, are refused.
+  // Points on an axis, or outside the window, are no starts of orbits.
   for (const State point : {State{0, 1}, State{1, 0}, State{1.5, 0.5}, State{0.5, 1.5}}) {
     bad.push_back({.sides = {{1, 1}}, .through = {point}});
   }
@@ -334,7 +334,7 @@ TEST_CASE("An orbit through a state given by logarithms passes through it, witho
     CHECK(flow.orbit({orbit.u[0], orbit.v[0]}).at_log_ratio(0).v == Approx(2).epsilon(1e-9));
     for (Eigen::Index i = 1; i + 1 < orbit.rows(); ++i) {
       CHECK(orbit.tau_left[i] < orbit.tau_left[i - 1]);
-      // There is no gap that a stretched view would show.
+      // Neighbouring points are so close that even a stretched view shows no gap.
       const double turn = std::atan(std::exp(orbit.ln_k[i - 1])) - std::atan(std::exp(orbit.ln_k[i]));
       CHECK(turn < 0.05);
       if (orbit.ln_k[i] > -15) CHECK(orbit.ln_k[i - 1] - orbit.ln_k[i] < 0.6);

@@ -45,10 +45,10 @@ portraits::PhasePortrait portrait_of(double mu, const PortraitRequest& request =
 
 Figure figure_of(double mu, const PortraitRequest& request = {}) { return draw(portrait_of(mu, request)); }
 
-/// A style in which all orbits are one layer.
+/// A style that draws all orbits as one layer.
 const PortraitStyle plain{.colour_by_time = false};
 
-/// Returns the lines that are orbits: all lines without a legend.
+/// Returns the lines of orbits. These are the lines without a legend.
 std::vector<portraits::Polyline> coloured(const Panel& panel) {
   std::vector<portraits::Polyline> lines;
   for (const auto& layer : panel.lines) {
@@ -88,7 +88,7 @@ double luminance(portraits::Colour colour) {
   return sum;
 }
 
-/// Returns the arrow heads on orbits. Heads on the axes have the colour of the axes and are left out.
+/// Returns the arrow heads on orbits, without the heads on the axes, which have the colour of the axes.
 std::vector<portraits::Arrow> heads_on_orbits(const Panel& panel) {
   std::vector<portraits::Arrow> heads;
   for (const auto& layer : panel.arrows) {
@@ -177,7 +177,7 @@ TEST_CASE("Seen lines are smooth: no two pieces of an orbit meet at a sharp angl
               const auto a = portraits::on_paper(panel, part[i - 2]), b = portraits::on_paper(panel, part[i - 1]),
                          c = portraits::on_paper(panel, part[i]);
               const double before = std::hypot(b.x - a.x, b.y - a.y), after = std::hypot(c.x - b.x, c.y - b.y);
-              if (std::min(before, after) < 0.03) continue;  // a corner that is small on paper is a bend
+              if (std::min(before, after) < 0.03) continue;  // an angle between such short pieces looks like a bend
               const double sine = ((b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x)) / (before * after);
               sharpest = std::max(sharpest, std::abs(sine));
             }
@@ -198,7 +198,7 @@ TEST_CASE("The plane shows orbits, isochrones and both invariant axes, each in t
     CHECK(layer(panel, "orbits").lines.size() == portrait.orbits.size());
     CHECK(layer(panel, "time left").lines.size() >= 4);
     const auto& axes = layer(panel, "invariant axes").lines;
-    REQUIRE(axes.size() == 3);  // half-lines, each with arrows to the stop, which is marked
+    REQUIRE(axes.size() == 3);  // three half-lines, with arrows towards the stop, which has a mark
     for (const auto& axis : axes) CHECK(std::ranges::all_of(axis, [](auto point) { return point.x * point.y == 0; }));
     CHECK(panel.arrows.back().arrows.size() == 6);
     CHECK(panel.marks.back().legend == "the stop");
@@ -213,7 +213,7 @@ TEST_CASE("Colours by time cut orbits into pieces and lose none", "[invariant]")
     const auto whole = layer(draw(portrait, {}, plain).panels.front(), "orbits").lines;
     CHECK(length(panel, coloured(panel)) == Approx(length(panel, whole)).epsilon(1e-9));
     REQUIRE(figure.colour_bar);
-    // There are as many colours as bands, from dark to light, so that they are legible in grey.
+    // Each band has a colour of its own. The colours run from dark to light, so that they differ in prints in grey.
     double before = -1;
     for (portraits::Colour colour : figure.colour_bar->colours) {
       CHECK(luminance(colour) > before);
@@ -323,7 +323,7 @@ TEST_CASE("Arrows point the way of the motion, and lie where equal times are lef
     const double step = portrait.isochrones.front().tau_stop;
     const Clock clock(portrait);
     for (const auto& arrow : heads_on_orbits(figure.panels.front())) {
-      if (arrow.at.y > 0.6) continue;  // while it slides hardly any time passes
+      if (arrow.at.y > 0.6) continue;  // there the body slides, and hardly any time passes
       const double tau = clock(arrow.at);
       CHECK(std::abs(tau / step - std::floor(tau / step) - 0.5) < 0.05);
     }
@@ -347,7 +347,7 @@ TEST_CASE("Isochrones are labelled, inside the panel, and no label touches an or
       CAPTURE(label.text.words());
       CHECK(inside(panel, label.at));
       const auto at = portraits::on_paper(panel, label.at);
-      const double half = 0.004 * static_cast<double>(label.text.words().size());  // half a digit's width each
+      const double half = 0.004 * static_cast<double>(label.text.words().size());  // half a digit's width for each
       for (const auto& line : orbits) {
         for (std::size_t i = 1; i < line.size(); ++i) {
           if (line[i - 1].y < label.at.y || line[i].y > label.at.y) continue;
@@ -460,7 +460,7 @@ TEST_CASE("The panel in ln k is filled to its corners", "[invariant]") {
       REQUIRE(parts.size() == 1);
       lowest_start = std::min(lowest_start, parts[0].front().y);
     }
-    // Orbits enter through the sides nearly down to the bottom.
+    // Orbits enter through the sides, from the top nearly down to the bottom.
     CHECK(lowest_start < panel.y.low + 0.2 * (panel.y.high - panel.y.low));
   }
 }
@@ -484,7 +484,7 @@ TEST_CASE("The state at a point of a panel lies there, in every view", "[invaria
             if (!at) continue;
             ++states;
             const portraits::Point again = maps[i].place(*at, *at);
-            // The rounding is that of the coordinates. For small mu the panel shows a narrow range of them.
+            // Coordinates are rounded. For small mu the panel shows a narrow range, in which the rounding weighs more.
             const double rounding = 1e-15 / std::min(panel.x.high - panel.x.low, panel.y.high - panel.y.low);
             REQUIRE(portraits::paper_distance(panel, again, point) < 1e-11 + rounding);
             REQUIRE(at->ln_v == Approx(at->ln_k + std::log(mu * std::abs(at->u))).epsilon(1e-12).margin(1e-9));
@@ -506,7 +506,7 @@ TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
       const auto drawn = layer(figure.panels[i], "this one").lines.front();
       const auto line = maps[i].line(portrait.highlight[0]);
       if (view == View::regularised) {
-        // Compare at the points of the line: each row of the orbit must lie between two of them.
+        // Compare on paper: each row of the orbit must lie between two neighbouring points of the line.
         const auto on = [&](Point at) { return portraits::on_paper(figure.panels[i], at); };
         for (const Point& row : line) {
           const auto after = std::ranges::lower_bound(drawn, row.x, {}, &Point::x);
@@ -550,7 +550,7 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
     const auto portrait = portraits::phase_portrait({{law, 1, {.chi = 1, .gamma = gamma}}}, {.view = View::similarity});
     REQUIRE(portrait.plane.tangents[0].direction == reduction::InvariantDirection::ray);
     const Panel panel = draw(portrait, {}, plain).panels.at(1);
-    // Count lines by eighths of the panel's width. The ray is in the middle.
+    // Count the lines by the eighth of the panel's width in which they lie. The ray is in the middle.
     std::map<int, int> lines;
     for (const auto& line : layer(panel, "orbits").lines) {
       std::set<int> eighths;
@@ -570,7 +570,7 @@ TEST_CASE("Translates fill both sides of an invariant ray, wherever it is", "[li
 
 TEST_CASE("Every sector between two invariant half-lines has its orbits in every panel, and no orbit leaves it",
           "[limit]") {
-  using Function = double (*)(portraits::Point);  // ln k at a point, for mu = 1
+  using Function = double (*)(portraits::Point);  // returns ln k at a point, for mu = 1
   const Function speeds = [](portraits::Point p) { return std::log(p.y / std::abs(p.x)); };
   const Function up = [](portraits::Point p) { return p.y; };
   const std::map<View, std::vector<Function>> ln_k{
@@ -582,7 +582,7 @@ TEST_CASE("Every sector between two invariant half-lines has its orbits in every
       {View::disc, {speeds}},
       {View::pair, {speeds, up}}};
   const reduction::Law uniform = *reduction::find_law("uniform"), octic = contensou::tests::OcticLaw{};
-  // Cases: one ray; two rays; one ray that touches, for which v = 0 is degenerate.
+  // Cases: one ray; two rays; two rays that have met in one, with the direction v = 0 degenerate.
   for (const auto& [law, gamma] : {std::pair{uniform, 2.0}, std::pair{octic, 1.995}, std::pair{octic, 2.0}}) {
     const reduction::Flow flow({law, 1, {.chi = 1, .gamma = gamma}});
     const auto sector = [&](double at) {
@@ -633,10 +633,10 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
     REQUIRE(found != panel.marks.end());
     return found->points;
   };
-  REQUIRE(marks("saddle").size() == 2);  // both ends of the u-axis
+  REQUIRE(marks("saddle").size() == 2);  // one mark at each end of the u-axis
   CHECK(std::abs(marks("saddle")[0].x) == 1);
   CHECK(marks("saddle")[0].y == 0);
-  REQUIRE(marks("unstable node").size() == 1);  // the end of the v-axis
+  REQUIRE(marks("unstable node").size() == 1);  // one mark at the end of the v-axis
   CHECK(marks("unstable node")[0].y == Approx(1));
   REQUIRE(marks("the stop").size() == 1);
   CHECK(std::hypot(marks("the stop")[0].x, marks("the stop")[0].y) == 0);
@@ -653,7 +653,7 @@ TEST_CASE("Isochrones of the law that a portrait is compared with have their leg
   const Panel panel = draw(portrait_of(0.3, {.comparison = reduction::PadeLaw()}), {}, plain).panels.front();
   const Lines& its_isochrones = layer(panel, "time left τ*, law pade");
   CHECK(its_isochrones.lines.size() > 3);
-  CHECK(its_isochrones.stroke.dotted);  // its orbits are dashed
+  CHECK(its_isochrones.stroke.dotted);  // the orbits of this law are dashed
   CHECK_FALSE(its_isochrones.stroke.dashed);
 }
 
@@ -708,7 +708,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
     reduction::Inertia body;
     double mu, power_of_u, power_of_v;
   };
-  // Powers of the exact law: v ~ beta^(-14/(5 mu^2)); a ray; r K = 8/5.
+  // Cases by powers of the exact law: v ~ beta^(-14/(5 mu^2)); a ray; r K = 8/5.
   for (const auto& [law, body, mu, power_of_u, power_of_v] :
        {Regime{"exact", {3.5, 2.5}, 1, 1, 2.8}, Regime{"exact", {3.5, 2.5}, 0.05, 1, 1120},
         Regime{"uniform", {1, 2}, 1, 1, 1}, Regime{"exact", {1, 8}, 1, 1.6, 1}}) {
@@ -729,7 +729,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
       CHECK(tau.back().y > 0.99);
       CHECK(tau.back().y < 1);
     }
-    // beta is computed by steps of (2.7). 1/beta_1 is 2 chi/(3 pi) times 128 r Psi(0) w + 45 pi^2 v.
+    // beta is computed by steps of (2.7). Its unit is 1/rate, rate = 2 chi/(3 pi) (128 r Psi(0) w + 45 pi^2 v).
     constexpr double pi = std::numbers::pi;
     const State start{1, 3 * mu};
     const auto stepped = reduction::integrate_regularised(flow.system(), start).points;
@@ -791,7 +791,7 @@ TEST_CASE("The field points along the motion, and its needles lengthen with the 
 
 TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
   using reduction::PressureLaw;
-  // Orbits of the puck end on a ray under the first law, and along the axis u = 0 under the other law.
+  // Orbits of the puck end on a ray under the first law, and along the axis u = 0 under the second law.
   const reduction::ReducedSystem ball(reduction::HertzLaw{}, 0.3),
       puck(PressureLaw::uniform(), 1, {.chi = 1, .gamma = 2});
   for (const auto& [system, other] : {std::pair<reduction::ReducedSystem, reduction::Law>{ball, reduction::PadeLaw{}},
@@ -836,7 +836,7 @@ TEST_CASE("Two laws in one figure: each its look, and no colours of time", "[tab
 TEST_CASE("A highlighted orbit is marked at its start, and points asked for have their orbit", "[table]") {
   for (double sign : {1.0, -1.0}) {
     const Panel panel = figure_of(0.3, {.highlight = State{sign, 2}}).panels.front();
-    REQUIRE(panel.marks.size() == 2);  // and the stop
+    REQUIRE(panel.marks.size() == 2);  // the mark of the start, and the mark of the stop
     CHECK(panel.marks[0].points[0].x == sign);
   }
   const Figure figure = draw(portrait_of(0.3, {.highlight = State{1, 2}, .through = {{0.5, 1}, {-0.5, 2}}}),
@@ -923,7 +923,7 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
 }
 
 TEST_CASE("Against time the estimate for small mu is dashed beside each motion, and nears it as mu^2", "[invariant]") {
-  // Returns for each panel the largest difference between an estimate and its motion before either is at rest.
+  // Returns for each panel the largest difference between the estimate and the motion, until one of them is at rest.
   const auto difference = [](double mu, std::size_t panel) {
     const auto portrait = portrait_of(mu, {.view = View::time});
     const Figure without = draw(portrait), figure = draw(portrait, {}, {.estimate = true});

@@ -23,7 +23,7 @@ const Lines* lines_of(const Panel& panel, const Text& legend) {
   return found == panel.lines.end() ? nullptr : &*found;
 }
 
-/// Returns k at which a line of rays passes r, interpolated between its two nearest points.
+/// Returns the k at which a line of rays has the given r, interpolated between the two nearest points of the line.
 double ray_at(const Polyline& line, double r) {
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Point &a = line[i - 1], &b = line[i];

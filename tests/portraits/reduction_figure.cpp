@@ -17,7 +17,7 @@ using std::numbers::ln2, std::numbers::pi;
 
 namespace {
 
-/// Returns the lines of an orbit and its copies in the order of size. The orbit of the start is the fourth.
+/// Returns the lines of an orbit and of its copies, the smallest first. The fourth line is the orbit of the start.
 std::vector<const Lines*> by_size(const Panel& panel) {
   std::vector<const Lines*> all;
   const auto first = &layer(panel, "its copies");
@@ -28,7 +28,7 @@ std::vector<const Lines*> by_size(const Panel& panel) {
   return all;
 }
 
-/// Checks that the lines of the strip are shifts by ln 2 and have the colours of the lines in the plane.
+/// Checks that each line of the strip is the one before, shifted by ln 2, and has the colour of its line in the plane.
 void check_shifts(const Figure& figure) {
   REQUIRE(figure.panels.size() >= 2);
   const auto in_plane = by_size(figure.panels[0]), in_strip = by_size(figure.panels[1]);
@@ -47,7 +47,7 @@ void check_shifts(const Figure& figure) {
   }
 }
 
-/// Returns the figure of a linear system, whose scaling is given and not found by a decomposition.
+/// Returns the figure of a linear system. The scaling is given, so no decomposition has to find it.
 Figure figure_of(const Eigen::Matrix2d& matrix, const Vector2d& start) {
   const reduction::PlanarField field = [matrix](const Vector2d& x) { return Vector2d(matrix * x); };
   const reduction::Generator scaling{0, Eigen::Matrix2d::Identity(), Vector2d::Zero()};
@@ -78,7 +78,7 @@ TEST_CASE("a copy in plane and strip is the motion from the start so many times 
         const reduction::Orbit orbit = flow.orbit({factor * start.u, factor * start.v});
         const Polyline &plane = in_plane[i]->lines[0], &strip = in_strip[i]->lines[0];
         REQUIRE(plane.size() == strip.size());
-        for (std::size_t n = 401; n < plane.size(); n += 2) {  // after the start
+        for (std::size_t n = 401; n < plane.size(); n += 2) {  // from the start on
           const auto at = orbit.at_log_ratio(strip[n].x);
           if (at.v < 1e-200 || std::abs(at.k / std::exp(strip.back().x) - 1) < 1e-3) continue;
           CHECK(strip[n].y == Approx(at.ln_v).epsilon(0).margin(1e-9));
@@ -141,7 +141,7 @@ TEST_CASE("an orbit comes to the stop for any mu and any start", "[limit]") {
 }
 
 TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of them", "[exact]") {
-  // Up to a constant on each orbit, u = v^2, u v = 1 and r = exp(-a angle).
+  // The integrals of the orbits of three fields are u/v^2, u v and r exp(a angle).
   const auto check = [](const Figure& figure, auto integral, bool inwards) {
     check_shifts(figure);
     const auto lines = by_size(figure.panels[0]);
@@ -157,7 +157,7 @@ TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of the
   check(
       node, [](Point x) { return x.x / (x.y * x.y); }, true);
   CHECK(layer(node.panels[0], "orbits of other sectors").lines.size() == 3);
-  CHECK(layer(node.panels[1], "rays").lines.size() == 5);  // -pi and pi are the same
+  CHECK(layer(node.panels[1], "rays").lines.size() == 5);  // the ray at -pi appears again at pi
   check(
       figure_of(matrix(1, 0, 0, -1), {-2, 0.5}), [](Point x) { return x.x * x.y; }, false);
   const double a = 0.1;

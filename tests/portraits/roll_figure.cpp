@@ -36,7 +36,7 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   REQUIRE(figure.panels.size() == 2);
   const Panel& path = figure.panels[0];
   REQUIRE(path.lines.size() == 2);
-  // The path extends to 1.6 times the time of rolling. Every point lies in the panel.
+  // The path continues to 1.6 times the time at which rolling begins. Every point lies in the panel.
   CHECK(path.lines[0].lines[0].back().x == Approx(1.6).margin(0.03));
   for (const Lines& layer : path.lines) {
     for (const Point& point : layer.lines[0]) CHECK(inside(path, point));
@@ -50,7 +50,7 @@ TEST_CASE("the path with the point from which it rolls, beside the speeds", "[ta
   CHECK_FALSE(speeds.x.logarithmic);
   CHECK(speeds.x.high == 2.2);
   CHECK(std::ranges::count_if(speeds.lines, [](const Lines& layer) { return layer.stroke.dashed; }) == 3);
-  // The three speeds are also distinct in grey, by their marks, which lie on the curves.
+  // The three speeds differ in grey, too, because each curve has marks of another kind.
   REQUIRE(speeds.marks.size() == 3);
   for (int i = 0; i < 3; ++i) {
     CHECK(speeds.marks[i].shape == static_cast<Marks::Shape>(i));
@@ -76,7 +76,7 @@ TEST_CASE("a path is to scale; a flat one is stretched a round number of times, 
       picture.size.width_mm = width;
       const Figure figure = roll_figure(picture);
       CAPTURE(push, figure.size.width_mm);
-      const std::string name = figure.panels[0].x.name.words();  // a path along y
+      const std::string name = figure.panels[0].x.name.words();  // the axis of a path along y
       const std::size_t note = name.find("(stretched ");
       CHECK((note == name.npos) == (push < 5));
       CHECK(figure.panels[0].to_scale == (push < 5));
@@ -170,7 +170,7 @@ TEST_CASE("a film shows as much as has happened, and both balls as they have tur
     REQUIRE(panels.size() == 4);
     CHECK(panels[0].lines[0].lines[0].size() == i + 1);
     CHECK_THAT(panels[1].title.words(), Catch::Contains("slowed 20 times"));
-    // Marks of the uncoupled model first, then of this ball: the current position, and the beginning of rolling.
+    // Marks of the uncoupled model come first, then marks of this ball: its position, and the beginning of rolling.
     REQUIRE(panels[0].marks.size() == 4);
     CHECK(panels[0].marks[2].points[0].x == Approx(ball.t[static_cast<Eigen::Index>(i)]));
     CHECK(panels[0].marks[3].points.size() == (i >= 46 ? 1 : 0));

@@ -153,7 +153,7 @@ TEST_CASE("The colours of a map are its stop times, from the lower left", "[tabl
         worst = std::max(worst, std::abs(colours.values[i * colours.columns + j] - tau) / unit);
       }
     }
-    CHECK(worst < 2e-3);  // of interpolation between the map's values
+    CHECK(worst < 2e-3);  // error of interpolation between the values of the map
     CHECK(colours.scale.low <= *std::ranges::min_element(colours.values));
     CHECK(colours.scale.high >= *std::ranges::max_element(colours.values));
     CHECK(colours.scale.logarithmic == panel.x.logarithmic);

@@ -49,7 +49,7 @@ std::vector<std::string_view> letters(std::string_view text) {
   return pieces;
 }
 
-/// Returns the text with each \n replaced by the given line ends in turn.
+/// Returns the text. Each \n is replaced by the next of the given line ends, in turn.
 std::string with_line_ends(std::string_view text, const std::vector<std::string>& ends) {
   std::string result;
   std::size_t count = 0;
@@ -128,7 +128,7 @@ TEST_CASE("a message shows what was typed, but not all of it, and nothing that a
   CHECK(quotation("0.1x") == "'0.1x'");
   CHECK(quotation(std::string("a\0b\n\x7F\x1B[2J", 9)) == "'a\\x00b\\n\\x7f\\x1b[2J'");
   CHECK(quotation("\xC3\xA9 \xE2\x88\x9E \xF0\x9F\x8E\xB1") == "'\xC3\xA9 \xE2\x88\x9E \xF0\x9F\x8E\xB1'");
-  // Latin-1, a lone continuation byte, an overlong slash, a surrogate, a C1 control, an incomplete character.
+  // Cases: Latin-1; a lone continuation byte; an overlong slash; a surrogate; a C1 control; an incomplete character.
   CHECK(quotation("\xE9"
                   "a \x80 \xC0\xAF \xED\xA0\x80 \xC2\x9B \xE2\x88") ==
         "'\\xe9a \\x80 \\xc0\\xaf \\xed\\xa0\\x80 \\x9b \\xe2\\x88'");

@@ -17,7 +17,7 @@ TEST_CASE("stop with a drive: by every route one time, within its bounds", "[cli
     CHECK(json_of(start + " --route " + route).at("tau_stop").get<double>() == Approx(tau).epsilon(1e-10));
   CHECK(best.at("bounds")[0].get<double>() <= tau);
   CHECK(tau <= best.at("bounds")[1].get<double>());
-  // With the drive the stop takes longer. Without it, the answer contains no drive.
+  // A drive delays the stop. Without a drive, the answer does not contain the field drive.
   const auto free = json_of("stop --mu 0.1 --u0 1 --v0 1 --format json");
   CHECK(tau > free.at("tau_stop").get<double>());
   CHECK_FALSE(free.contains("drive"));
@@ -35,7 +35,7 @@ TEST_CASE("orbit, terminal and check take a drive", "[cli]") {
   CHECK(ends.at("drive") == 0.05);
   const double k = ends.at("k_star").get<double>();
   CHECK(json_of("terminal --mu 0.1 --drive 0.9999 --format json").at("limit") == "infinity");
-  // A body that only spins begins to creep, at this ratio.
+  // A body that only spins begins to creep. Here its ratio k is checked.
   const auto rows = rows_of(run_program("orbit --mu 0.1 --u0 1 --v0 0 --drive 0.05 --samples 20").out);
   REQUIRE(rows.size() == 21);
   CHECK(std::stod(rows[1][4]) == 0);
@@ -64,7 +64,7 @@ TEST_CASE("portraits with a drive: orbits begin at v = 0, isochrones end there, 
     from_below += orbit.at("v")[0] == 0;
   }
   CHECK(from_below > 4);
-  // A body that only spins begins to creep: its speed grows, and its stop time is that of `stop`.
+  // A body that only spins begins to creep. Its speed v grows at first. Its stop time is the stop time of `stop`.
   const auto& creeping = data.at("highlight");
   CHECK(creeping.at("v")[0] == 0);
   CHECK(creeping.at("v")[20].get<double>() > 0);
@@ -93,7 +93,7 @@ TEST_CASE("sweep, stop --batch and reduce with a drive", "[cli]") {
   REQUIRE(rows.size() == 10);
   CHECK(std::stod(rows[1][3]) == stop("--mu 0.3 --u0 -1 --v0 0"));
   CHECK(std::stod(rows[9][3]) == stop("--mu 0.3 --u0 1 --v0 2"));
-  // Many mu share some flows: 8 eps/(1 - drive).
+  // Rows with many mu share some flows. The error of this is 8 eps/(1 - drive).
   const auto many = rows_of(run_program("sweep --mu 0.1:0.3:1001 --u0 1 --v0 1 --drive 0.2").out);
   CHECK(std::stod(many[1][3]) == Approx(stop("--mu 0.1 --u0 1 --v0 1")).epsilon(2.2e-15));
   CHECK(std::stod(many[1001][3]) == Approx(stop("--mu 0.3 --u0 1 --v0 1")).epsilon(2.2e-15));
@@ -104,7 +104,7 @@ TEST_CASE("sweep, stop --batch and reduce with a drive", "[cli]") {
   const auto reduced = json_of("reduce --mu 0.3 --u0 1 --v0 1 --drive 0.2 --format json");
   CHECK(reduced.at("drive") == 0.2);
   CHECK(reduced.at("singular_values")[0].get<double>() < 1e-13);
-  CHECK(reduced.at("rays").size() == 2);  // and u = 0; v = 0 is none
+  CHECK(reduced.at("rays").size() == 2);  // the lines u = 0 and v = 0 are no rays here
   for (const auto& route : reduced.at("routes"))
     CHECK(route.at("tau_stop").get<double>() == Approx(stop("--mu 0.3 --u0 1 --v0 1")).epsilon(1e-9));
   CHECK_THAT(run_program("reduce --mu 0.3 --u0 1 --v0 1 --drive 0.2").out, Contains("(Phi(k) - 0.2)"));

@@ -1,4 +1,4 @@
-// If anything goes wrong while a file is written, the old or the new file is there, complete, and no other file.
+// If writing a file fails at any place, either the old or the new file must exist, complete, and no other file.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -88,7 +88,7 @@ std::vector<std::string> all_in(const fs::path& folder) {
   return paths;
 }
 
-/// A folder in which one command line is run repeatedly. gnuplot draws its picture once; later runs repeat the result.
+/// A folder in which one command line is run repeatedly. gnuplot draws the picture once; later runs copy the result.
 class Bench {
  public:
   explicit Bench(Writer writer) : writer_(std::move(writer)) {
@@ -134,7 +134,7 @@ class Bench {
     });
   }
 
-  /// Requires that each file is the old one or the new one (after success all are new), and no other file exists.
+  /// Requires that each file is the old or the new one, and no other file exists. After success all files must be new.
   void require_old_or_new(const Run& ended) const {
     INFO(writer_.words << ", status " << ended.status << ", signal " << ended.signal << "\n" << ended.err);
     std::vector<std::string> before = before_;
@@ -194,7 +194,7 @@ void preload_fault(int call, Fault fault) {
   preload("CONTENSOU_FAULT", std::to_string(call) + " " + fault.kind + " " + std::to_string(fault.value));
 }
 
-/// Runs the program with a fault at each of its calls in turn; with `one_of` at a part of the calls.
+/// Runs the program with a fault at each of its calls in turn. If `one_of` is n, only one of n calls has a fault.
 void try_faults(const Writer& writer, const std::vector<Fault>& faults, int one_of = 1) {
   Bench bench(writer);
   bench.refresh(true);
@@ -249,7 +249,7 @@ class SmallDisk {
   bool there_ = false;
 };
 
-/// Runs with a limit of so many bytes for files, and on a disk of this size.
+/// Runs the program with a limit of so many bytes for files, and on a disk of this size.
 void try_room(Bench& bench, std::size_t bytes) {
   CAPTURE(bytes);
   bench.refresh(bytes % 2 == 0);
@@ -268,7 +268,7 @@ TEST_CASE("a signal at any call leaves the old file or the new one", "[cli]") {
 
 TEST_CASE("any call that fails, any signal at any call, any verb", "[.full]") {
   for (const Writer& writer : writers) {
-    // One run of the verb paper draws eight pictures.
+    // One run of `paper` draws eight pictures, so only every seventh call fails.
     const int one_of = writer.words == "paper" ? 7 : 1;
     try_faults(writer, errors, one_of);
     try_faults(writer, signals, one_of);
@@ -345,7 +345,7 @@ TEST_CASE("Ctrl-C amid a sweep leaves the old file and says so", "[cli]") {
     const TemporaryDirectory folder;
     write_file(folder.file(file), "old");
     const Run ended = run_in(folder.path(), {"sweep --mu 0.1 --u0 0:1:1000 --v0 0:1:100 --threads 2", {file}}, [] {
-      preload_fault(3, {'b', SIGINT});  // the new file exists and is partly written
+      preload_fault(3, {'b', SIGINT});  // at this call the new file exists and is partly written
     });
     CHECK(ended.signal == SIGINT);
     CHECK(ended.err == "contensou: interrupted: " + file + " was not written, nothing is left of it\n");
@@ -391,7 +391,7 @@ TEST_CASE("gnuplot ends with the program, however that ends", "[cli]") {
   CHECK(ended.signal == SIGKILL);
   CHECK(folder.names() == std::vector<std::string>{"bin", "running"});
   const pid_t drawing = std::stoi(read_file(folder.file("running")));
-  constexpr int many = 60000;  // ten minutes, which pass only if it does not end
+  constexpr int many = 60000;  // steps of 10 ms; only a gnuplot that never ends takes ten minutes
   for (int i = 0; i < many && ::kill(drawing, 0) == 0; ++i) ::usleep(10000);
   CHECK(::kill(drawing, 0) != 0);
 }

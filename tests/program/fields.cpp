@@ -18,8 +18,8 @@ using Names = std::set<std::string>;
 
 /// The names in the help of a verb.
 struct Listed {
-  Names json, csv, any;  ///< names by the word before them; `any` has no such word
-  Names parts;           ///< members of objects without a word, which are columns of CSV
+  Names json, csv, any;  ///< names after the word JSON or CSV; `any`: names without such a word
+  Names parts;           ///< members of objects without such a word; they are columns of CSV
   Names words;           ///< all words of the list
 };
 
@@ -74,7 +74,7 @@ struct Written {
   Names members, nested, columns;
 };
 
-/// Adds the names of all members, except parameters of an engine, whose names are the engine's.
+/// Adds the names of all members. The parameters of an engine are left out, because the engine names them.
 void add_members(Names& all, const nlohmann::json& json) {
   for (const auto& [name, value] : json.items()) {
     if (json.is_object()) all.insert(name);
@@ -150,7 +150,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
   const std::string load = scratch.file("load.csv"), film = scratch.file("film.csv"), spins = scratch.file("spins.csv");
   write_file(load, "t,load\n0,2\n1,4\n1.2,1\n");
   write_file(film, run_program("roll --ball pool --rolling-friction 0.01 --until 0.6 --samples 60 --format csv").out);
-  // A film of the spin alone determines a combination of two numbers.
+  // A film of the spin alone determines only a combination of two numbers.
   std::string spin_alone = "t,spin,angle\n";
   for (int i = 0; i < 40; ++i) {
     const double t = 0.1 * i;
@@ -159,7 +159,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
   write_file(spins, spin_alone);
   const std::string against = "check --ball pool --rolling-friction 0.01 --against " + film;
   const std::string start = " --mu 0.3 --u0 1 --v0 1", system = " --u0 1 --v0 1 --system ";
-  // For each title of a list, commands whose output contains all names of the list.
+  // For each title of a list in the help: commands whose output together contains all names of the list.
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
       {"stop",
        {"stop --ball pool --gradient --uncertainty slip=1%", "stop --estimate" + start,
@@ -205,7 +205,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
       {"literature", {"literature"}},
   };
   auto lists = lists_of_help();
-  const std::vector<std::string> names_of_files = names_in_help("files");  // of a ball
+  const std::vector<std::string> names_of_files = names_in_help("files");  // the names of a ball's run file
   CHECK(lists.size() == commands.size());
   for (const auto& [title, lines] : commands) {
     INFO(title);

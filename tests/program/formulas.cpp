@@ -1,4 +1,4 @@
-// Formulas are compared with trees that are evaluated without a text, and with differences of 33 digits.
+// Formulas are compared with trees that need no text for their values, and with differences of 33 digits.
 #include "answers/input/formulas.hpp"
 
 #include <array>
@@ -54,7 +54,7 @@ double between(Random& random, double from, double to) {
   return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// A function and its slopes in long double, computed by other identities than the library uses.
+/// A function and its slopes in long double. The identities used here differ from those of the library.
 struct Known {
   std::string name;
   std::function<double(double)> value;
@@ -96,9 +96,9 @@ const std::vector<Known>& known() {
 
 struct Result {
   double value;
-  std::array<long double, 2> slopes{}, scales{};  ///< scales: slopes with all terms without signs
+  std::array<long double, 2> slopes{}, scales{};  ///< scales: sums of the sizes of the terms of each slope
   std::array<bool, 2> depends{};
-  bool moderate = true;  ///< no derivative so far is tiny, huge or missing
+  bool moderate = true;  ///< true while no derivative is tiny, huge or missing
 
   void add(const Result& operand, long double by) {
     for (std::size_t i : {0U, 1U}) {
@@ -114,7 +114,7 @@ struct Result {
 };
 
 struct Tree {
-  std::string op;  ///< a name of known(), an operator, a function of several, "u", "v", or "" for a number
+  std::string op;  ///< a name of known(), an operator, a function of several numbers, "u", "v", or "" for a number
   double number = 0;
   std::vector<Tree> parts = {};
 
@@ -214,12 +214,12 @@ Tree random_tree(Random& random, int depth) {
   }
 }
 
-/// Writes a tree as a user would: with necessary and some unnecessary brackets, and blanks anywhere.
+/// Writes a tree as a user would: with all necessary and some unnecessary brackets, and with blanks anywhere.
 class Typist {
  public:
   explicit Typist(Random& random) : random_(random) {}
 
-  /// @param level    loosest binding that needs no brackets
+  /// @param level    operators that bind less tightly than this level need brackets
   std::string operator()(const Tree& tree, int level = 0, bool in_bars = false) {
     const int own = level_of(tree);
     if (own < level || (in_bars && tree.op == "||") || below(random_, 8) == 0) {

@@ -89,7 +89,7 @@ TEST_CASE("topics of help", "[cli]") {
     const auto name = laws.find("\n  " + law.name() + " ");
     REQUIRE(name != std::string::npos);
     INFO(law.name());
-    CHECK(laws[laws.find_first_not_of(' ', name + law.name().size() + 3)] != '\n');  // it has a meaning
+    CHECK(laws[laws.find_first_not_of(' ', name + law.name().size() + 3)] != '\n');  // text follows the name
   }
   for (const auto& family : contensou::reduction::law_families()) {
     CHECK_THAT(laws, Contains(fmt::format("\n  {}:{} ", family.name, family.letter)));
@@ -102,7 +102,7 @@ TEST_CASE("topics of help", "[cli]") {
 }
 
 TEST_CASE("every kind and every end that reduce prints stands in the help on fields", "[cli]") {
-  // Take the part of the help about columns, with single blanks.
+  // Take the part of the help about columns, with each run of blanks as one blank.
   std::string help = run_program("help fields").out;
   help = std::regex_replace(help.substr(help.find("Columns and fields of reduce --system:")), std::regex("\\s+"), " ");
   const auto listed = [&](const std::string& field) {
@@ -133,7 +133,7 @@ TEST_CASE("help theory is one screen, whose equations are those of the program",
     std::string system = fmt::format("u' = {}; v' = {}", lines.str(1), lines.str(2));
     system = std::regex_replace(system, std::regex("\\|u\\|"), "abs(u)");
     system = std::regex_replace(system, std::regex("([a-z0-9)]) (?=[a-z(])"), "$1*");
-    system = std::regex_replace(system, std::regex("pi\\*v"), "pi*abs(v)");  // it reads v < 0, too
+    system = std::regex_replace(system, std::regex("pi\\*v"), "pi*abs(v)");  // `reduce` also evaluates v < 0
     const Run run =
         run_program({"reduce", "--system", system, "--param", "mu=0.3", "--u0", "2", "--v0", "1", "--format", "json"});
     INFO(system << run.err);
@@ -193,10 +193,10 @@ TEST_CASE("the examples of the help work", "[cli]") {
     at += std::string("\n  contensou ").size();
     std::string example = help.substr(at, help.find('\n', at) - at);
     if (const auto file = example.find("-o "); file != std::string::npos) {
-      if (example.ends_with(".svg") || example.ends_with(".html")) continue;  // needs gnuplot, or a page built in
+      if (example.ends_with(".svg") || example.ends_with(".html")) continue;  // needs gnuplot, or a page in the program
       example.replace(file, 3, "-o " + scratch.path().string() + "/");
     }
-    if (example.find("--out ") != std::string::npos) continue;  // needs gnuplot
+    if (example.find("--out ") != std::string::npos) continue;  // this example needs gnuplot
     INFO(example);
     CHECK(run_program(example).status == 0);
     ++examples;

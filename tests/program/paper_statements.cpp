@@ -69,7 +69,7 @@ TEST_CASE("a printed number holds, is an erratum, or is false") {
   CHECK(verdict_of(number<10>, number<11>, 1e-10) == Verdict::not_true);
   CHECK(verdict_of(number<10>, number<11>, 1e-10, number<11>) == Verdict::erratum);
   CHECK(verdict_of(number<10>, number<11>, 1e-10, number<12>) == Verdict::not_true);
-  // relative to what is large
+  // the tolerance is relative if the numbers are large
   CHECK(verdict_of([](double) { return 1e6; }, [](double) { return 1e6 + 1e-5; }, 1e-10) == Verdict::holds);
 
   CHECK(verdict_of(number<20>, number<30>, lower_bound) == Verdict::holds);
@@ -143,7 +143,7 @@ TEST_CASE("the printed equations of the plane are the reduced system of the Pade
   }
 }
 
-// A statement whose verdict does not depend on its numbers would test nothing.
+// If no change of its numbers changed the verdict of a statement, the statement would test nothing.
 TEST_CASE("another number, printed or found, changes the verdict of every statement") {
   static Statement::Number right;
   const Statement::Number off = [](double at) { return 1.002 * right(at) + 1e-3; };

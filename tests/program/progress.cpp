@@ -79,7 +79,7 @@ TEST_CASE("progress of work of unknown length is what was done; a message takes 
     progress.show(2000, std::nan(""));
     CHECK(watch.written() == "\r2000 rows, 400 rows/s\x1b[K");
   }
-  CHECK(watch.written() == "\r\x1b[K");  // work that was given up
+  CHECK(watch.written() == "\r\x1b[K");  // an interrupted work only erases the line
 }
 
 TEST_CASE("progress of short work is silent unless it is always shown; never is never", "[table]") {

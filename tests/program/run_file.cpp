@@ -57,8 +57,8 @@ const std::vector<BallRun>& ball_runs() {
   return runs;
 }
 
-/// Compares, verb by verb, the output for the first run file with the output for the second run file plus options. Both
-/// must be equal, and differ from the output for the second run file alone.
+/// Compares two outputs of each verb: for the first run file, and for the second run file plus options. They must be
+/// equal, and must differ from the output for the second run file alone.
 void check_key(const RunFile& with, const RunFile& without, const std::string& options, bool of_start = false) {
   const TemporaryDirectory scratch;
   const std::string first = scratch.file("with.toml"), second = scratch.file("without.toml");
@@ -109,7 +109,7 @@ TEST_CASE("a run file's law as formulas: its parameters, and mistakes at their l
     return nlohmann::json::parse(run.out)["t_stop"];
   };
   write_file(file, RunFile{.law = "law = \"" + formulas + "\"\n[contact.param]\nc = 0.6\n[contact]"}.text());
-  CHECK(run_program("stop --ball " + file).status == 2);  // a file with [contact] twice is not TOML
+  CHECK(run_program("stop --ball " + file).status == 2);  // [contact] twice is no TOML
   write_file(file, RunFile{.law = "law = \"" + formulas + "\"\nparam.c = 0.6"}.text());
   const auto own = stop({"--ball", file});
   CHECK(stop({"--ball", file, "--law", formulas + "; c = 0.6"}) == own);
@@ -168,7 +168,7 @@ TEST_CASE("a start is given in one way", "[cli]") {
   CHECK_THAT(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,6\n").err,
              StartsWith("<stdin>:3: spin 5 and wz 6 are one angular velocity, and differ"));
   CHECK(run_program("check --ball pool --against -", "t,slip,spin,wz\n0,1,7,7\n1,0,5,5\n").status == 1);
-  // A start by velocities works with every verb.
+  // A start that is given by velocities works with every verb.
   CHECK(json_of("stop --format json --ball pool --velocity 0,2 --angular-velocity 0,0,9").at("t_stop") ==
         json_of("stop --format json --ball pool --slip 2 --spin 9").at("t_stop"));
   // A number in another unit is allowed if it fits a double in SI units.
@@ -197,7 +197,7 @@ TEST_CASE("rolling friction and a slope are taken or refused by name, by every v
       const Run level = run_program(run.options + " --ball " + second, run.input);
       CHECK(by_file.status == by_option.status);
       CHECK(by_file.out == by_option.out);
-      // An option replaces the value of the file.
+      // The value of an option replaces the value of the file.
       const std::string none = slopes ? " --slope 0" : " --rolling-friction 0";
       CHECK(run_program(run.options + none + " --ball " + first, run.input).out == level.out);
       if (by_file.status == 2) {

@@ -89,7 +89,7 @@ TEST_CASE("uphill the slip turns round: roll integrates, and others say so", "[c
                    "slip,spin\n1,100\n");
   }
   const auto rows = rows_of(run_program("roll --batch - --ball pool --slope 3", "slip,spin\n1,100\n").out);
-  CHECK(rows[0].back() == "path");  // it never rests
+  CHECK(rows[0].back() == "path");  // without columns of rest, as the ball never rests
   CHECK(std::stod(rows[1].at(2)) == Approx(number(roll.at("rolls_after"), "t")).epsilon(1e-12));
 }
 

@@ -1,17 +1,17 @@
-// The sessions in transcripts/*.txt and in the documents' blocks of console: each command prints what is shown below
-// it.
+// Runs the sessions in transcripts/*.txt and in the blocks of console in documents. Each command must print the text
+// that is shown below it.
 //
-//   $ COMMAND          is run by sh, where `contensou` is the program, in a new folder for each file. The folder
-//   contains the
-//                      run files and tables that lie beside the document
+//   $ COMMAND          is run by sh, where `contensou` is the program. Each file of sessions has a new folder. The
+//                      folder contains the run files and tables that lie
+//                      beside the file
 //   $ COMMAND ! WORDS  is refused as bad input: status 2, these words on standard error, nothing on standard output
-//   ! LINE             a line of standard error; those stand below what is on standard output
-//   [STATUS]           the exit status where it is not 0
-//   # TEXT             after an empty line, or first: says what follows
-//   ...                a line of it stands for lines until the next one shown, within a line for any text
+//   ! LINE             a line of standard error; these lines stand below the lines of standard output
+//   [STATUS]           the exit status, if it is not 0
+//   # TEXT             stands first or after an empty line, and says what follows
+//   ...                a line of dots stands for any number of lines; dots within a line stand for any text
 //
-// Last digits that depend on the compiler are left out by dots. With CONTENSOU_UPDATE in the environment the files are
-// written anew, with what was printed in place of what differs.
+// Dots replace last digits that depend on the compiler. If CONTENSOU_UPDATE is set in the environment, the files are
+// written again with the printed text in place of different text.
 #include <unistd.h>
 
 #include <cstdlib>

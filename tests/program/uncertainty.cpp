@@ -1,5 +1,5 @@
 // `stop` and `roll --uncertainty` are compared with differences of the program's own stop times, and with quantiles
-// that need no samples.
+// that can be computed without samples.
 #include <cmath>
 #include <string>
 
@@ -50,13 +50,13 @@ TEST_CASE("the first order of --uncertainty is that of differences", "[cli]") {
 }
 
 TEST_CASE("the quantiles of one number are the stop times at its quantiles", "[cli]") {
-  // t_stop falls as friction grows, and grows with the slip.
+  // t_stop decreases if friction grows, and increases if the slip grows.
   const auto at = [](double f) { return t_stop(fmt::format("--ball puck --slip 3 --spin 40 --friction {:.17g}", f)); };
   const auto json = uncertainty("--ball puck --slip 3 --spin 40 --uncertainty friction=20%").at("quantiles");
   for (const auto& [i, z] : {std::pair{0, 1.959964}, {1, 0.994458}, {2, 0.0}, {3, -0.994458}, {4, -1.959964}}) {
     CHECK(json[static_cast<std::size_t>(i)].at("value").get<double>() == Approx(at(0.1 * (1 + 0.2 * z))).epsilon(4e-3));
   }
-  // Each sample has its own mu; solutions are interpolated between some values of mu.
+  // Each sample has its own mu. Solutions exist for some values of mu, and results for others are interpolated.
   for (const std::string law : {"exact", "ring"}) {
     const std::string start = "--ball pool --slip 2 --spin 30 --law " + law + " --patch-radius ";
     const auto wide = uncertainty(start + "3mm --uncertainty patch-radius=30%");
@@ -73,7 +73,7 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
   CHECK(uncertainty("--ball pool --uncertainty spin-deceleration=30%").at("first_order_holds") == false);
   CHECK_THAT(run_program("stop --ball pool --uncertainty spin_deceleration=30%").out,
              Contains("the first order fails here"));
-  // Errors of independent numbers add by their squares. Units are allowed. The samples are the same each time.
+  // Variances of independent numbers add up. Spreads may have units. Each run uses the same samples.
   const auto json = uncertainty("--ball pool --uncertainty slip=1cm/s,spin=2rad/s");
   const auto& shares = json.at("shares");
   CHECK(json.at("standard").get<double>() ==
@@ -84,7 +84,7 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
 }
 
 TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
-  // If friction and patch radius are completely correlated, they are one number. Its quantiles are those of both.
+  // Friction and patch radius that are completely correlated are one number. Its quantiles are quantiles of both.
   const TemporaryDirectory directory;
   const std::string ball = run_program("balls gel").out;
   const auto with = [&](const std::string& correlation) {
@@ -104,14 +104,14 @@ TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
     constexpr double step = 1e-3;
     CHECK(known.at("standard").get<double>() ==
           Approx(std::abs(at(step, sign) - at(-step, sign)) / (2 * step)).epsilon(1e-5));
-    CHECK(known.at("shares").size() == 2);  // the spin is not the one in the file
+    CHECK(known.at("shares").size() == 2);  // the spread of the spin in the file is not used
     const bool falls = at(1, sign) < at(-1, sign);
     for (const auto& [i, z] : {std::pair{0, -1.959964}, {1, -0.994458}, {2, 0.0}, {3, 0.994458}, {4, 1.959964}}) {
       CHECK(known.at("quantiles")[static_cast<std::size_t>(i)].at("value").get<double>() ==
             Approx(at(falls ? -z : z, sign)).epsilon(3e-3));
     }
     if (sign < 0) continue;
-    // A spread on the command line replaces the spread of the ball and is independent of the others.
+    // A spread on the command line replaces the spread of the ball. Its error is independent of all other errors.
     const auto named = uncertainty(start + "--uncertainty fit,radius=1mm");
     const auto& shares = named.at("shares");
     CHECK(shares == known.at("shares"));
@@ -137,7 +137,7 @@ TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
     return nlohmann::json::parse(run_program(fit + " --format json").out);
   };
   const auto found = seen("--velocity 0.4,0.3 --angular-velocity 2,-1,80");
-  // The file has velocities; the stop time uses slip and spin. Their errors are those that the fit reports.
+  // The file gives velocities, but the stop time needs slip and spin. Their errors must be those that the fit reports.
   const auto known = uncertainty("--ball " + ball + " --uncertainty fit");
   std::string errors;
   for (const std::string name : {"friction", "patch_radius", "slip", "spin"})
@@ -149,7 +149,7 @@ TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
   CHECK_THAT(read_file(ball), Contains("[uncertainty.correlation]\n") && Contains("wy = {friction = "));
   const auto roll = json_of("roll --format json --samples 2 --ball " + ball + " --uncertainty fit").at("uncertainty");
   CHECK(roll.at("t_stop").at("standard").get<double>() == Approx(known.at("standard").get<double>()).epsilon(1e-5));
-  // A film that does not determine a number gives no spread of it.
+  // If a film does not determine a number, the ball of the fit has no spread for this number.
   write_file(film, "t,spin\n0,100\n0.1,99\n0.2,98.02\n0.3,97\n");
   CHECK(run_program("fit " + film + " --ball pool --noise spin=0.1 -o " + ball).status == 0);
   CHECK_THAT(read_file(ball), !Contains("[uncertainty]\n") && Contains("no [uncertainty]"));
@@ -181,7 +181,7 @@ TEST_CASE("roll --uncertainty: each number of an event against differences and i
             Approx(slope * varied.relative).epsilon(1e-4).margin(1e-9));
     }
   }
-  // One number has a spread; each of its values has its own mu.
+  // Only the radius has a spread. Each value of the radius has its own mu.
   const auto path = roll(start(vx, wz, radius) + " --uncertainty radius=20%").at("uncertainty").at("path");
   CHECK(path.at("first_order_holds") == false);
   for (const auto& [i, z] : {std::pair{1, -0.994458}, {2, 0.0}, {3, 0.994458}}) {

@@ -1,4 +1,4 @@
-// The start that has a given result: (R59) and (R60) of reduction/README.md.
+// Tests the search for the start that has a given result: (R59) and (R60) of reduction/README.md.
 #include <cmath>
 #include <random>
 #include <string>
@@ -25,8 +25,8 @@ struct Case {
   Flow flow;
 };
 
-/// Laws and bodies with mu from small values, for which k falls, to values for which k grows; in between there is a
-/// ray.
+/// Laws and bodies. For a small mu the ratio k falls along orbits, for a large mu it grows. For a mu between them there
+/// is a ray.
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string& name : names) {
@@ -95,7 +95,7 @@ TEST_CASE("distance over turning and over time squared, and time squared over tu
         INFO(fmt::format("{} k {}", text, std::exp(ln_k)));
         CHECK(here.distance / here.turned > last.distance / last.turned);
         CHECK(here.distance / (here.tau * here.tau) > last.distance / (last.tau * last.tau));
-        // If Psi is nearly constant, the last ratio may grow by less than the rounding of a double.
+        // If Psi is nearly constant, rounding may make the last ratio grow.
         CHECK(here.tau * here.tau / here.turned > last.tau * last.tau / last.turned * (1 - 1e-13));
       }
       last = here;
@@ -104,7 +104,7 @@ TEST_CASE("distance over turning and over time squared, and time squared over tu
 }
 
 TEST_CASE("what a motion comes to is what its steps sum up to", "[aim][invariant]") {
-  // Integrate by the midpoint rule.
+  // Compute distance and angle by the midpoint rule.
   for (const char* name : {"exact", "pade", "ring"}) {
     for (const Inertia& body : {homogeneous_ball, Inertia{1, 2}}) {
       const Flow flow({*find_law(name), 0.4, body});
@@ -143,12 +143,12 @@ TEST_CASE("the reversed question on the axes", "[aim][edge]") {
   same(aimed(flow, {pivots.tau, 0, {}}), {3, 0});
   same(aimed(flow, {pivots.tau, {}, pivots.turned}), {3, 0});
   same(aimed(flow, {{}, 0, pivots.turned}), {3, 0});
-  // A time below that of pure sliding, or of pure pivoting, is out of reach.
+  // A time below the time of pure sliding, or of pure pivoting, cannot be reached.
   CHECK_FALSE(aimed(flow, {slides.tau * 0.999, slides.distance, {}}));
   CHECK_FALSE(aimed(flow, {pivots.tau * 0.999, {}, pivots.turned}));
   CHECK(least_time(flow, {1e9, slides.distance, {}}) == Approx(slides.tau).epsilon(1e-14));
   CHECK(least_time(flow, {1e9, {}, pivots.turned}) == Approx(pivots.tau).epsilon(1e-14));
-  // Demands may be far apart.
+  // Demands may differ by many orders of magnitude.
   for (double far : {1e-200, 1e-20, 1e20, 1e200}) {
     const auto found = aimed(flow, {{}, far, 1});
     REQUIRE(found);
@@ -169,7 +169,7 @@ TEST_CASE("what the reversed question refuses", "[aim][edge]") {
   CHECK_THROWS_AS(aimed(flow, {1e200, 1, {}}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {1e200, {}, 1}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {{}, 1e300, 1e-300}), TooFarApart);
-  // With spin a body goes farther in a given time than without.
+  // Spin makes a body go farther in a given time.
   using Catch::Matchers::Contains;
   const Flow falls({WavyLaw{}, 1, {1, 2}});
   const Reached spinning = reached(falls, {0.823, 2.38}), straight = reached(falls, {0, 1});

@@ -36,7 +36,7 @@ class Questions {
   ReducedSystem system() {
     const Law law = this->law();
     const double r = this->r(law);
-    if (one_of(2) == 0) return {law, 1, {.chi = 1, .gamma = r}};  // the system has exactly this r
+    if (one_of(2) == 0) return {law, 1, {.chi = 1, .gamma = r}};  // so that the system has exactly this r
     const double chi = log_uniform(-6, 6), gamma = log_uniform(-6, 6);
     return {law, std::sqrt(r * chi / gamma), {.chi = chi, .gamma = gamma}};
   }
@@ -108,7 +108,7 @@ class Questions {
   std::mt19937_64 random_;
 };
 
-/// Returns the largest difference of two states at the same time in u, v and beta, each divided by its scale.
+/// Returns the largest difference of two states at the same time in u, v and beta, each divided by its own scale.
 double difference(const OrbitPoint& a, const OrbitPoint& b, State start) {
   const auto relative = [](double x, double y, double scale) { return x == y ? 0 : std::abs(x - y) / scale; };
   return std::max({relative(a.u, b.u, std::abs(start.u)), relative(a.v, b.v, std::max(start.v, b.v)),
@@ -153,7 +153,7 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
                               {"orbit", orbit.stop_time(), orbit.accuracy()},
                               {"mirrored", flow.stop_time({-start.u, start.v}).tau, 0}};
       if (table) doors.push_back({"table", (*table)(start.u, start.v), 4 * eps});
-      // For a small r creeping is stiff.
+      // For a small r creeping is stiff, and steps are too slow.
       const bool steps = system.drive() == 0 || system.r() > 1e-4;
       if (j == 0 && steps) {
         for (Route route : {Route::direct, Route::regularised}) {
@@ -204,9 +204,9 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
   CHECK(asked == systems * starts);
 }
 
-/// The scaled stop time divided by w, T(k), of a body with a drive and a ray: dT/dk = (1 - r Psi T)/D from (R2) and
-/// (R48). It is integrated in steps from the ray's tangent, with more digits than a double has. It shares no code with
-/// the library, not even the laws.
+/// T(k), the scaled stop time divided by w, of a body with a drive and a ray: dT/dk = (1 - r Psi T)/D from (R2), (R48);
+/// D: `difference`. T is integrated in steps from the ray's tangent, with more digits than a double has. No code is
+/// shared with the library, not even the laws.
 class ByTheRay {
  public:
   using Wide = std::conditional_t<(std::numeric_limits<long double>::digits > 60), long double,
@@ -230,7 +230,7 @@ class ByTheRay {
     using std::abs, std::ceil, std::exp, std::log;
     using Values = std::array<Wide, 1>;
     const int side = k < ray_ ? -1 : 1;
-    // Steps in ln |k - k*| above the ray. Below it, steps in ln(k*/k - 1), which resolve small k, too.
+    // Above the ray, steps in ln |k - k*|. Below the ray, steps in ln(k*/k - 1), which also resolve small k.
     const Wide from = side > 0 ? log(near * ray_) : log(near / (1 - near)),
                to = log(abs(k - ray_) / (side > 0 ? 1 : k));
     Values value{at_ray_ + side * tangent_ * near * ray_};
@@ -249,7 +249,7 @@ class ByTheRay {
   }
 
  private:
-  static constexpr double near = 1e-7;  // the error is the square of this
+  static constexpr double near = 1e-7;  // the error is the square of this number
 
   Wide force(Wide k) const {
     using std::sqrt;

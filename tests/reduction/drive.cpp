@@ -40,7 +40,7 @@ double ray_of(const Law& law, double r, double drive) {
   return ratios.rays[0].k;
 }
 
-/// Integrates (R48), v and w by the classical Runge-Kutta method. Of the library it uses only the law.
+/// Integrates (R48) for v and w by the classical Runge-Kutta method. Only the law is taken from the library.
 struct Stepped {
   double w, v, slip, angle;
 };
@@ -77,7 +77,7 @@ TEST_CASE("the ray of creeping: closed for Pade and the ellipse, third order for
   for (double r : {0.007, 0.5, 1.9, 2.0, 2.6, 4.0}) {
     for (double drive : {1e-90, 1e-12, 0.01, 0.15}) {
       INFO("r = " << r << ", drive = " << drive);
-      if (r == 2.0 && drive < 1e-12) continue;  // so near to the drive 0 that the ray is lost
+      if (r == 2.0 && drive < 1e-12) continue;  // the drive is so small that rounding hides the ray
       const double a = 5 - 5 * drive - r, b = 2 - 7 * drive - r;
       const double root = std::sqrt(b * b + 8 * drive * a);
       const double z = b > 0 ? 4 * drive / (b + root) : (root - b) / (2 * a);
@@ -125,7 +125,7 @@ TEST_CASE("one ray below 1 - r K, and none from there on", "[drive][limit]") {
 }
 
 TEST_CASE("closed stop times with a drive", "[drive][formula]") {
-  // Cases: no spin; on the ray; and on an ellipse with r C^2 = 1 from every start (R51).
+  // Cases: no spin; a start on the ray; every start on an ellipse with r C^2 = 1 (R51).
   for (double drive : {1e-60, 1e-6, 0.05, 0.5, 0.9, 0.999999}) {
     INFO("drive = " << drive);
     for (const Law& law : paper_laws()) {
@@ -158,7 +158,7 @@ TEST_CASE("a driven motion against Runge-Kutta: speeds, slip and angle", "[drive
     std::string law;
     double r, drive, w, v;
   };
-  // Cases: to a small ray from above, from below and from rest; to a ray at larger k; to infinity, also from rest.
+  // Cases: k tends to a small ray from above, from below, from rest; to a ray at larger k; to infinity, also from rest.
   const std::vector<Case> cases{
       {"exact", 0.007, 0.05, 1, 3},    {"exact", 0.6, 0.3, 1, 2},   {"exact", 0.6, 0.3, 1, 0},
       {"exact", 1.5, 0.2, 1, 0.01},    {"pade", 0.6, 0.3, 1, 0},    {"pade", 3, 0.1, 1, 0.2},
@@ -182,7 +182,7 @@ TEST_CASE("a driven motion against Runge-Kutta: speeds, slip and angle", "[drive
       CHECK(at.turned * rate == Approx(truth.angle).epsilon(1e-9));
       CHECK(stop(flow, truth.w, truth.v) == Approx((1 - part) * end).epsilon(1e-8));
     }
-    // Compare with the steppers of the library, including beta.
+    // Compare with the steppers of the library. The comparison includes beta.
     for (const auto integrate : {integrate_directly, integrate_regularised}) {
       const Eigen::ArrayXd times = Eigen::Array2d(0.2, 0.7) * orbit.stop_time();
       const Motion motion = integrate(flow.system(), {w, v}, times, {});
@@ -264,7 +264,7 @@ TEST_CASE("every statement holds with a drive", "[drive][verification]") {
   }
 }
 
-// References by 128-bit arithmetic (Runge-Kutta-Fehlberg 7(8) from the ray's tangent). For small r k follows the ray.
+// References by 128-bit arithmetic (Runge-Kutta-Fehlberg 7(8) from the ray's tangent). For small r, k follows the ray.
 TEST_CASE("stop times of motions that ride the ray have the accuracy that they state", "[drive][reference]") {
   struct Row {
     double moment;  ///< C of the elliptic law; 0: the Pade law
@@ -314,7 +314,7 @@ TEST_CASE("stop times of motions that ride the ray have the accuracy that they s
   }
 }
 
-// References for k* with 60 digits, from 1 - rho = r k Psi + (1 - Phi) with the exact values of these doubles.
+// References for k* with 60 digits, from 1 - rho = r k Psi + (1 - Phi) with these doubles as exact values; rho: drive.
 TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[drive][reference]") {
   struct Row {
     const char* law;
@@ -343,7 +343,7 @@ TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[
     const double accuracy = ratios.rays[0].accuracy;
     CHECK(ratios.rays[0].attracts());
     CHECK(std::abs(ratios.rays[0].k / k - 1) <= accuracy);
-    // The product r K is rounded to eps of 1 - rho.
+    // r K, with K the law's k at infinity times 1 - Phi, is only known up to rounding by eps of 1 - rho.
     CHECK(accuracy <= 16 * eps * (1 + (1 - drive) / law.force_deficit({k, 1})));
   }
 }
@@ -359,7 +359,7 @@ TEST_CASE("a drive next to 1 leaves friction its digits, or the law is asked for
   CHECK(stop.tau == Approx(408610279.52626).epsilon(1e-13));
   CHECK(stop.accuracy < 1e-6);
   CHECK(integrate_directly(system, start, {}).stop_time == Approx(408610279.52626).epsilon(1e-11));
-  // A law that is one function has 1 - Phi only up to the rounding of Phi.
+  // A law that is a single function gives 1 - Phi only with the absolute rounding error of Phi.
   const Law unstated([uniform](Slip slip) { return uniform(slip); });
   const auto beside = [&](double drive) { return ReducedSystem(unstated, system.mu(), system.inertia(), drive); };
   CHECK_THROWS_WITH(Flow(beside(system.drive())).stop_time(start), Contains("another drive"));

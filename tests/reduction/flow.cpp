@@ -51,14 +51,14 @@ TEST_CASE("copies of a flow share what is solved, and its table is released", "[
   CHECK(curve.expired());
 }
 
-// Earlier versions of Orbit accepted the solution of another system without a message: 10.8252 instead of 10.8269.
+// In earlier versions, Orbit accepted the solution of another system without a message: 10.8252 instead of 10.8269.
 TEST_CASE("a solution of another system is refused", "[flow][domain]") {
   const ReducedSystem system(HertzLaw{}, 0.3);
   CHECK_THROWS_WITH(Flow(system, quadrature_solution(HertzLaw{}, 0.1, terminal_ratios(HertzLaw{}, 0.1))),
                     Contains("Flow: a solution for r = 0.1"));
   CHECK_THROWS_WITH(Flow(system, SimilaritySolution()), Contains("no curve"));
 
-  // For 2 < r < 5 there are two curves to the k* of the law. The curves of another law tend to another ratio.
+  // For 2 < r < 5 two curves lead to the k* of this law. The curves of another law lead to another k*.
   const ReducedSystem puck(HertzLaw{}, 1, {.chi = 1, .gamma = 2.5});
   const SimilaritySolution right = quadrature_solution(HertzLaw{}, 2.5, terminal_ratios(HertzLaw{}, 2.5));
   CHECK(Flow(puck, right).stop_time({1, 1}).tau == Flow(puck).stop_time({1, 1}).tau);

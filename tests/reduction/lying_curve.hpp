@@ -8,7 +8,7 @@
 
 namespace contensou::tests {
 
-/// False values that a curve returns in place of the true ones.
+/// The false values that a curve returns.
 struct CurveLie {
   using Lie = std::function<double(double ln_k, double truth)>;
   Lie ln_w = [](double, double truth) { return truth; };
@@ -30,7 +30,7 @@ class LyingCurve final : public reduction::SimilarityCurve {
   double beta_coefficient(double ln_k) const override {
     return lie_.beta_coefficient(ln_k, truth_->beta_coefficient(ln_k));
   }
-  double linear_below() const override { return -1e6; }  // so low that every ln k is evaluated
+  double linear_below() const override { return -1e6; }  // so low that the curve evaluates every ln k
   double time_rate(double ln_k) const override { return truth_->time_rate(ln_k); }
   double accuracy() const override { return truth_->accuracy(); }
 

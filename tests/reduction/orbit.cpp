@@ -26,7 +26,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// The promised accuracy 1e-12 in units of eps.
+/// The promised accuracy of 1e-12, in units of eps.
 constexpr double promised = 4503;
 
 double beta_unit(double mu, State start) { return 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v); }
@@ -61,8 +61,8 @@ void check_trajectories(const std::string& table, const Law& law) {
   CHECK_WITHIN_EPS(left_ln_v, promised);
 }
 
-/// Returns the integral of a function of the state over time, from ln k = top to ln k = bottom, as an integral of v d
-/// ln k/D along the orbit (R3).
+/// Returns the integral of a function of the state over time, between ln k = top and ln k = bottom. It is computed as
+/// an integral of v d ln k/D along the orbit, with D of (R3).
 template <class Function>
 double integral_between(const ReducedSystem& system, const Orbit& orbit, double bottom, double top, Function function) {
   const auto rate = [&](double ln_k) {
@@ -73,7 +73,7 @@ double integral_between(const ReducedSystem& system, const Orbit& orbit, double 
   };
   double sum = 0;
   for (double left = bottom; left < top;) {
-    const double right = std::min(std::floor(left + 1), top);  // panels end at k = 1
+    const double right = std::min(std::floor(left + 1), top);  // panels must not contain the kink at k = 1
     sum += boost::math::quadrature::gauss_kronrod<double, 31>::integrate(rate, left, right, 5, 1e-14);
     left = right;
   }
@@ -147,7 +147,7 @@ TEST_CASE("along an orbit u, v and k fall and beta grows", "[orbit][invariant]")
 }
 
 TEST_CASE("scaling by powers of two and u -> -u hold bit for bit", "[orbit][symmetry]") {
-  // Under scaling ln v changes by a multiple of ln 2, which is rounded. Everything else has the same digits.
+  // Scaling by a power of two adds a multiple of ln 2 to ln v, which is rounded. All other digits stay equal.
   for (const Law& law : paper_laws()) {
     for (const State start : {State{1.1, 0.3}, State{-0.01, 2}, State{5, 1e-12}, State{0, 3}, State{-3, 0}}) {
       const ReducedSystem system(law, 0.05);
@@ -218,8 +218,8 @@ TEST_CASE("on the axes one speed falls linearly", "[orbit][limit]") {
   }
 }
 
-// Failures found with mu = 0.1, u0 = 5e-324, v0 = 1 (mu u0 underflows, ln k0 was infinite) and with u0 = 1e-200, v0 =
-// 1e200 (b of the curve underflows, beta was 0).
+// Two starts with mu = 0.1 once failed. For u0 = 5e-324, v0 = 1, mu u0 underflows, and ln k0 was infinite. For u0 =
+// 1e-200, v0 = 1e200, the number b of the curve underflows, and beta was 0.
 TEST_CASE("a spin too faint for v0/(mu u0) leaves pure sliding", "[orbit][limit]") {
   for (const Law& law : paper_laws()) {
     const ReducedSystem system(law, 0.1);
@@ -265,7 +265,7 @@ TEST_CASE("near the stop u is proportional to the time left", "[orbit][limit]") 
       const OrbitPoint point = orbit.at_time_left(left);
       const OrbitPoint closer = orbit.at_time_left(left / 2);
       CHECK(point.u == Approx(5 * mu / 16 * left).epsilon(1e-12));
-      // v is proportional to the power 14/(5 mu^2) of the time left.
+      // Here v is proportional to the power 14/(5 mu^2) of the time left.
       CHECK(point.ln_v - closer.ln_v == Approx(14 / (5 * mu * mu) * std::numbers::ln2).epsilon(1e-11));
     }
   }
@@ -276,7 +276,7 @@ TEST_CASE("close to the stop an instant is as good as its time left", "[orbit][l
     const Orbit orbit = Flow(ReducedSystem(law, 0.3)).orbit({1, 0.5});
     const double stop = orbit.stop_time();
     for (double left : {0x1p-2, 0x1p-20, 0x1p-45}) {
-      const double tau = stop * (1 - left);  // stop - tau is exact
+      const double tau = stop * (1 - left);  // the difference stop - tau is exact
       CAPTURE(law.name(), left);
       CHECK(orbit.at_time(tau).u == orbit.at_time_left(stop - tau).u);
       CHECK(orbit.at_time(tau).ln_v == orbit.at_time_left(stop - tau).ln_v);
@@ -300,11 +300,11 @@ TEST_CASE("the slip is the integral of v along the orbit", "[orbit][route]") {
     }
   }
   CHECK_WITHIN_EPS(whole, 200);
-  // The middle time is accurate to eps of the stop time only, which is long compared with the slip if mu is small.
+  // The middle time has an error of eps of the stop time. For small mu this time is long compared with the slip.
   CHECK_WITHIN_EPS(part, 1e6);
 }
 
-// The sum uses panels of the quadrature in k, so it also covers motions beyond a ray and towards infinity.
+// The integral is summed over panels in k, so it also covers motions beyond a ray and towards infinity.
 TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]") {
   WorstCase turned("turned"), slipped("slip");
   for (const char* name : {"exact", "pade", "ring"}) {
@@ -329,7 +329,7 @@ TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]
       }
     }
   }
-  // The end time is accurate to eps of the stop time only, which is long compared with this part if r is small.
+  // The end time has an error of eps of the stop time. For small r this time is long compared with this part.
   CHECK_WITHIN_EPS(turned, 1e7);
   CHECK_WITHIN_EPS(slipped, 1e7);
 }
@@ -349,7 +349,7 @@ TEST_CASE("an instant is the state with the slip, by one root", "[orbit][route]"
         CHECK(at.turned * start.u >= 0);
       }
     }
-    // If only one speed is not 0, it falls linearly.
+    // If one speed is 0 from the start, the other speed falls linearly.
     const Orbit pivoting = flow.orbit({-2, 0});
     CHECK(pivoting.instant(pivoting.stop_time()).turned == Approx(-pivoting.stop_time()).epsilon(1e-15));
     CHECK(pivoting.instant(pivoting.stop_time() / 2).turned == Approx(-0.75 * pivoting.stop_time()).epsilon(1e-15));
@@ -395,7 +395,7 @@ TEST_CASE("when a speed has fallen to a value", "[orbit][route]") {
 
 TEST_CASE("the integral of a function of v", "[orbit][route]") {
   for (const char* name : {"exact", "pade", "ring"}) {
-    if (!CONTENSOU_FULL_TESTS && name == std::string_view("ring")) continue;  // as slow as all others together
+    if (!CONTENSOU_FULL_TESTS && name == std::string_view("ring")) continue;  // as slow as all other laws together
     for (double r : {1e-6, 5.0 / 7, 3.0, 6.0}) {
       const ReducedSystem system(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09});
       const Flow flow(system);
@@ -408,7 +408,7 @@ TEST_CASE("the integral of a function of v", "[orbit][route]") {
           const double end = std::min(tau, stop);
           CHECK(orbit.integral([](double) { return 3.0; }, tau) == Approx(3 * end).epsilon(1e-15));
           CHECK(orbit.integral([](double v) { return v; }, tau) == Approx(orbit.slip_length(tau)).epsilon(1e-10));
-          // The integral of |v - c| equals a combination of slip lengths on both sides of v = c.
+          // |v - c| can be integrated by slip lengths before and after the time at which v = c.
           const double c = 0.3 * v0;
           const double turn = orbit.time_of_v(c);
           const double sides = 2 * orbit.slip_length(turn) - orbit.slip_length(end) - c * (2 * turn - end);
@@ -423,7 +423,7 @@ TEST_CASE("the integral of a function of v", "[orbit][route]") {
         Approx(4 * sliding.stop_time() / 3).epsilon(1e-12));
   CHECK_THROWS_AS(sliding.integral([](double v) { return v; }, -1), std::domain_error);
 
-  // Count the calls of the law for the path of a shot, which passes the kink of the exact law.
+  // Count how often the path of a shot, which passes the kink of the exact law, calls the law.
   long calls = 0;
   const Orbit shot = Flow(ReducedSystem(HertzLaw{}, 0.1)).orbit({1.5, 1.5});
   const auto speed = [&](double v) { return ++calls, std::hypot(v - 0.8, 0.6); };
@@ -490,12 +490,12 @@ TEST_CASE("at a regularised time the state is that of steps of (2.7) in beta", "
         CHECK(found.beta == wanted.beta);
         CHECK(found.u == Approx(wanted.u).epsilon(1e-7));
         CHECK(found.tau == Approx(wanted.tau).epsilon(1e-7).margin(1e-9 * unit * unit * orbit.stop_time()));
-        // With a drive v begins at 0. At first its digits are those of tau.
+        // A drive makes v grow from 0. At first v has as many correct digits as tau.
         const bool begins = start.v == 0 && wanted.beta < 1e-6 * unit;
         if (std::isfinite(wanted.ln_v) && !begins)
           CHECK(std::abs(found.ln_v - wanted.ln_v) < 1e-6 * (1 + std::abs(wanted.ln_v)));
       }
-      // From tau to beta and back, up to the stop.
+      // Convert tau to beta and back, for times up to the stop.
       for (double share : {1e-3, 0.1, 0.5, 0.9, 1 - 1e-6}) {
         const OrbitPoint wanted = orbit.at_time_left((1 - share) * orbit.stop_time()),
                          found = at_beta(flow, start, wanted.beta);

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Returns the point with a direction and a place; fails the test if there is none.
+/// Returns the singular point with a direction and a place; fails the test if it does not exist.
 SingularPoint point_of(const PhasePlane& plane, InvariantDirection direction, SingularPlace place) {
   const auto found = std::ranges::find_if(
       plane.points, [&](const SingularPoint& point) { return point.direction == direction && point.place == place; });
@@ -31,7 +31,7 @@ bool has_ray(const PhasePlane& plane) {
                              [](const SingularPoint& point) { return point.direction == InvariantDirection::ray; });
 }
 
-/// Returns the desingularised field in the chart of a point, d(radial, angular), computed from the regularised field.
+/// Returns d(radial, angular), the desingularised field in the chart of a point, computed from the regularised field.
 Eigen::Vector2d chart_field(const ReducedSystem& system, const SingularPoint& point, double radial, double angular) {
   const bool at_origin = point.place == SingularPlace::origin;
   const double speed = at_origin ? radial : 1 / radial;
@@ -40,7 +40,7 @@ Eigen::Vector2d chart_field(const ReducedSystem& system, const SingularPoint& po
   const Rate rate = system.regularised_field(state);
   const double along = sliding ? rate.v : rate.u;
   const double across = sliding ? rate.u : rate.v;
-  // The field is divided by the speed. `radial` is the speed or its inverse.
+  // Divide the field by the speed. The coordinate `radial` is the speed, or 1/speed at infinity.
   return {(at_origin ? along : -along / (speed * speed)) / speed, (across - angular * along) / speed / speed};
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("Eigenvalues of the paper's system are those of the blow-up by hand", 
   }
 }
 
-/// Returns true for the ellipse, under which k falls for all k, or grows for all k.
+/// Returns true for the ellipse. Under its law k falls everywhere, or grows everywhere, so no ray exists.
 bool has_no_ray(const TerminalRatios& limits) { return std::abs(limits.high - limits.low) < 1e-12 * limits.low; }
 
 TEST_CASE("The linear parts are the derivatives of the regularised field in its charts", "[phase_plane][route]") {
@@ -82,7 +82,7 @@ TEST_CASE("The linear parts are the derivatives of the regularised field in its 
       CAPTURE(system.law().name(), system.r(), name(point.direction), name(point.place));
       const double at = point.direction == InvariantDirection::sliding ? 0 : point.q;
       const double scale = point.direction == InvariantDirection::sliding ? 1 / system.mu() : system.mu();
-      // One-sided differences at an axis. Laws with a logarithm or |u| are not smooth there, so the step is small.
+      // Use one-sided differences at an axis. Laws with a logarithm or |u| are not smooth there, so the step is small.
       const double h = 1e-6 * scale;
       const auto across = [&](double angular) { return chart_field(system, point, 1, angular)[1]; };
       const double angular = at == 0 ? across(h) / h : (across(at + h) - across(at - h)) / (2 * h);
@@ -153,7 +153,7 @@ TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit
 }
 
 TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plane][table]") {
-  // Psi' = -k Phi' gives D' = Phi' (1 + r k^2) - r Psi. The weight is (16 + 15 pi)(8 + 3 pi), the rate 2 chi/(3 pi).
+  // D = Phi - r k Psi has D' = Phi' (1 + r k^2) - r Psi. W is (16 + 15 pi)(8 + 3 pi), and the rate is 2 chi/(3 pi).
   const double scale = 2 / (3 * pi) * (16 + 15 * pi) * (8 + 3 * pi);
   const auto angular = [](const char* law, double r) {
     return point_of(phase_plane(ReducedSystem(*find_law(law), 1, {1, r})), InvariantDirection::ray,
@@ -181,7 +181,7 @@ TEST_CASE("Orbits touch their tangent to the order of contact", "[phase_plane][r
       CAPTURE(law.name(), mu);
       CHECK(phase_plane(system).tangents[0].contact_order == Approx(order).epsilon(1e-3));
     }
-    // On a ray, by steps: k - k* is compared with a power of u.
+    // On orbits near a ray, computed by steps, k - k* must be proportional to a power of u.
     const ReducedSystem disc(law, 1, {1, 3});
     const PhasePlane plane = phase_plane(disc);
     REQUIRE(plane.tangents[0].direction == InvariantDirection::ray);

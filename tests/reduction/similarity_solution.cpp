@@ -21,7 +21,7 @@ using namespace contensou::tests;
 
 namespace {
 
-/// Returns a flat puck whose mass is at its rim: r = mu^2, with any patch ratio.
+/// Returns a flat puck with the mass at its rim: r = mu^2, and mu can be any number.
 ReducedSystem puck(const Law& law, double r) { return {law, std::sqrt(r), {.chi = 1, .gamma = 1}}; }
 
 }  // namespace
@@ -63,7 +63,7 @@ TEST_CASE("the stop time is continuous in r through both edges", "[similarity_so
         CAPTURE(name, edge, k);
         const double here = stop(edge);
         for (double shift : {1e-15, 1e-13, 1e-12, 2e-12, 1e-10, 1e-8}) {
-          // The stop time falls at most like 1/sqrt(r).
+          // The stop time changes with r less than 1/sqrt(r) does.
           CHECK(stop(edge * (1 + shift)) == Approx(here).epsilon(shift + 1e-13));
           CHECK(stop(edge * (1 - shift)) == Approx(here).epsilon(shift + 1e-13));
         }
@@ -104,7 +104,7 @@ TEST_CASE("a motion is what is left of it, in every regime", "[similarity_soluti
 }
 
 TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
-  // For the octic law this is the first of two rays, which repels.
+  // The octic law has two rays. This is the first one, which repels.
   for (const auto& [law, r] :
        {std::pair{Law(HertzLaw{}), 2.2}, {HertzLaw{}, 2.5}, {HertzLaw{}, 4.0}, {OcticLaw{}, 1.995}}) {
     const ReducedSystem system = puck(law, r);
@@ -124,7 +124,7 @@ TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
   }
 }
 
-// Phi/(k Psi) of this law has a minimum, 1.9909 at k = 0.144, below its value 2 at k = 0. One ray repels, one attracts.
+// Phi/(k Psi) of this law is 2 at k = 0 and has a minimum, 1.9909 at k = 0.144. One ray repels, the other attracts.
 TEST_CASE("a law with several rays has a curve on each side of each", "[similarity_solution]") {
   const Law law = OcticLaw{};
   CHECK(quadrature_solution(law, 1.99, terminal_ratios(law, 1.99)).curves().size() == 1);

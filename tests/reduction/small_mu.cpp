@@ -41,15 +41,15 @@ double worst_error(const Law& law, const std::string& name, double mu, const std
   return worst;
 }
 
-/// Returns d ln(error)/d ln(mu), from mu and mu/2.
+/// Returns d ln(error)/d ln(mu), computed from the errors at mu and mu/2.
 double observed_order(const Law& law, const std::string& name, double mu, const std::vector<double>& ratios,
                       const Inertia& body = {}) {
   return std::log2(worst_error(law, name, mu, ratios, body) / worst_error(law, name, mu / 2, ratios, body));
 }
 
 struct MotionErrors {
-  double u = 0;     ///< relative
-  double ln_v = 0;  ///< absolute
+  double u = 0;     ///< relative error
+  double ln_v = 0;  ///< absolute error
 };
 
 /// Returns the largest errors of SmallMuMotion over twentieths of a time.
@@ -67,7 +67,7 @@ MotionErrors motion_errors(const ReducedSystem& system, State start, double time
   return worst;
 }
 
-/// Returns the largest errors up to 19/20 of the stop time.
+/// Returns the largest errors from the start to 19/20 of the stop time.
 MotionErrors motion_errors(const ReducedSystem& system, State start) {
   return motion_errors(system, start, Flow(system).stop_time(start).tau, 19);
 }
@@ -78,7 +78,7 @@ TEST_CASE("E1 and E2 are of the orders 4 and 6 in mu at any one k0", "[small_mu]
   for (const Law& law : named_laws()) {
     for (double k0 : {0.1, 1.0, 10.0}) {
       CAPTURE(law.name(), k0);
-      // At mu below 0.05 only: for larger mu the next order matters. At 0.0125 E2 is as accurate as the stop time.
+      // Use only mu below 0.05, because the next order matters above. At 0.0125 E2 is as accurate as the stop time.
       CHECK(observed_order(law, "E1", 0.025, {k0}) == Approx(4).margin(0.04));
       CHECK(observed_order(law, "E2", 0.05, {k0}) == Approx(6).margin(0.15));
     }
@@ -93,7 +93,7 @@ TEST_CASE("E1 and E2 are of these orders uniformly in k0, less their logarithms"
     double last1 = infinity;
     double last2 = infinity;
     for (double mu : {0.2, 0.1, 0.05, 0.025}) {
-      // The errors are mu^4 ln^2 and mu^6 ln^3. The worst k0 is near 1/mu^2. The factors fall and then stay constant.
+      // Errors are proportional to mu^4 ln^2 mu and mu^6 ln^3 mu; the worst k0 is near 1/mu^2. Factors fall, then stay.
       const double factor1 = worst_error(law, "E1", mu, ratios) / (std::pow(mu, 4) * std::pow(std::log(mu), 2));
       const double factor2 = worst_error(law, "E2", mu, ratios) / (std::pow(mu, 6) * std::pow(-std::log(mu), 3));
       CAPTURE(mu, factor1, factor2);
@@ -143,7 +143,7 @@ TEST_CASE("the logarithm of the exact law, and the wrong sign of that of the Pad
   CHECK(far->constant == Approx(0.533332074046791).margin(1e-9));
   CHECK_FALSE(far_coefficient(PadeLaw{}));
 
-  // The slope d (k m0 - k)/d ln k, per decade, is -16/(15 pi), and for the other law 8/(5 pi).
+  // The slope d (k m0 - k)/d ln k, from a decade of k, is -16/(15 pi) for the exact law and 8/(5 pi) for the Pade law.
   const auto logarithm = [](const Law& law) {
     const auto excess = [&](double k) { return k * coefficient_expansion(law, std::log(k)).first - k; };
     return (excess(1e5) - excess(1e4)) / std::log(10.0);
@@ -154,7 +154,7 @@ TEST_CASE("the logarithm of the exact law, and the wrong sign of that of the Pad
   for (const Law& law : named_laws()) {
     const auto tail = far_coefficient(law);
     if (!tail) continue;
-    // The rest of the expansion falls like 1/k.
+    // The omitted terms of the expansion fall like 1/k.
     const auto rest = [&](double k) {
       return k * coefficient_expansion(law, std::log(k)).first - k + tail->logarithm * std::log(k) + tail->constant;
     };
@@ -201,7 +201,7 @@ TEST_CASE("the motion for small mu is of the orders 4 in u and 2 in ln v at any 
       const MotionErrors whole = motion_errors(system, start), whole_of_half = motion_errors(half, half_start);
       CHECK(std::log2(whole.u / whole_of_half.u) == Approx(4).margin(0.05));
       CHECK(std::log2(whole.ln_v / whole_of_half.ln_v) == Approx(2).margin(0.05));
-      // Up to three times the time of the layer. At k0 = 10 the first error of ln v is small, and the next matters.
+      // Times up to three times the sliding time. For k0 = 10 the first error of ln v is small; the next order matters.
       const MotionErrors layer = motion_errors(system, start, system.sliding_limit(start.v), 60);
       const MotionErrors layer_of_half = motion_errors(half, half_start, half.sliding_limit(half_start.v), 60);
       CHECK(std::log2(layer.u / layer_of_half.u) == Approx(4).margin(0.06));

@@ -36,7 +36,7 @@ struct Stepper {
 const Stepper steppers[]{{"integrate_regularised", integrate_regularised, Route::regularised},
                          {"integrate_directly", integrate_directly, Route::direct}};
 
-/// A law that fails between the ratios at which Law tests it: it is NaN for 5e-4 > k > 2e-5.
+/// A law that is NaN for 5e-4 > k > 2e-5. The tests of Law do not evaluate ratios in this interval.
 struct BrokenLaw {
   Resistance operator()(Slip slip) const {
     const bool broken = slip.sliding < 5e-4 * slip.pivoting && slip.sliding > 2e-5 * slip.pivoting;
@@ -44,7 +44,7 @@ struct BrokenLaw {
   }
 };
 
-/// Compares states of a stepper with those of the orbit, relative to themselves if k tends to 0, else to the start.
+/// Compares states of a stepper with the orbit. If k tends to 0, errors are relative to the state, else to the start.
 struct States {
   explicit States(const std::string& name) : name_(name) {}
 
@@ -92,7 +92,7 @@ struct States {
   WorstCase stop_{"stop time"}, itself_{"state relative to itself"}, start_{"state relative to the start"};
 };
 
-/// Returns a flat puck whose mass is at its rim: r = mu^2, with any patch ratio.
+/// Returns a flat puck with the mass at its rim: r = mu^2, and mu can be any number.
 ReducedSystem rim_puck(const Law& law, double r) { return {law, std::sqrt(r), {.chi = 1, .gamma = 1}}; }
 
 }  // namespace
@@ -147,7 +147,7 @@ TEST_CASE("every step is reported when no instants are asked for", "[steppers][r
         const OrbitPoint point = points.row(i);
         if (point.tau < 0.9 * motion.stop_time) CHECK(orbit.at_time(point.tau).u == Approx(point.u).epsilon(1e-10));
       }
-      CHECK((points.k == 1).any());  // k0 = 5: a step ends where the exact law has no third derivative
+      CHECK((points.k == 1).any());  // k0 = 5, so a step must end at k = 1, where the exact law has no third derivative
       CHECK((points.tau[last] == motion.stop_time && points.u[last] == 0 && points.v[last] == 0));
       CHECK(points.beta[last] == infinity);
     }
@@ -177,7 +177,7 @@ TEST_CASE("the steppers on the axes and at rest", "[steppers][limit]") {
   }
 }
 
-// tau, u and v have the unit of speed.
+// tau, u and v are speeds, so another unit of speed multiplies all of them by the same number.
 TEST_CASE("the unit of speed does not matter to the steppers", "[steppers][symmetry]") {
   for (const Stepper& stepper : steppers) {
     for (const Law& law : paper_laws()) {

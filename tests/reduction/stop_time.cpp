@@ -49,7 +49,7 @@ bool same(const ReducedSystem& a, const ReducedSystem& b) {
 TEST_CASE("stop times against 40 digits: every route, tables, bounds", "[stop_time][table]") {
   struct Table {
     std::string name;
-    double quadrature, arrays;  ///< bounds in eps
+    double quadrature, arrays;  ///< bounds of the errors in eps
   };
   for (const auto& [name, quadrature, arrays] :
        {Table{"stop_pade", 8, 2}, {"stop_hertz", 8, 2}, {"bodies", 8, 2}, {"rays", 3, 4}}) {
@@ -110,7 +110,7 @@ TEST_CASE("stop times on the axes, at rest and at the ends of the double range",
       const State mirrored{-start.u, start.v};
       CAPTURE(law.name(), mu, start.u, start.v);
       for (Route route : routes(system)) {
-        // The steppers use logarithms, so a speed has an error of 500 eps of its exponent.
+        // The steppers use ln of a speed, so the speed has an error of up to 500 eps.
         const double here = stop_time(system, start, route).tau;
         CHECK((here == tau || here == Approx(tau).epsilon(is_stepper(route) ? 1e-11 : 4e-16)));
         CHECK(stop_time(system, mirrored, route).tau == here);
@@ -183,7 +183,7 @@ TEST_CASE("a stop time scales bit for bit, also below and above the ordinary", "
       }
     }
   }
-  CHECK(Flow({PadeLaw{}, 1}).stop_time({5e-324, 0}).tau == 1.5e-323);  // 3.2 units of the smallest double
+  CHECK(Flow({PadeLaw{}, 1}).stop_time({5e-324, 0}).tau == 1.5e-323);  // exact: 3.2 times the smallest double
   CHECK(std::isfinite(Flow({PadeLaw{}, 1e150, homogeneous_ball}).stop_time({1, 1}).tau));
 }
 

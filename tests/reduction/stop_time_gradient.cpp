@@ -1,4 +1,4 @@
-// The derivatives of the stop time: (R10), (R57) and (R58) of reduction/README.md.
+// Tests the derivatives of the stop time: (R10), (R57) and (R58) of reduction/README.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,7 +61,7 @@ double error_of(const Law& law, const Question& asked) {
 using Precise = long double;
 using Quantities = std::array<Precise, 4>;  ///< u, v, slip length, turned
 
-/// Returns Phi and Psi at v and w = mu |u|.
+/// Returns Phi and Psi at the speeds v and w = mu |u|.
 using PreciseLaw = std::array<Precise, 2> (*)(Precise v, Precise w);
 
 constexpr Precise precise_pi = std::numbers::pi_v<Precise>;
@@ -107,13 +107,13 @@ TEST_CASE("the gradient agrees with differences, for every law", "[gradient][rou
       INFO(law.name() << ": " << asked.text());
       CHECK(error_of(law, asked) < 2e-9);
       const StopTimeGradient found = asked.flow(law).stop_time_gradient({asked.u, asked.v});
-      CHECK(asked.u * found.by_u + asked.v * found.by_v == Approx(found.tau).epsilon(1e-9));  // Euler
+      CHECK(asked.u * found.by_u + asked.v * found.by_v == Approx(found.tau).epsilon(1e-9));  // Euler's theorem
     }
   }
 }
 
 TEST_CASE("the first drive that there is changes the stop time as the gradient says", "[gradient][drive]") {
-  // Under the Pade law the drive has an effect of first order also while the ball spins: it creeps at once.
+  // Under the Pade law a drive has a first-order effect even on a body that only spins: the body creeps at once.
   for (const Law& law : paper_laws()) {
     const Question at{.u = 1, .v = 1, .mu = 0.3, .chi = 3.5, .gamma = 2.5, .drive = 0};
     constexpr double step = 1e-5;
@@ -129,7 +129,7 @@ TEST_CASE("the first drive that there is changes the stop time as the gradient s
 
 TEST_CASE("on a ray, beside it and on its way the gradient has the same limit", "[gradient][ray]") {
   for (double drive : {0.0, 0.1}) {
-    // Without a drive there is a ray for r = 3. With a drive every body has one at which it creeps, here a pool ball.
+    // r = 3 has a ray without a drive. Under a drive every body has a ray, at which it creeps; here a pool ball.
     const Question asked{
         .u = 1, .v = 0, .mu = drive > 0 ? 0.03 : std::sqrt(3.0 * 3.5 / 2.5), .chi = 3.5, .gamma = 2.5, .drive = drive};
     for (const Law& law : paper_laws()) {
@@ -164,7 +164,7 @@ TEST_CASE("the gradient on the ellipse is closed, at any spin, with a drive, too
 }
 
 TEST_CASE("the gradient of an instant has its 13 digits against differences in long double", "[gradient][reference]") {
-  if (std::numeric_limits<Precise>::digits < 64) return;  // differences need them
+  if (std::numeric_limits<Precise>::digits < 64) return;  // differences need these digits
   constexpr PreciseLaw pade = [](Precise v, Precise w) {
     return std::array{3 * precise_pi * v / (8 * w + 3 * precise_pi * v),
                       3 * precise_pi * w / (16 * w + 15 * precise_pi * v)};
@@ -174,7 +174,7 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
     const Precise size = std::sqrt(v * v + C * C * w * w);
     return std::array{v / size, C * C * w / size};
   };
-  constexpr PreciseLaw hertz = [](Precise v, Precise w) {  // k <= 1
+  constexpr PreciseLaw hertz = [](Precise v, Precise w) {  // the exact law for k <= 1
     const Precise k = v / w, s = k * k;
     return std::array{3 * precise_pi / 32 * k * (4 - s), 3 * precise_pi / 128 * (8 - 8 * s + 3 * s * s)};
   };
@@ -208,7 +208,7 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
         const std::array forth{moved(1), moved(2), moved(3)}, back{moved(-1), moved(-2), moved(-3)};
         Quantities result;
         for (std::size_t i = 0; i < result.size(); ++i) {
-          // When the slip has nearly vanished, it is the exponential of a number that changes evenly.
+          // A slip that has nearly vanished is the exponential of a smooth number, so differences use its logarithm.
           const auto change = [&](std::size_t n) {
             return i == 1 ? std::log(forth[n][1] / back[n][1]) : forth[n][i] - back[n][i];
           };
@@ -231,8 +231,8 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
   }
 }
 
-// Compare with differences, for all laws, both signs of u, with and without a drive, before and long after the end of
-// the slip, and after the stop. Also compare two successive time spans with one span.
+// Compare with differences: for all laws, both signs of u, with and without a drive, before and long after the end of
+// the slip, and after the stop. Compare also two successive time spans with one span.
 TEST_CASE("the gradient of an instant is that of differences, and obeys the chain rule", "[gradient][route]") {
   using Part = InstantGradient::Part;
   const auto parts = [](const InstantGradient& all) {
@@ -242,7 +242,7 @@ TEST_CASE("the gradient of an instant is that of differences, and obeys the chai
     const char* law;
     double mu, drive, u, v;
   };
-  // The last start but one lies on a ray, the last one beside it.
+  // The last but one start lies on a ray, and the last start lies beside this ray.
   for (const Start& start : {Start{"exact", 0.1, 0, 1, 1},
                              {"exact", 0.3, 0.05, -1, 0.2},
                              {"pade", 0.3, 0, 1, 1},
@@ -290,7 +290,7 @@ TEST_CASE("the gradient of an instant is that of differences, and obeys the chai
           Approx(other.slip_length.by_u * one.u.by_v + other.slip_length.by_v * one.v.by_v).epsilon(1e-8).margin(1e-9));
   }
   const Flow flow({HertzLaw{}, 0.1});
-  // The time at which the ball rolls, at a slip of 1e-3.
+  // The ball rolls when the slip has fallen to 1e-3. This time is `rolls`.
   const double rolls = flow.orbit({1, 1}).time_of_v(1e-3);
   const InstantGradient then = instant_gradient(flow, {1, 1}, rolls);
   constexpr double step = 1e-5;

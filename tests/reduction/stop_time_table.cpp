@@ -33,7 +33,7 @@ struct Starts {
   std::vector<double> u0, v0;
 };
 
-/// Returns starts with k of all sizes, and at every distance from k = 1 and from another k, which a table separates.
+/// Returns starts with k of all sizes, and at all distances from k = 1 and from `other_k`, at which a panel may end.
 Starts random_starts(double mu, std::size_t count, double other_k = 1) {
   std::mt19937_64 generator(17);
   std::uniform_real_distribution<double> ln_k(-45, 45), ln_u(-3, 3);
@@ -63,7 +63,7 @@ std::size_t differ(std::span<const double> a, std::span<const double> b) {
   return count;
 }
 
-/// Compares a table with stop_time, also next to the given k.
+/// Compares a table with stop_time for random starts, some of them next to the given k.
 void compare(WorstCase& worst, const ReducedSystem& system, double k, std::size_t count) {
   const Flow flow(system);
   const StopTimeTable table(flow);
@@ -91,7 +91,7 @@ double r_of_ray(const Law& law, double k) {
   return force / (k * moment);
 }
 
-/// A law with a second kink, at k = 0.7, which the panels of a table cannot follow.
+/// A law with a second kink, at k = 0.7. The panels of a table cannot follow this kink.
 struct KinkedLaw {
   Resistance operator()(Slip slip) const {
     const auto [force, moment] = HertzLaw{}(slip);
@@ -119,7 +119,7 @@ TEST_CASE("tables of balls are stop_time, and proved", "[stop_time_table][route]
 }
 
 TEST_CASE("tables are stop_time wherever the invariant ray lies", "[stop_time_table][route]") {
-  // Errors of up to 28 % were found if the ray lay at k = 1 or at the edge of a panel, on the ray or everywhere.
+  // Errors of up to 28 % once occurred, on the ray or everywhere, if the ray lay at k = 1 or at the edge of a panel.
   WorstCase found("rays at the edges of panels, as they were found");
   const auto body = [](double r) { return Inertia{1, r}; };
   compare(found, {PressureLaw::ring(), 1, body(1)}, 1, 300);
@@ -152,7 +152,7 @@ TEST_CASE("panels that fail their proof are not used, and the table says so", "[
   CHECK(table.refused() > 0);
   CHECK(table.refused() < 0.1);
   CHECK(table.worst_error() <= 4 * eps);
-  // Around the kink the results equal those of the curve to the last bit, for single starts and in arrays.
+  // Around the kink results equal those of the curve to the last bit, for single starts and for arrays.
   std::vector<double> u0(1000, 1.0), v0(1000);
   for (std::size_t i = 0; i < v0.size(); ++i) v0[i] = 0.3 * (0.6 + 0.0002 * static_cast<double>(i));
   const auto tau = evaluated(table, {u0, v0});
@@ -169,7 +169,7 @@ TEST_CASE("one start and many, cut and shared in any way, have the same bits", "
     const double mu = 0.3;
     const StopTimeTable table(ReducedSystem(law, mu, homogeneous_ball));
     Starts starts = random_starts(mu, 20'077);
-    // Some starts that the table leaves to the curve, singly and in arrays.
+    // For some starts a table uses the curve. Compare them singly and in arrays.
     for (std::size_t i : {3U, 4U, 11'000U, 20'076U}) starts.v0[i] = i % 2 == 0 ? -1 : 1e-300;
     for (std::size_t i : {4U, 500U, 12'001U}) starts.u0[i] = i % 2 == 0 ? infinity : 1e300;
     const auto whole = evaluated(table, starts);
@@ -235,7 +235,7 @@ TEST_CASE("bodies and speeds at the ends of the double range", "[stop_time_table
       CAPTURE(law.name(), mu);
       const ReducedSystem system(law, mu, homogeneous_ball);
       const StopTimeTable table(system);
-      // Starts that differ by a power of two, in the middle of the range of doubles and near its ends.
+      // Starts that differ by a power of two lie in the middle of the range of doubles, and near its ends.
       for (int power : {-1030, -950, -850, 850, 950, 1000}) {
         const double scaled = table(std::ldexp(1.3, power), std::ldexp(0.7, power));
         const double u = std::ldexp(std::ldexp(1.3, power), -power), v = std::ldexp(std::ldexp(0.7, power), -power);

@@ -41,7 +41,7 @@ TEST_CASE("stop times of any mu, against 40 digits", "[stop_times_of_mu][table]"
 
 namespace {
 
-/// Starts with a mu of their own: mu from 0.001, or from 1e-9, to 1; k from 1e-10 to 1e10, or near 1.
+/// Starts, each with its own mu. mu lies between 0.001 or 1e-9 and 1; k lies between 1e-10 and 1e10, or near 1.
 struct Rows {
   struct Row {
     double mu;
@@ -117,7 +117,7 @@ TEST_CASE("gradients of any mu are those of its flow", "[stop_times_of_mu][gradi
   for (const Law& law : laws_and_tables()) {
     for (double drive : {0.0, 0.1}) {
       const StopTimesOfMu stop_time(law, homogeneous_ball, drive);
-      // Slopes by differences, which a drive needs, have fewer digits.
+      // A drive needs slopes by differences, which have fewer digits.
       const double allowed = (law.as<HertzLaw>() || law.as<PadeLaw>() ? 1e-13 : drive > 0 ? 1e-8 : 1e-13);
       Rows rows(9);
       double worst = 0, worst_of_u = 0;
@@ -141,7 +141,7 @@ TEST_CASE("gradients of any mu are those of its flow", "[stop_times_of_mu][gradi
           }
         }
         worst_of_u = std::max(worst_of_u, std::abs(found.by_u / wanted.by_u - 1));
-        alone += mu < 0.75 && stop_time.solves_alone(mu, start, true) ? 1 : 0;  // beyond, the ring has a ray
+        alone += mu < 0.75 && stop_time.solves_alone(mu, start, true) ? 1 : 0;  // above 0.75 the ring has a ray
       }
       CAPTURE(law.name(), drive, where);
       CHECK(worst <= allowed);

@@ -1,4 +1,4 @@
-// The slopes of laws are compared with differences of the laws themselves.
+// The slopes of laws are compared with differences of the values of the laws.
 #include "contensou/reduction/tangent.hpp"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ TEST_CASE("the tangent of every law is that of its curve", "[laws]") {
       CHECK(force_slope == Approx(expected.force_slope).epsilon(0).margin(3e-9));
       CHECK(moment_slope == Approx(expected.moment_slope).epsilon(0).margin(3e-9));
       CHECK(force_slope >= -1e-9);
-      if (law.name() != "pade")  // the only law without a potential
+      if (law.name() != "pade")  // Pade is the only law without a potential
         CHECK(slip.sliding * force_slope == Approx(slip.pivoting * moment_slope).epsilon(0).margin(1e-9));
     }
   }
@@ -72,12 +72,12 @@ TEST_CASE("slopes at both ends and at k = 1 in closed form", "[laws][limit]") {
     for (double ratio : {0.0, 1e-12, 3e-6, 1e-5}) {
       CAPTURE(law.name(), ratio);
       CHECK(tangent_of(law)({ratio, 1}).force_slope == Approx(law.force_slope()).epsilon(1e-4));
-      if (law.name() == "pade") continue;  // Phi and Psi of this law are not smooth there
+      if (law.name() == "pade") continue;  // here Phi and Psi of Pade are not smooth
       CHECK(tangent_of(law)({1, ratio}).force_slope == Approx(0).epsilon(0).margin(1e-5));
       CHECK(tangent_of(law)({ratio, 1}).moment_slope == Approx(ratio * law.force_slope()).epsilon(0).margin(1e-9));
     }
   }
-  // The two formulas for the slope of the exact law agree at the place where they meet.
+  // The slope of the exact law has two formulas. They must agree at the place where one replaces the other.
   const double below = tangent_of(HertzLaw{})({std::nextafter(8, 0), 1}).moment_slope;
   CHECK(tangent_of(HertzLaw{})({8, 1}).moment_slope == Approx(below).epsilon(1e-11));
   CHECK(tangent_of(HertzLaw{})({std::nextafter(1, 2), 1}).moment_slope == Approx(3 * pi / 32).epsilon(1e-12));

@@ -16,7 +16,7 @@ using namespace contensou::reduction;
 
 namespace {
 
-/// Returns the end of a law and an r for which there is only one.
+/// Returns the only end of a law for this r.
 TerminalRatio end_of(const Law& law, double r) {
   const TerminalRatios ratios = terminal_ratios(law, r);
   REQUIRE(ratios.ends.size() == 1);
@@ -27,7 +27,7 @@ TerminalRatio end_of(const Law& law, double r) {
 
 TEST_CASE("published and closed terminal ratios", "[terminal_ratio][table]") {
   const auto ratio = [](const char* law, double r) { return end_of(*find_law(law), r).k; };
-  // Reference for a uniform disc on its own face: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
+  // Reference for a flat uniform disc: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302 (2003).
   CHECK(ratio("uniform", 2) == Approx(0.653001789205597639).epsilon(1e-14));
   CHECK(ratio("uniform", 3) == Approx(1).epsilon(1e-14));
   CHECK(ratio("ring", 1) == Approx(1).epsilon(1e-14));
@@ -88,12 +88,12 @@ TEST_CASE("Phi/(k Psi) need not grow: every ray is found", "[terminal_ratio]") {
   }
 }
 
-// reduction/README.md (R40).
+// Tests (R40) of reduction/README.md.
 TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just above", "[terminal_ratio][limit]") {
   std::mt19937 random(40);
   std::uniform_real_distribution<double> share(0, 1);
   for (int table = 0; table < 20; ++table) {
-    // Pressures with steps between random radii, most of them narrow peaks. Every fourth table is a ring at the rim.
+    // Pressures have steps at random radii; most of them are narrow peaks. Every fourth table is a ring at the rim.
     Eigen::ArrayXd rho(6), pressure(6);
     for (double& each : rho) each = share(random);
     if (table % 4 == 0) rho.tail(2) << 1 - 1e-3 * share(random), 1;
@@ -120,7 +120,7 @@ TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just 
 
 TEST_CASE("a ray that Phi/(k Psi) only touches attracts from one side", "[terminal_ratio][limit]") {
   const Law law = contensou::tests::OcticLaw{};
-  // Find the minimum of r by golden section.
+  // Find the minimum of r over k by golden section.
   const auto ratio = [&](double k) { return law({k, 1}).force / (k * law({k, 1}).moment); };
   double low = 0.1, high = 0.2;
   for (int i = 0; i < 80; ++i) {
@@ -139,13 +139,13 @@ TEST_CASE("a ray next to an axis is as accurate as it says", "[terminal_ratio][l
   for (double gap : {1e-3, 1e-6, 1e-9}) {
     const double r = 2 * (1 + gap), far_r = 5 * (1 - gap);
     const InvariantRay ray = terminal_ratios(HertzLaw{}, r).rays.at(0);
-    // 4 (4 - s) = r (8 - 8 s + 3 s^2), s = k^2; the smaller root without subtraction, r - 2 = 2 gap.
+    // k* solves 4 (4 - s) = r (8 - 8 s + 3 s^2), s = k^2. The smaller root needs no subtraction; r - 2 = 2 gap.
     const double b = 8 * r - 4, c = 8 * (r - 2);
     const double s = 2 * c / (b + std::sqrt(b * b - 12 * r * c));
     CAPTURE(gap, ray.accuracy);
     CHECK(std::abs(ray.k / std::sqrt(s) - 1) <= ray.accuracy);
     CHECK(ray.accuracy < 1e-14 / gap);
-    // A + B k = 0, (R8).
+    // Under the Pade law k* solves A + B k = 0, (R8).
     for (double r_pade : {r, far_r}) {
       const InvariantRay pade = terminal_ratios(PadeLaw{}, r_pade).rays.at(0);
       CHECK(std::abs(pade.k / (8 * (r_pade - 2) / (3 * std::acos(-1.0) * (5 - r_pade))) - 1) <= pade.accuracy);

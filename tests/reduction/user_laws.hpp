@@ -8,7 +8,7 @@
 
 namespace contensou::tests {
 
-/// The simplest law of a user, one function: Phi = k/sqrt(c^2 + k^2), Psi = c^2/sqrt(c^2 + k^2).
+/// The simplest law of a user, a single function: Phi = k/sqrt(c^2 + k^2), Psi = c^2/sqrt(c^2 + k^2).
 struct RootLaw {
   double c = 0.8;
 
@@ -23,7 +23,7 @@ struct Impostor : reduction::HertzLaw {
   static constexpr std::string_view name = "pade";
 };
 
-/// A law that has only the call operator of another law. Closed form, bounds and deficits of the other law are hidden.
+/// A law that has only the call operator of another law. Its closed form, bounds and deficits are hidden.
 template <class L>
 struct CallOnly {
   L law{};

@@ -31,7 +31,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// Friction that depends on the speeds, not only on their ratio, but so little that it passes the tests of Law.
+/// Friction that depends on the speeds, not only on their ratio. The dependence is too small for the tests of Law.
 struct SpeedDependent : HertzLaw {
   Resistance operator()(Slip slip) const {
     auto [force, moment] = HertzLaw::operator()(slip);
@@ -52,7 +52,7 @@ struct ShareTooSmall : PadeLaw {
   static constexpr SlidingBounds sliding_bounds{1, 1.01};
 };
 
-/// Coulomb friction that states the bound of the Pade law.
+/// Coulomb friction with the bound that only the Pade law satisfies.
 struct WrongSide : HertzLaw {
   static constexpr SlidingBounds sliding_bounds{1, 2.5};
 };
@@ -77,10 +77,10 @@ Names failing(const Law& law) { return failing(verify(ReducedSystem(law, 0.3), s
 
 Names failing(const Flow& flow, const std::vector<State>& starts = {start}) { return failing(verify(flow, starts)); }
 
-/// Returns the flow of the Pade law with a curve that returns false values.
+/// Returns a flow of the Pade law whose curve returns false values.
 Flow pade_lie(CurveLie lie) { return lying_flow(ReducedSystem(PadeLaw{}, 0.3), std::move(lie)); }
 
-/// Returns the failed checks for the exact law if ln w is false at k = 0.3.
+/// Returns the checks that fail for the exact law if ln w is false at k = 0.3.
 Names failing_inside(const std::function<double(double truth)>& lie) {
   return failing(lying_flow(ReducedSystem(HertzLaw{}, 0.3), {.ln_w = [&](double ln_k, double truth) {
                               return ln_k == std::log(0.3) ? lie(truth) : truth;
@@ -190,8 +190,8 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
                                   {1e-320, 1},
                                   {5e-324, 5e-324}});
     }
-    // Failures found with mu = 0.907, k0 = 6e16, Pade: a tail shorter than rounding was reported as the limit; and with
-    // mu = 0.5, k0 = 1.1e15: the step to k = 1 was measured by differences of the time, which were only rounding.
+    // Two starts under Pade once failed. For mu = 0.907, k0 = 6e16, a tail shorter than rounding was reported as the
+    // limit. For mu = 0.5, k0 = 1.1e15, differences of time measured the step to k = 1 and were only rounding.
     for (double mu : {1e-3, 0.174, 0.502, 0.907, 1.0, 1.4}) {
       all_pass({law, mu, homogeneous_ball}, at_ratios(1, mu, {1e-4, 1.3, 1e6, 1e10, 1.1e15, 6e16, 7e18, 1e25}));
     }
@@ -207,14 +207,14 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
   }
   // For a small Psi(0), the spin below which sliding counted as pure lasted for 1.6e-13 of the stop time.
   all_pass({*find_law("elliptic:0.00623"), 1, {1, 1}}, {{0.0020000208071526463, 48.03878888948412}});
-  // A step that ended on the ray itself, where beta is infinite, gave NaN.
+  // A step that ended exactly on the ray, where beta is infinite, once gave NaN.
   all_pass({*find_law("ring"), 1}, {{1, 1}, {1, 3}});
   // The last step up to k = 1, where the ring's law has a logarithm, had an error of 4e-10. Fehlberg's estimate did not
-  // detect it, and a correct start failed.
+  // show this error, so the check of a correct start failed.
   all_pass({*find_law("ring"), 1, {1, 2}}, {{-8.844036090085774e+24, 3.822494201173439e+22}});
 }
 
-// Pressures with steps and annuli.
+// The pressures have steps, and some are annuli.
 TEST_CASE("every check holds under a table with steps", "[verification][invariant]") {
   const auto table = [](const Eigen::ArrayXd& rho, const Eigen::ArrayXd& pressure) {
     return TabulatedPressureLaw("table", rho, pressure);
@@ -268,7 +268,7 @@ TEST_CASE("each lie is caught, and each check catches one", "[verification]") {
   CHECK(failing(HertzLaw{}).empty());
 }
 
-// std::max(worst, NaN) returns worst, so a NaN could be lost on the way to its row.
+// std::max(worst, NaN) returns worst. Therefore a NaN of one check could vanish before the table shows it.
 TEST_CASE("not a number counts as failed", "[verification]") {
   CHECK_FALSE(Check{"row", not_a_number, 1e-10}.passed());
   CHECK(Check{"row", 1e-10, 1e-10}.passed());
@@ -288,7 +288,7 @@ TEST_CASE("not a number counts as failed", "[verification]") {
   CHECK(share.contains("limit of pure pivoting"));
   CHECK(failing_inside([](double) { return not_a_number; }) == Names{"elementary orbit for k <= 1"});
 
-  // A NaN is not lost among several starts, in whatever order.
+  // A NaN must not vanish among several starts, in any order of the starts.
   const State fast{1, 1e9};
   const CurveLie lost_fast{
       .beta_coefficient = [](double ln_k, double truth) { return ln_k > 10 ? not_a_number : truth; }};
@@ -296,7 +296,7 @@ TEST_CASE("not a number counts as failed", "[verification]") {
   CHECK(failing(pade_lie(lost_fast), {fast, start}) == Names{"beta(k) against (2.8)"});
 }
 
-// The name of a law has no effect: the law is checked by its type, with the routes that this type has.
+// The name of a law has no effect. The type of the law determines the routes that are checked.
 TEST_CASE("the exact law by the name of the other is the exact law", "[verification][route]") {
   const ReducedSystem impostor(Impostor{}, 0.3);
   const ReducedSystem exact(HertzLaw{}, 0.3);

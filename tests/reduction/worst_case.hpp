@@ -14,8 +14,8 @@ namespace contensou::tests {
 
 /// The worst of many comparisons, and the case in which it occurred.
 ///
-/// Errors are in eps = 2^-52 of the wanted number (or of a scale that the caller gives), like the bounds in the
-/// headers. With the option -s the test prints the measured errors.
+/// Errors are given in eps = 2^-52 of the wanted number (or of a scale that the caller gives), like the bounds in the
+/// headers. The option -s makes the test print the measured errors.
 class WorstCase {
  public:
   explicit WorstCase(std::string what) : what_(std::move(what)) {}
@@ -65,7 +65,7 @@ class WorstCase {
 
 }  // namespace contensou::tests
 
-/// Fails, with the worst case in the message, unless every error is at most `bound` eps; also if nothing was compared.
+/// Fails, with the worst case in the message, if an error is above `bound` eps, or if nothing was compared.
 #define CHECK_WITHIN_EPS(worst_case, bound) \
   do {                                      \
     INFO((worst_case).sentence());          \

@@ -1,4 +1,4 @@
-// This file is separate because GCC 12 takes an operator delete that it can inline for a mismatched one.
+// A file of its own prevents inlining: GCC 12 would report an inlined operator delete as a mismatch of operator new.
 #include "allocations.hpp"
 
 #include <atomic>

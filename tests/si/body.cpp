@@ -38,12 +38,12 @@ TEST_CASE("a ball of inertia c m R^2 that slides without spin ends at v0/(1 + c)
     CHECK(end.position.x() == Approx(2 * stop - deceleration * stop * stop / 2).epsilon(1e-13));
     CHECK(final_motion(experiment).velocity.x() == Approx(2 / (1 + c)).epsilon(1e-14));
     CHECK(end.energy == Approx(0.1701 / 2 * (1 + c) * std::pow(2 / (1 + c), 2)).epsilon(1e-13));
-    // Without slip the spin falls at f N eps Psi(0)/(c m R^2).
+    // Without slip the spin falls at the rate f N eps Psi(0)/(c m R^2); c is the moment of inertia divided by m R^2.
     experiment.start = SlipAndSpin{.slip = 0, .spin = 50};
     experiment.contact.patch = PatchRadius{2e-3};
     const double rate = deceleration * 2e-3 * law.pivoting_moment() / (c * std::pow(experiment.ball.radius, 2));
     CHECK(Motion::reduced(experiment, law).stop_time() == Approx(50 / rate).epsilon(1e-14));
-    // Struck at the height 1 + c above the table, in radii, the ball rolls at once.
+    // A stroke at the height c above the centre, in radii, makes a ball roll at once. At c/2 the spin is half as large.
     const Velocities rolling = struck(experiment.ball, {.speed = 1, .right = 0, .above = c / 2, .elevation = 0});
     CHECK(experiment.ball.radius * rolling.angular_velocity.y() == Approx(rolling.velocity.x() / 2).epsilon(1e-14));
   }
@@ -87,7 +87,7 @@ TEST_CASE("rolling resistance slows a ball of any inertia at u_r g while it roll
 
 TEST_CASE("a disc on a small patch goes as far as its contact slides, and stands still from the stop on",
           "[invariant]") {
-  // The body slides for long at a small share of its slip. The path is v0 t minus the loss.
+  // The body slides for a long time with a small share of its first slip. The path is v0 t minus the lost distance.
   Experiment experiment = find_ball("puck")->experiment;
   experiment.contact.patch = PatchRadius{1e-9};
   const reduction::Law law = *reduction::find_law("uniform");

@@ -43,7 +43,7 @@ TEST_CASE("a ball without spin leaves as textbooks say: f (1 + e) v_n, or 2/7 of
       CHECK(end.grip == Approx(slip / (3.5 * 0.3)).epsilon(1e-13));
     }
   }
-  // Topspin that is faster than the centre drives the ball forward. A shell gains 2/5 of the slip.
+  // Topspin faster than rolling drives the ball forward. A shell gains 2/5 of its slip as velocity.
   const Rebound topspin = bounce(coming("basketball", 5e-3, {{1, 0}, {0, 30, 0}}), law, {2, 0.5}, 0);
   CHECK(topspin.velocities.velocity.x() == Approx(1 + 2.0 / 5 * (30 * 0.121 - 1)).epsilon(1e-12));
 }
@@ -60,7 +60,7 @@ TEST_CASE("spin takes from the grip: 0.2857, 0.2605, 0.2316, 0.1805 m/s", "[boun
 TEST_CASE("the textbook's force and moment act each for itself, of a spinning ball, too", "[bounce]") {
   const reduction::Law law = *reduction::find_law("exact");
   const Rebound end = uncoupled_bounce(coming("pool", 2.83e-3, {{1, 0}, {0, 0, 100}}), law, slow);
-  CHECK(1 - end.velocities.velocity.x() == Approx(2.0 / 7).epsilon(1e-12));  // as without spin
+  CHECK(1 - end.velocities.velocity.x() == Approx(2.0 / 7).epsilon(1e-12));  // the spin does not change the result
   const double impulse = 1.5, moment = 0.2 * 2.83e-3 * 3 * std::numbers::pi / 16;
   CHECK(100 - end.velocities.angular_velocity.z() ==
         Approx(2.5 * moment * impulse / (0.028575 * 0.028575)).epsilon(1e-9));
@@ -71,7 +71,7 @@ TEST_CASE("however the load comes and goes, its impulse counts", "[bounce][route
   const Experiment ball = coming("pool", 2.83e-3, {{1, 0.5}, {3, -20, 300}});
   const Impact hard{.normal_speed = 4, .restitution = 0.7};
   const Rebound end = bounce(ball, law, hard);
-  // The load consists of two uneven ramps within 3 ms, with the impulse m (1 + e) v_n.
+  // The load is a triangle with two unequal sides. It lasts 3 ms and has the impulse m (1 + e) v_n.
   const double peak = hard.impulse() * ball.ball.mass / 1.5e-3;
   Experiment pressed = ball;
   constexpr double first = 1;
@@ -90,7 +90,7 @@ TEST_CASE("the patch of an elastic impact, a mean over the impulse, against step
       [](double w) { return std::pow(1 - w * w, 0.2); }, 0.0, 1.0);
   const HertzModuli moduli = std::get<HertzModuli>(find_ball("steel")->experiment.contact.patch);
   const double m = 0.0327, R = 0.01, v = 2, E = effective_modulus(moduli);
-  // The deepest dent follows from the energy: m v^2/2 = (8/15) E sqrt(R) d^(5/2).
+  // The largest depth d of the dent follows from the energy: m v^2/2 = (8/15) E sqrt(R) d^(5/2).
   const double dent = std::pow(15 * m * v * v / (16 * E * std::sqrt(R)), 0.4);
   CHECK(hertz_impact_patch_radius(m, v, R, moduli) == Approx(integral * std::sqrt(R * dent)).epsilon(1e-12));
 

@@ -18,7 +18,7 @@ TEST_CASE("patches of the built-in balls", "[table]") {
     double patch;  // m
     double mu;
   };
-  // theory: Hertz's formula and the spin deceleration, rounded to three digits there
+  // Values of the theory, rounded to three digits: from Hertz's formula and from the spin deceleration.
   const std::vector<Row> rows{{"pool", 2.83e-3, 0.099},     {"steel", 3.51e-5, 0.0035},
                               {"bowling", 1.33e-3, 0.0123}, {"rubber", 1.71e-3, 0.0685},
                               {"gel", 7.24e-3, 0.241},      {"basketball", 5.84e-3, 0.0483},
@@ -56,7 +56,7 @@ TEST_CASE("the Hertz radius grows with the cube root of load and radius", "[symm
 TEST_CASE("of two spheres Hertz's patch is that of their relative curvature", "[table]") {
   const HertzModuli plane{.youngs_modulus = {2.1e11, 7.0e10}, .poisson_ratio = {0.3, 0.22}};
   HertzModuli sphere = plane, dish = plane;
-  sphere.counter_radius = 0.01;  // as the ball; R' is half its radius
+  sphere.counter_radius = 0.01;  // radius of the ball, so R' is half of it
   dish.counter_radius = -0.03;   // 1/R' = 1/0.01 - 1/0.03
   CHECK(hertz_patch_radius(0.3, 0.01, sphere) == Approx(hertz_patch_radius(0.3, 0.005, plane)).epsilon(1e-15));
   CHECK(hertz_patch_radius(0.3, 0.01, dish) == Approx(hertz_patch_radius(0.3, 0.015, plane)).epsilon(1e-15));
@@ -70,8 +70,8 @@ TEST_CASE("of two spheres Hertz's patch is that of their relative curvature", "[
 }
 
 TEST_CASE("a curling stone's spin dies out as measured", "[table]") {
-  // Fitted by DigitalCurling (simulator_fcv1.cpp): friction 0.00200985/(v + 0.06385782) + 0.00626286, and
-  // domega/dt = -0.025/v. The coupled friction of a thin band has no parameter for the second.
+  // DigitalCurling (simulator_fcv1.cpp) contains two fits: friction 0.00200985/(v + 0.06385782) + 0.00626286, and
+  // domega/dt = -0.025/v. The coupled friction of a thin band has no parameter for domega/dt.
   const Experiment& stone = find_ball("curling-stone")->experiment;
   const contensou::reduction::Law ring = *contensou::reduction::find_law(law_of(stone));
   CHECK(ring.name() == "ring");

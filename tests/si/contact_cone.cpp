@@ -25,8 +25,8 @@ Experiment gel(double slip, double spin) {
   return experiment;
 }
 
-/// Computes the times from the cone and the principle of greatest dissipation alone. The point of the cone's border
-/// with the greatest power is searched for and acts for two microseconds; then the search is repeated.
+/// Computes the times from the cone and the principle of greatest dissipation alone. A search finds the point of the
+/// cone's border with the greatest power. It acts for two microseconds; then the search is repeated.
 FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) {
   struct Point {
     double force, moment;  // divided by f N and by c N
@@ -67,7 +67,7 @@ TEST_CASE("under a cone acts what dissipates most", "[route]") {
     double slip, spin;
   };
   for (const Cone cone : {Cone::elliptic, Cone::box, Cone::pyramid}) {
-    // Starts with more slip than (c/f) omega, with less, with so little that it is frozen, and with hardly any spin.
+    // Starts: slip above (c/f) omega; slip below it; slip so small that it is frozen; hardly any spin.
     for (const auto& [slip, spin] : {Start{0.5, 30}, Start{0.05, -30}, Start{1e-4, 20}, Start{0.3, 0.05}}) {
       const Experiment experiment = gel(slip, spin);
       const FadeTimes found = by_search(experiment, cone, arm);
@@ -83,8 +83,8 @@ TEST_CASE("under a cone acts what dissipates most", "[route]") {
 
 namespace {
 
-/// Integrates, in steps like an engine, a disc of radius a on four contact points at `arm` from its middle, each with a
-/// quarter of the load.
+/// Integrates a disc of radius a in steps, like an engine. The disc stands on four contact points at the distance `arm`
+/// from its middle. Each point carries a quarter of the load.
 /// @param twist  true: one row for the slip and one for the spin, bounded separately; false: friction at each point
 FadeTimes in_steps(const Experiment& puck, double arm, bool twist) {
   const double f = puck.contact.friction, a = puck.ball.radius, g = puck.environment.gravity;
@@ -188,7 +188,7 @@ TEST_CASE("slip and spin under a pyramid fade when fade_times says", "[analytic]
     const SlipAndSpin later = speeds_under_pyramid(experiment, arm, 9);
     CHECK((later.slip == 0 && later.spin == 0));
   }
-  // The spin is frozen while k > 1. Then slip and spin fall together.
+  // The spin is frozen while k > 1. Later slip and spin fall together.
   const Experiment fast = gel(1, 100);
   CHECK(speeds_under_pyramid(fast, arm, 0.02).spin == Approx(100).epsilon(1e-15));
   const SlipAndSpin together = speeds_under_pyramid(fast, arm, 0.2);

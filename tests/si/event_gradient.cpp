@@ -1,4 +1,4 @@
-// Derivatives of a roll's events are compared with the algebra of (R61) and of the first integrals, by the chain rule.
+// Derivatives of the events of a roll are compared with (R61) and the first integrals, by the chain rule.
 #include "contensou/si/event_gradient.hpp"
 
 #include <cmath>
@@ -27,7 +27,7 @@ Experiment gel_shot() {
   return experiment;
 }
 
-/// The exact change of the events t, x, y with a change of start and friction. R, the patch and gravity are constant.
+/// The exact derivative of the events t, x, y by a change of start and friction. R, the patch and gravity are constant.
 class Exact {
  public:
   Exact(const Experiment& experiment, const Velocities& change, double by_friction)
@@ -131,7 +131,7 @@ TEST_CASE("the stop time changes with the patch and with R as the exact gradient
 }
 
 TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", "[invariant]") {
-  // A ball that already rolls loses u_r g per second: t = V/(u_r g), x = V^2/(2 u_r g). Its spin changes neither.
+  // A rolling ball loses u_r g per second: t = V/(u_r g), x = V^2/(2 u_r g). The spin changes neither of them.
   Experiment experiment = gel_shot();
   experiment.contact.rolling_friction = 0.01;
   const double V = 0.6, R = experiment.ball.radius, g = experiment.environment.gravity;
@@ -142,8 +142,8 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   const auto names = numbers.names();
   CHECK(names.size() == 13);
   CHECK(names[6].event == "rest");
-  // Without spin the ball slides at (f - u_r) chi g, then rolls. Its centre slows down at (f - u_r) g + u_r g, then at
-  // u_r g.
+  // Without spin the slip falls at the rate (f - u_r) chi g until the ball rolls. The centre slows down at the rate (f
+  // - u_r) g + u_r g before this time, and at u_r g after it.
   const double v = 0.5, f = experiment.contact.friction, chi = experiment.ball.body.inertia.chi, u_r = 0.01;
   const auto rest_time = [&](double friction_there, double resisting) {
     const double slides = v / (chi * (friction_there - resisting) * g);
@@ -159,7 +159,7 @@ TEST_CASE("a ball with rolling friction: its rest, and what has no derivative", 
   CHECK(gradient.slopes.cols() == static_cast<Eigen::Index>(gradient.by.size()));
 }
 
-// References by differences of an integration in Python that shares no code with this one, accurate to 1e-9.
+// References: differences of an integration in Python that shares no code with the library, accurate to 1e-9.
 TEST_CASE("a ball that slides across its roll: what its rest changes with", "[reference]") {
   Experiment experiment = find_ball("pool")->experiment;
   experiment.contact.patch = PatchRadius{0.0028270315380884551};

@@ -32,10 +32,10 @@ TEST_CASE("friction takes m v0^2/7 by sliding and m u0^2/5 by pivoting, under an
       const Experiment experiment = experiment_of(motion_cases[2], mu);
       const Motion in_steps = Motion::in_steps(experiment, law);
       const double stop = in_steps.stop_time();
-      // The powers of both frictions, (f N) Phi v and (f N eps) Psi |omega_z|, are summed along the integration.
+      // The power (f N) Phi v of sliding and the power (f N eps) Psi |omega_z| of spinning are integrated over time.
       const double load = experiment.contact.friction * experiment.ball.mass * experiment.environment.gravity;
       const double eps = patch_radius_of(experiment, law);
-      // Simpson's rule in s, t = stop s^4, which resolves the beginning, where the ball slides.
+      // Use Simpson's rule in s, with t = stop s^4. Its points are dense at the beginning, where the ball slides.
       constexpr Eigen::Index panels = 4000;
       const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(panels + 1, 0, 1);
       const Eigen::ArrayXd times = stop * s.pow(4);

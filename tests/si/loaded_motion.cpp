@@ -57,7 +57,7 @@ TEST_CASE("the clock of a load is its impulse", "[table]") {
 TEST_CASE("a puck without spin under a growing load, in closed form", "[table]") {
   const Experiment puck = pressed("puck", {.slip = 1, .spin = 0});
   const Motion motion = Motion::reduced(puck, *reduction::find_law("uniform"), LoadHistory({0, 1}, {2, 4}));
-  const double a = 0.1 / 0.163;  // f/m
+  const double a = 0.1 / 0.163;  // f divided by the mass
   for (double t : {0.1, 0.4}) {
     const MotionPoint at = motion.at(t);
     CHECK(at.slip == Approx(1 - a * (2 * t + t * t)).epsilon(1e-14));
@@ -81,7 +81,7 @@ TEST_CASE("a constant load is that load, and a load as large again one of half t
   Experiment heavier = ball;
   heavier.environment = {.gravity = 4 / ball.ball.mass, .load = 4};
   const Motion twice = Motion::reduced(heavier, law);
-  // A load of 2 N that lasts for no time.
+  // A load of 2 N that lasts for no time at all.
   const Motion doubled = Motion::reduced(ball, law, LoadHistory({0, 0, 1}, {2, 4, 4}));
   for (double share : {0.01, 0.1, 0.6, 1.2}) {
     for (const auto& [one, other] :
@@ -108,7 +108,7 @@ TEST_CASE("a load that comes and goes, against the equations of motion in steps"
     const double eps = patch_radius_of(body, law), R = body.ball.radius,
                  f_over_m = body.contact.friction / body.ball.mass;
     const double chi = body.ball.body.inertia.chi, gamma = body.ball.body.inertia.gamma;
-    // v, omega, slip length and angle, by the method of Runge and Kutta, for each part of the load.
+    // The state is v, omega, slip length and angle. Runge and Kutta's method integrates each part of the load.
     using State = std::array<double, 4>;
     const auto rate = [&](const State& s, double load) {
       const auto [force, moment] = law(reduction::Slip{std::max(0.0, s[0]), eps * s[1]});

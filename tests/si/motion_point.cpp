@@ -43,10 +43,10 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(rolling.x() == Approx(R * turning.y()).epsilon(1e-15));
   CHECK(rolling.y() == Approx(-R * turning.x()).epsilon(1e-15));
   CHECK(turning.z() == 0);
-  // The angular momentum about any point of the plane is constant: m R V + J omega in the direction across V.
+  // The angular momentum about any point of the plane is constant: m R V + J omega; omega is its part across V.
   CHECK(rolling.x() + 0.4 * R * turning.y() == Approx(1 + 0.4 * R * -30).epsilon(1e-15));
   CHECK(rolling.y() - 0.4 * R * turning.x() == Approx(0.5 - 0.4 * R * 20).epsilon(1e-15));
-  // The two forms of a start agree.
+  // A start by velocities and a start by slip and spin give the same motion.
   experiment.start = Velocities{{2, 0}, {0, 0, 7}};
   const Velocities general = final_motion(experiment);
   experiment.start = SlipAndSpin{.slip = 2, .spin = 7};
@@ -63,12 +63,12 @@ TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[inv
   const MotionPoint end = motion.at(motion.stop_time());
   CHECK(end.velocity.norm() < 1e-14);
   CHECK(end.angular_velocity == Eigen::Vector3d::Zero());
-  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // it slides along its whole path
+  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // the ball slides along its whole path
   CHECK(final_motion(puck).velocity == Eigen::Vector2d::Zero());
   const auto [sliding, pivoting] = energy_loss(puck);
   CHECK(sliding == Approx(0.163 * 25 / 2).epsilon(1e-15));
   CHECK(sliding + pivoting == Approx(kinetic_energy(puck.ball, velocities_of(puck.start))).epsilon(1e-15));
-  // Power of friction: dE/dt = -f m g (Phi v + eps Psi |omega|), by a difference.
+  // Compare the power of friction, dE/dt = -f m g (Phi v + eps Psi |omega|), with a difference of the energy E.
   const double t = 0.4 * motion.stop_time(), dt = 1e-4;
   const MotionPoint at = motion.at(t);
   const double eps = patch_radius_of(puck, law);

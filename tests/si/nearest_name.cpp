@@ -15,7 +15,7 @@ TEST_CASE("the nearest name, and the suggestion of a message", "[table]") {
                                        {"bowlingball", ""},
                                        {"zebra", ""},
                                        {"", ""},
-                                       {"0u", "u0"}}) {  // swapped neighbours are one edit
+                                       {"0u", "u0"}}) {  // two swapped neighbours count as one edit
     CHECK(nearest_name(given, names) == nearest);
   }
   CHECK(nearest_name("pool", {}).empty());

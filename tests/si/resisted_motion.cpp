@@ -45,7 +45,7 @@ TEST_CASE("a ball without spin: slip v/(1 - u_r/f), then it slows down evenly", 
   CHECK(motion.slip_length() == Approx(slides / 2).epsilon(1e-13));
 }
 
-// Reference: an integration in Python of slip, rolling and spin in the plane of the motion. It is separate code.
+// Reference: an integration in Python of slip, rolling and spin in the plane of the motion. It shares no code with us.
 TEST_CASE("a pool ball with spin creeps, and turns no more before it rests", "[reference]") {
   const Motion motion = motion_of(pool(SlipAndSpin{1, 100}, 0.01));
   CHECK(motion.is_reduced());
@@ -64,7 +64,7 @@ TEST_CASE("a pool ball with spin creeps, and turns no more before it rests", "[r
 }
 
 TEST_CASE("without steps and in steps: one motion", "[route]") {
-  // Starts: slow and fast spin; a ball that already rolls; topspin short of rolling; a resistance that holds the ball.
+  // Starts: slow spin; fast spin; a rolling ball; topspin slower than rolling; a ball that resistance holds at first.
   const double R = pool(SlipAndSpin{1, 0}).ball.radius;
   const std::vector<std::pair<Start, double>> cases{{SlipAndSpin{1, 0}, 0.01},
                                                     {SlipAndSpin{1, 30}, 0.01},
@@ -94,8 +94,8 @@ TEST_CASE("without steps and in steps: one motion", "[route]") {
   }
 }
 
-// Reference for the rest: an integration in Python without common code, whose variable is ln|W| while the ball rolls
-// slowly.
+// Reference for the rest: an integration in Python that shares no code with ours. While the ball rolls slowly, its
+// variable is ln|W|.
 TEST_CASE("a ball that slides across its roll: rest and stop to the accuracy of the steps", "[reference][route]") {
   struct Row {
     Velocities start;
@@ -108,7 +108,7 @@ TEST_CASE("a ball that slides across its roll: rest and stop to the accuracy of 
     CAPTURE(u_r, rest);
     const Motion motion = motion_of(pool(start, u_r));
     CHECK(motion.rest()->t == Approx(rest).margin(1e-11));
-    // Continued from each of its instants, in other steps, the motion has the same end.
+    // A motion that begins at an instant of this motion has other steps but must have the same end.
     for (const double share : {0.1, 0.3, 0.9}) {
       const MotionPoint here = motion.at(share * rest);
       const Motion later = motion_of(pool(Velocities{here.velocity, here.angular_velocity}, u_r));
@@ -152,8 +152,8 @@ TEST_CASE("a ball that does not slide the way it rolls is integrated; without re
   }
 }
 
-// Friction slows the ball down at f g. Resistance slows its turning down at chi u_r g - (chi - 1) f g. It slides by the
-// difference.
+// Friction slows the ball down at the rate f g. Resistance slows its turning down at the rate chi u_r g - (chi - 1) f
+// g. The difference of both speeds is slip.
 TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole motion and the uncoupled one",
           "[formula]") {
   const double R = pool(SlipAndSpin{0, 0}).ball.radius, chi = 3.5;
@@ -185,7 +185,7 @@ TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole
       CHECK(near.slip_length() == Approx(there.slip_length()).epsilon(1e-5));
     }
   }
-  // Friction just suffices to hold the ball, so it rolls.
+  // Friction f N just suffices to keep the ball rolling.
   const Motion held = motion_of(pool(Velocities{{1, 0}, {0, 1 / R, 0}}, 0.2));
   CHECK(held.is_reduced());
   CHECK(held.slip_length() == 0);

@@ -21,7 +21,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-// toml++ reads numbers by streams if the library has no std::from_chars for doubles. Streams reject subnormal numbers.
+// toml++ reads numbers by streams, which reject subnormal numbers, if the library has no std::from_chars for doubles.
 #ifdef __cpp_lib_to_chars
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 #else
@@ -50,7 +50,7 @@ Description options(const Given& given) {
   return above;
 }
 
-/// Returns the experiment of a run file, with values of options in place of its own.
+/// Returns the experiment of a run file, in which values of options replace values of the file.
 Experiment read(const std::string& text, const std::string& source, const Given& given = {}) {
   return experiment_of(parse_run_file(text, source).under(options(given)));
 }
@@ -152,14 +152,14 @@ TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   CHECK(kept.velocity == Eigen::Vector2d(2, 3));
   CHECK(kept.angular_velocity == Eigen::Vector3d(0, 0, 100));
   CHECK(velocities_of(read(good, "x.toml", {{&angular_velocity, {4, 5, 6}}}).start).velocity == Eigen::Vector2d(1, 0));
-  // If both are given as options, [start] is not needed.
+  // If options give both slip and spin, the file needs no [start].
   const std::string without = good.substr(0, good.find("[start]"));
   const Given both{{&velocity, {2, 3}}, {&angular_velocity, {4, 5, 6}}};
   CHECK(velocities_of(read(without, "x.toml", both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
   CHECK_THROWS_WITH(
       read(without, "x.toml", {{&velocity, {2, 3}}}),
       "x.toml:1:1: 'angular_velocity' in [start] is missing: angular velocity about x, y and z (up), in rad/s");
-  // A slip or a spin replaces both velocities. The other one is computed from the velocities.
+  // An option for slip or spin replaces both velocities. The number without an option is computed from the velocities.
   const std::string general =
       with(with(good, "slip = 1.0", "velocity = [1, 2]"), "spin = 100", "angular_velocity = [10, 0, 7]");
   CHECK(std::get<SlipAndSpin>(read(general, "x.toml", {{&slip, {3}}, {&spin, {4}}}).start).spin == 4);
@@ -279,7 +279,7 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
   refused("a = " + repeated("{a = ", 40), "nested more than 16 deep");
   refused("[" + repeated("a.", 60000) + "b]", "too long for a run file, which has at most 65536 bytes");
 
-  // Strings and comments may contain all of these.
+  // Strings and comments may contain all these brackets.
   const std::string dots = repeated("([{.", 20);
   for (const std::string quotes : {"\"", "'"}) {
     const std::string named = with(good, "\"pool ball on cloth\"", quotes + dots + quotes + " # " + dots);
@@ -308,7 +308,7 @@ TEST_CASE("a load in place of gravity", "[table]") {
   CHECK(is_load(pressed("[environment]\nload = 3\n"), 3, 0.1701));
   CHECK(is_load(pressed("[environment]\nload = '3 kN'\n"), 3000, 0.1701));
   CHECK(is_load(pressed("", {{&load, {3}}, {&mass, {0.5}}}), 3, 0.5));
-  // The load of the command line replaces the file's, in either form.
+  // A load of the command line replaces the load of the file, whether the file gives a load or gravity.
   CHECK(is_load(pressed("[environment]\ngravity = 1.6\n", {{&load, {3}}, {&mass, {0.5}}}), 3, 0.5));
   CHECK(is_gravity(pressed("[environment]\nload = 3\n", {{&gravity, {1.6}}}), 1.6));
   CHECK(is_load(pressed("[environment]\nload = 3\n", {{&load, {5}}, {&mass, {0.5}}}), 5, 0.5));
@@ -319,7 +319,7 @@ TEST_CASE("a load in place of gravity", "[table]") {
   CHECK_THROWS_WITH(pressed("", {{&load, {3}}, {&gravity, {9.8}}}),
                     Contains("--gravity and --load exclude each other"));
   CHECK_THROWS_WITH(pressed("", {{&load, {1e308}}, {&mass, {1e-9}}}), Contains("gravity must be finite"));
-  // The load is written as a load.
+  // A description that contains a load is written with this load.
   const Experiment loaded = read(good + "[environment]\nload = 3\n", "x.toml");
   CHECK_THAT(run_file(loaded), Contains("load = 3  # N"));
   CHECK(is_load(read(run_file(loaded), "written").environment, 3, 0.1701));
@@ -351,15 +351,15 @@ gravity = 1.6
   CHECK_THROWS_WITH(read(good, "x.toml", {{&velocity, {-1.0}}}), Contains("--velocity must be 2 numbers"));
   CHECK_THROWS_WITH(read(good, "x.toml", {{&patch_radius, {1e-3}}, {&spin_deceleration, {3.0}}}),
                     Contains("--patch_radius and --spin_deceleration exclude each other"));
-  // A value that only the options give has no place in the file.
+  // A file cannot be shown as the place of a value that only an option gives.
   CHECK_THROWS_AS(read(good, "x.toml", {{&patch_radius, {1}}}), std::domain_error);
   CHECK_THROWS_WITH(read(good, "x.toml", {{&patch_radius, {1}}}), !Contains("x.toml"));
-  // A contradictory file is refused, even if options replace the values.
+  // A file with a contradiction is refused, even if options replace the contradictory values.
   const std::string two = with(good, "spin_deceleration = 10", "spin_deceleration = 10\npatch_radius = 1e-3");
   CHECK_THROWS_AS(read(two, "x.toml", {{&patch_radius, {2e-3}}}), RunFileError);
   const std::string none = with(good, "spin_deceleration = 10\n", "");
   CHECK(std::get<PatchRadius>(read(none, "x.toml", {{&patch_radius, {2e-3}}}).contact.patch).value == 2e-3);
-  // One modulus alone replaces one modulus, but no other kind of patch.
+  // An option for one modulus replaces only this modulus. It cannot replace a patch that is given in another way.
   const Experiment steel = find_ball("steel")->experiment;
   const Given rubber{{&youngs_modulus, {2e6, 2e11}}};
   const auto moduli = std::get<HertzModuli>(experiment_of(describe(steel).under(options(rubber))).contact.patch);
@@ -474,7 +474,7 @@ TEST_CASE("[uncertainty]: what the numbers are known to, and the same again from
   const std::string written = run_file(experiment);
   CHECK(run_file(read(written, "y.toml")) == written);
   CHECK_THAT(written, Contains("[uncertainty.correlation]\n"));
-  // A value that replaces the file's own has no spread. An equal value changes nothing.
+  // If an option replaces a number of the file, its spread is dropped. An option with an equal value changes nothing.
   CHECK(read(known, "x.toml", {{&slip, {2}}}).spreads.numbers.size() == 2);
   CHECK(read(known, "x.toml", {{&slip, {1}}}).spreads.numbers.size() == 3);
   CHECK(read(known, "x.toml", {{&velocity, {1, 0}}, {&angular_velocity, {0, 0, 1}}}).spreads.numbers.size() == 1);

@@ -40,7 +40,7 @@ Motion motion_on(const Experiment& experiment) { return Motion::reduced(experime
 /// x, y, vx, vy, wx, wy, wz of a rigid ball.
 using Rigid = std::array<double, 7>;
 
-/// Newton's and Euler's equations of a rigid ball. They use the force of a law, but no slip, rolling or reduction.
+/// Newton's and Euler's equations of a rigid ball. They contain the force of a law, but no slip, rolling or reduction.
 Rigid rates(const Experiment& experiment, const reduction::Law& law, const Rigid& x) {
   const double g = experiment.environment.gravity, alpha = radians(experiment.environment.slope);
   const double m = experiment.ball.mass, R = experiment.ball.radius, J = 0.4 * m * R * R, N = m * g * std::cos(alpha);
@@ -48,7 +48,7 @@ Rigid rates(const Experiment& experiment, const reduction::Law& law, const Rigid
   const double cx = x[2] - R * x[5], cy = x[3] + R * x[4], v = std::hypot(cx, cy);
   const auto [force, moment] = law({v, eps * std::abs(x[6])});
   const double Fx = v > 0 ? -f * N * force * cx / v : 0, Fy = v > 0 ? -f * N * force * cy / v : 0;
-  // Rolling resistance is a torque against the turning about a horizontal axis.
+  // Rolling resistance is a torque against the rotation about a horizontal axis.
   const double turning = std::hypot(x[4], x[5]);
   const double torque = 1.4 * experiment.contact.rolling_friction * N * R;
   const double tx = turning > 0 ? -torque * x[4] / turning : 0, ty = turning > 0 ? -torque * x[5] / turning : 0;
@@ -103,7 +103,7 @@ TEST_CASE("a ball without spin on a slope, in closed form", "[formula][slope]") 
       CHECK(motion.stop_time() == Approx(slides).epsilon(exact));
       const double speed = 1 - (f * std::cos(alpha) + std::sin(alpha)) * g * slides;
       CHECK(motion.at(slides).velocity.x() == Approx(speed).epsilon(10 * exact));
-      // Then the ball rolls uphill until it turns round or rests.
+      // After the slide, the ball rolls uphill until it turns round or rests.
       const double up = (5.0 / 7 * std::sin(alpha) + u_r * std::cos(alpha)) * g;
       const double half = 0.5 * (up > 0 ? speed / up : 1);
       CHECK(motion.at(slides + half).velocity.x() == Approx(speed - up * half).epsilon(10 * exact));
@@ -126,7 +126,7 @@ TEST_CASE("slip and spin end as a drive of 2 tan(angle)/(7 f) has it", "[formula
   CHECK(motion_on(experiment).stop_time() == Approx(t).epsilon(1e-14));
   CHECK(motion_on(experiment).creep_ratio().value() ==
         Approx(reduction::Flow(system).terminal().rays.at(0).k).epsilon(1e-14));
-  // A puck has chi = 1, and its pull does not drive any rolling.
+  // A puck has chi = 1. The pull of the slope does not make it roll.
   const Experiment puck = ball_on(-2, SlipAndSpin{5, 100}, 0, "puck");
   CHECK(reduced_system(puck, hertz()).drive() == Approx(std::tan(radians(2)) / puck.contact.friction).epsilon(1e-15));
 }
@@ -173,7 +173,7 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
     const double slip = uniform(0, 1) < 0.2 ? 0 : uniform(0, 2), spin = uniform(-1, 1) * 2 / R;
     if (flat || uniform(0, 1) < 0.6) {
       experiment.start = SlipAndSpin{slip, spin};
-    } else {  // it also rolls
+    } else {  // a ball, which also rolls
       const double rolls = uniform(0, 0.5);
       experiment.start = Velocities{{slip + rolls, 0}, {0, rolls / R, spin}};
     }
@@ -182,7 +182,7 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
            << experiment.environment.slope << ", slip " << slip << ", R spin " << R * spin << ", mu "
            << patch_ratio(experiment, law) << ", pieces " << reduced.pieces().size());
     CHECK_FALSE(in_steps.is_reduced());
-    if (!reduced.is_reduced()) continue;  // the body rolls, and rolling resistance is larger than friction
+    if (!reduced.is_reduced()) continue;  // this body rolls, and its resistance exceeds friction
     several += reduced.pieces().size() > 1;
     held_first += !flat && !reduced.pieces().empty() && !reduced.pieces().front().turns;
     const double stop = reduced.stop_time(), size = 2 + 10 * stop;
@@ -202,13 +202,13 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
 }
 
 // Reference: Newton's and Euler's equations by SciPy's Radau, with friction and resistance regularised below 1e-7 m/s.
-// The ball rolls across the slope and turns downhill. From some angle on it needs more friction than f N and slides.
+// The ball rolls across the slope and turns downhill. At some angle rolling needs more than f N, and it slides.
 TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[reference][slope]") {
   const double R = find_ball("pool")->experiment.ball.radius;
   const Experiment experiment = ball_on(-6, Velocities{{0, 0.5}, {-0.5 / R, 0, 0}}, 0.19);
   const Motion motion = motion_on(experiment);
   CHECK_FALSE(motion.is_reduced());
-  // The ball needs the friction |tan(angle)/chi + u_r V/|V|| = f.
+  // At the beginning of the slide rolling needs all the friction: |tan(angle)/chi + u_r V/|V|| = f.
   const double share = std::tan(radians(6)) / 3.5, rolls = motion.slip_time(0) / 10;
   for (double t : {0.05, 0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2}) {
     const MotionPoint point = motion.at(t);
@@ -223,7 +223,7 @@ TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[re
   CHECK(motion.rest()->place.x() == Approx(0.0167889).margin(1e-6));
   CHECK(motion.rest()->place.y() == Approx(0.0706613).margin(1e-6));
   CHECK(motion.slip_length() == Approx(0.0029546).margin(2e-6));
-  // A ball that needs too much friction from the start, and a friction that always suffices.
+  // Cases: a ball that needs more friction than f N from the start; a ball for which f N always suffices.
   const Motion at_once = motion_on(ball_on(-6, Velocities{{0.3, 0.5}, {-0.5 / R, 0.3 / R, 0}}, 0.19));
   CHECK(at_once.rest()->t == Approx(0.5130047).margin(2e-6));
   CHECK((at_once.rest()->place - Vector2d(0.0951515, 0.0948541)).norm() < 1e-6);
@@ -270,7 +270,7 @@ TEST_CASE("as the slope vanishes, the motion on the level", "[limit][slope]") {
       }
     }
   }
-  // Without a slope, results are the same to the last bit.
+  // Without a slope, the drive is exactly 0, and the pressing acceleration is exactly gravity.
   const Experiment level = ball_on(0, SlipAndSpin{1, 100});
   CHECK(reduced_system(level, hertz()).drive() == 0);
   CHECK(pressing(level.environment) == level.environment.gravity);

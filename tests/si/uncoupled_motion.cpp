@@ -14,7 +14,7 @@ using namespace contensou::si;
 
 TEST_CASE("the textbook's motion is the limit of the whole one", "[limit]") {
   const reduction::PadeLaw law;
-  for (const std::size_t alone : {std::size_t{5}, std::size_t{6}}) {  // cases with spin only and slip only
+  for (const std::size_t alone : {std::size_t{5}, std::size_t{6}}) {  // these cases have spin only, or slip only
     const Experiment experiment = experiment_of(motion_cases[alone], 0.1);
     const Motion whole = Motion::reduced(experiment, law);
     const Motion textbook = Motion::uncoupled(experiment, law);
@@ -42,7 +42,7 @@ TEST_CASE("the textbook's ball rolls after 2 v0/(7 f g), as any ball does in the
   CHECK((rolls.velocity - final_motion(experiment).velocity).norm() < 1e-15);
   CHECK(rolls.slip == 0);
   CHECK(textbook.at(textbook.slip_time(0.01)).slip == Approx(0.01).epsilon(1e-12));
-  // The force is constant: X = V0 t - f g t^2/2 e.
+  // The force is constant and opposite to the direction e of the slip: X = V0 t - f g t^2/2 e.
   const double t = 0.7 * textbook.slip_time(0);
   const Eigen::Vector2d e = slip_velocity_at_start(experiment).normalized();
   const Eigen::Vector2d expected = velocities_of(experiment.start).velocity * t - 0.2 * 9.80665 * t * t / 2 * e;

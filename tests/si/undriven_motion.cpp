@@ -41,14 +41,14 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
   for (const reduction::Law& law : reduction::named_laws()) {
     const std::vector<double> all{1e-3, 1e-2, 0.1, 0.3, 1.0}, some{1e-3, 1.0};
     for (double mu : CONTENSOU_FULL_TESTS ? all : some) {
-      if (law.force_slope() <= 5 * mu * mu / 7 * law.pivoting_moment()) continue;  // ends on the ray: no curve
+      if (law.force_slope() <= 5 * mu * mu / 7 * law.pivoting_moment()) continue;  // ends on a ray, has no curve
       for (const MotionCase& motion_case : motion_cases) {
         INFO(law.name() << ", mu = " << mu << ", " << motion_case.name);
         const Experiment experiment = experiment_of(motion_case, mu);
         const Motion reduced = Motion::reduced(experiment, law);
         const double stop = reduced.stop_time();
         const double sliding = 2 * slip_at_start(experiment) / (7 * 0.2 * 9.80665);
-        Eigen::ArrayXd times(62);  // the whole motion and beyond, and where it slides
+        Eigen::ArrayXd times(62);  // times of the slide, of the whole motion, and after its end
         times << Eigen::ArrayXd::LinSpaced(31, 0, 1.2 * stop), Eigen::ArrayXd::LinSpaced(31, 0, 2 * sliding);
         const MotionColumns a = reduced.at(times);
         const Motion integrated = Motion::in_steps(experiment, law);
@@ -78,7 +78,7 @@ TEST_CASE("both routes give the same motion to 1e-12", "[route]") {
   }
 }
 
-// Cases: a masse, a ball that comes back, a ball that hardly moves. The steps are equal in the fourth root of time.
+// Cases: a masse shot, a ball that comes back, a ball that hardly moves. Steps are equal in the fourth root of time.
 TEST_CASE("the path is the integral of the centre's speed", "[route]") {
   for (const MotionCase& motion_case : motion_cases) {
     for (double mu : {1e-2, 0.3}) {

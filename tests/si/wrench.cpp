@@ -33,7 +33,7 @@ constexpr Patch patch{0.2, 3e-3, 1e-4};
 constexpr double normal_force = 1.7;
 constexpr double limit = patch.friction * normal_force;
 
-/// Returns motions with every k, of every size compared with the creep speed, in every direction.
+/// Returns motions in every direction, with every k and every size compared with the creep speed.
 std::vector<Vector3d> motions() {
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> ln_speed(std::log(1e-7), std::log(10)), angle(0, 6.3);
@@ -77,7 +77,7 @@ TEST_CASE("friction takes power, within its bounds, and its Jacobian is its own"
       CHECK(value.head<2>().norm() <= limit * (1 + 1e-15));
       CHECK(std::abs(value.z()) <= limit * patch.radius * law.pivoting_moment() * (1 + 1e-15));
 
-      // Units: sliding speeds and rim speeds are divided by V.
+      // Units of the motion: V, the sliding speed with creep; for the rim, the larger one of V and the rim speed w.
       const double V = std::hypot(motion.x(), motion.y(), patch.creep), w = patch.radius * std::abs(motion.z());
       const Vector3d unit(V, V, std::max(V, w) / patch.radius);
       const Vector3d moment_arm(1, 1, patch.radius);
@@ -85,7 +85,7 @@ TEST_CASE("friction takes power, within its bounds, and its Jacobian is its own"
       CHECK(scaled.cwiseAbs().maxCoeff() < 4);
       if (std::abs(V / w - 1) < 0.1 || motion.isZero()) continue;  // laws with a kink
       for (int i = 0; i < 3; ++i) {
-        if (law.name() == "pade" && i == 2 && w < 1e-4 * V) continue;  // it has a kink at omega = 0
+        if (law.name() == "pade" && i == 2 && w < 1e-4 * V) continue;  // the slope of Pade has a kink at omega = 0
         const double h = 1e-5;
         const Vector3d change = h * unit[i] * Vector3d::Unit(i);
         const Vector3d slope = (friction(motion + change, normal_force, patch).value -
@@ -102,7 +102,7 @@ TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semi
     if (law.name() == "pade") continue;
     const PatchFriction friction(law);
     for (const Vector3d& motion : motions()) {
-      const Vector3d arm(1, 1, 1 / patch.radius);  // so that all entries have one unit
+      const Vector3d arm(1, 1, 1 / patch.radius);  // lengths that give all entries the same unit
       const Matrix3d jacobian = arm.asDiagonal() * friction(motion, normal_force, patch).jacobian * arm.asDiagonal();
       const double size = jacobian.norm();
       CAPTURE(law.name(), motion.transpose());
@@ -118,7 +118,7 @@ TEST_CASE("next to a kink the Jacobian is symmetric as far as differences are, a
     const PatchFriction friction(*reduction::find_law(name));
     double asymmetry = 0;
     double size = 0;
-    for (double pivoting : {0.9, 1.0, 2.0, 10.0, 1e3}) {  // the rim's speed over s
+    for (double pivoting : {0.9, 1.0, 2.0, 10.0, 1e3}) {  // speed of the rim divided by the creep speed s
       for (double k = 0.2; k < 5; k *= std::abs(k - 1) < 0.01 ? 1.0001 : 1.01) {
         const double sliding = std::sqrt(std::max(0.0, std::pow(k * pivoting, 2) - 1));
         const Vector3d motion = patch.creep * Vector3d(sliding, 0, pivoting / patch.radius);
@@ -174,7 +174,7 @@ TEST_CASE("time steps stop a pool ball when it stops", "[analytic]") {
     const Motion exact = Motion::reduced(pool, law);
     const PatchFriction friction(law);
     const Patch of{pool.contact.friction, patch_radius_of(pool, law), 1e-4};
-    // The contact point moves like a mass of 2 m/7.
+    // For a force on the contact point, a ball has the mass 2 m/7.
     const Vector3d per_mass(3.5 / m, 3.5 / m, 2.5 / (m * R * R));
     Vector3d motion(1, 0, 100);
     double slip_gone = 0, t = 0;

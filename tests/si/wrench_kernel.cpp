@@ -1,4 +1,4 @@
-// The laws of wrench_kernel.h are compared with integrals in long double, their slopes with differences.
+// The laws of wrench_kernel.h are compared with integrals in long double, and their slopes with differences.
 #include "contensou/wrench_kernel.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using Wide = long double;
 constexpr Wide pi = std::numbers::pi_v<Wide>;
 
-/// Force and moment of a law, divided by their limits.
+/// Force and moment of a law, divided by their largest values.
 struct Parts {
   Wide force;   ///< Phi
   Wide moment;  ///< Psi
@@ -141,7 +141,7 @@ double worst_slope(int count) {
   return worst;
 }
 
-/// Returns numbers of all sizes that a type has, with both signs, and 0.
+/// Returns numbers of every size that the type allows, with both signs, and 0.
 template <class T>
 T any_size(std::mt19937_64& generator, bool positive) {
   const double decades = std::is_same_v<T, double> ? 300 : 38;

@@ -45,8 +45,8 @@ class FormulaLaw {
     return {phi, psi};
   }
 
-  /// Throws BadInput unless phi and psi are positive and finite at 3601 values of k from 1e-9 to 1e9. These values are
-  /// so dense that a pole or a gap shows.
+  /// Throws BadInput unless Phi and Psi are positive and finite at 3601 values of k from 1e-9 to 1e9. These values lie
+  /// so close together that a pole or a gap of a formula shows.
   void require_resistance() const {
     constexpr double from = 1e-9, to = 1e9;
     constexpr int steps = 3600;

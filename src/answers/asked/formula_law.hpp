@@ -15,11 +15,11 @@ bool is_formula_law(const std::string& text);
 /// (answers/input/formulas.hpp). Phi is the force divided by f N. Psi is the moment divided by f N and the patch
 /// radius. The name of the law is the text with the parameters.
 ///
-/// Below k = 2^-90 and above 2^90 the formulas are replaced by limits: below, Phi is proportional to k and Psi
-/// constant; above, 1 - Phi and Psi are proportional to 1/k. reduction::Law checks these limits.
+/// Below k = 2^-90 and above 2^90 the functions Phi and Psi replace the formulas by limits. Below, Phi is proportional
+/// to k, and Psi is constant. Above, 1 - Phi and Psi are proportional to 1/k. reduction::Law checks these limits.
 ///
 /// @throws BadInput  for a mistake in a formula, with the character at which it stands; for a law that does not resist
-///                   or has no limits, with the measured values
+///                   the motion or has no limits, with the values that show it
 reduction::Law parse_formula_law(const std::string& text, const std::map<std::string, double>& parameters = {});
 
 /// Returns the law that a text names or gives by formulas, such as the `law` of a run file; empty for an unknown name.

@@ -38,8 +38,8 @@ struct FormulaField {
 /// @throws BadInput  as Formulas
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
 
-/// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)", in the variables of a system and its
-/// parameters.
+/// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)". The formulas contain the variables of a
+/// system and its parameters.
 /// @throws BadInput  as Formulas; for more functions than Basis::most
 reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
                              const std::map<std::string, double>& parameters);
@@ -47,7 +47,7 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
 /// Returns true if a start equals the centre of the scaling up to rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
 
-/// A system solved by its scaling, or else by an inverse integrating factor; or the reason why neither solves it.
+/// A system that its scaling or an inverse integrating factor solves, or else the reason why neither solves the system.
 struct SolvedPlane {
   std::optional<reduction::PlanarReduction> plane;
   std::string why_not;

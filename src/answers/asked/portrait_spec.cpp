@@ -15,7 +15,7 @@ namespace {
 
 constexpr int of_narrow = 8;  ///< number of orbits on each side of u = 0 in a narrow panel
 
-/// A motion of several orbits as one line: at equal times, and towards the stop at equal ratios of the time left.
+/// Returns several orbits as one line. Steps of time are equal; on the last orbit, ratios of the time left are equal.
 portraits::PortraitOrbit one_line(const std::vector<si::ReducedPiece>& pieces) {
   constexpr Eigen::Index of_piece = 300;
   constexpr double folds = 30;
@@ -68,7 +68,7 @@ std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpe
   portraits::PortraitRequest asked = specs.front().whole_request();
   if (specs.size() > 1) {
     asked.orbits = asked.orbits.value_or(of_narrow);
-    asked.isochrones = specs.front().request.isochrones;  // the usual number is meant for all planes together
+    asked.isochrones = specs.front().request.isochrones;  // the default number of a single plane would be too large
   }
   std::vector<portraits::PhasePortrait> all = portraits::phase_portraits(flows, asked);
   for (std::size_t i = 0; i < specs.size(); ++i) {

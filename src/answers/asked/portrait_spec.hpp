@@ -39,12 +39,12 @@ struct PortraitSpec {
   portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
 };
 
-/// Computes portraits for one figure. Their specs differ in flow, start and experiment only.
+/// Computes portraits for one figure. Only flow, start and experiment may differ between the specs.
 /// @param specs  one or more
 /// @throws std::domain_error  as phase_portraits
 std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpec>& specs);
 
-/// Draws these portraits in one figure. Throws as portraits::draw_together.
+/// Draws the portraits of these specs in one figure. Throws as portraits::draw_together.
 portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::vector<portraits::PhasePortrait>& all);
 
 }  // namespace contensou::answers

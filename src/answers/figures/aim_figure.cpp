@@ -21,8 +21,8 @@ namespace {
 
 using portraits::Point;
 
-/// The result of a start, in SI units and turns. If slip and spin at the start are multiplied by c, time is multiplied
-/// by c, and distance and turns by c^2.
+/// The result of a start, in SI units and turns. If slip and spin at the start are multiplied by c, the time is
+/// multiplied by c, and distance and turns are multiplied by c^2.
 struct Arrival {
   double slip, spin, time, distance, turns;
 };
@@ -34,7 +34,7 @@ Arrival arrival_of(const si::Experiment& ball, const reduction::Flow& flow, redu
           si::seconds(ball, end.turned) / (2 * std::numbers::pi * radius)};
 }
 
-/// Returns the results of starts whose ratio runs from spin alone to slip alone.
+/// Returns the results of starts whose ratio v/u runs from spin alone to slip alone.
 std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow& flow) {
   const double mu = flow.system().mu();
   std::vector<Arrival> all{arrival_of(ball, flow, {1, 0})};
@@ -48,7 +48,7 @@ std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow&
   return all;
 }
 
-/// Returns 1, 2 and 5 times powers of ten; if these are few, numbers with more digits.
+/// Returns 1, 2 and 5 times powers of ten between the limits. If these are few, it returns numbers with more digits.
 std::vector<double> round_values(double least, double largest) {
   constexpr std::size_t enough = 5;
   std::vector<double> values;
@@ -64,7 +64,7 @@ std::vector<double> round_values(double least, double largest) {
   return values;
 }
 
-/// Lines on each of which one number of the start is constant, and these numbers.
+/// The lines on each of which one number of the start is constant, and the values of this number.
 struct Family {
   double Arrival::*value;
   const char *name, *unit;
@@ -77,7 +77,7 @@ void add(portraits::Panel& panel, const std::vector<Arrival>& all, const Family&
   const auto copy = [&](const Arrival& arrival, double factor) {
     return Point{factor * factor * arrival.distance, factor * factor * arrival.turns};
   };
-  // On each ray the number is least and largest at the two corners.
+  // A ray leaves the panel at two points of its border. There the number has its least and its largest value.
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (const Arrival& arrival : all) {
     if (!(arrival.distance > 0 && arrival.turns > 0)) continue;
@@ -109,13 +109,13 @@ void add(portraits::Panel& panel, const std::vector<Arrival>& all, const Family&
 portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& law, const si::Goal& goal,
                              const portraits::AskedSize& size) {
   constexpr portraits::Colour time_colour{0x1a1a1a}, slip_colour{0x0b4f8a}, spin_colour{0xb3003b}, faint{0x888888};
-  constexpr double around = 8;  // range of the axes: the demanded value times this, and divided by it
+  constexpr double around = 8;  // largest and least value of an axis: the demanded value times 8, and divided by 8
   const reduction::Flow flow(si::undriven_system(ball, law));
   const si::SlipAndSpin start = si::aimed(ball, flow, goal);
   const std::vector<Arrival> all = arrivals(ball, flow);
   const Arrival &in_place = all.front(), &straight = all.back();
   const Arrival end = arrival_of(ball, flow, {ball.ball.radius * start.spin, start.slip});
-  // A demanded distance or number of turns of 0 is replaced by the largest that the time allows.
+  // A logarithmic axis cannot show 0. In place of 0 it shows the largest value that is possible in this time.
   const auto squared = [](double x) { return x * x; };
   const double x = end.distance > 0 ? end.distance : straight.distance * squared(end.time / straight.time);
   const double y = end.turns > 0 ? end.turns : in_place.turns * squared(end.time / in_place.time);

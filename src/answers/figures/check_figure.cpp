@@ -16,10 +16,10 @@ using portraits::Panel;
 using portraits::Point;
 
 constexpr portraits::Colour law_colour{0x8c0f35}, nearest_colour{0x707070}, table_colour{0x4a90cc};
-constexpr std::size_t most_rows = 250;  ///< largest number of rows of a table that are shown; more would be one blot
+constexpr std::size_t most_rows = 250;  ///< largest number of rows of a table that are drawn; more marks would overlap
 constexpr int samples = 400;            ///< number of points of a curve
 
-/// Returns the time, in s after the first row, at which this speed has ended in table and law, plus a margin.
+/// Returns the time, in s after the first row, at which this speed is 0 in the table and under the law, plus a margin.
 double lasting(const MotionsBeside& motions, double si::SlipAndSpin::*speed) {
   constexpr double next_to_nothing = 2e-3, more = 1.15;
   const double first = motions.rows.front().t;

@@ -22,10 +22,10 @@ using portraits::Point;
 constexpr Colour fit_colour{0x8c0f35};
 constexpr Colour textbook_colour{0x777777};
 constexpr Colour inner_colour{0xd3dff0}, outer_colour{0xeef2f8};
-/// Colours of the tracks, one after the other. They also differ in grey.
+/// Colours of the tracks, one after the other. Their brightness differs, too, for prints in grey.
 constexpr Colour data_colours[]{{0x4a90cc}, {0x3a3a3a}, {0xe0a030}, {0x8050a0}};
 
-/// Largest number of values of a track that are shown. More would be one blot.
+/// Largest number of values of a track that are drawn. More marks would overlap.
 constexpr Eigen::Index most_marks = 250;
 /// Residuals of more standard deviations than this are drawn as arrows at the border.
 constexpr double residual_border = 4;
@@ -62,13 +62,13 @@ ShownUnit shown_unit(const fit::Fit& fit, const std::vector<fit::Track>& tracks,
   return unit.starts_with('m') && largest < small ? ShownUnit{"m" + unit, 1e3} : ShownUnit{unit};
 }
 
-/// Adds whole turns to an angle, rad, so that it is nearest to another angle.
+/// Returns an angle, rad, plus or minus whole turns, so that the result is nearest to another angle.
 double at_turn_of(double other, double angle) {
   constexpr double turn = 2 * std::numbers::pi;
   return angle + turn * std::round((other - angle) / turn);
 }
 
-/// Returns slip, spin or angle by the uncoupled model with the same start, in SI units; empty for other observables.
+/// Returns slip, spin or angle under the uncoupled model from the same start, in SI units; empty for other observables.
 /// @param times  s from the start
 Eigen::ArrayXd of_textbook(const fit::Fit& fit, const reduction::Law& law, std::size_t track,
                            fit::Observable observable, const Eigen::ArrayXd& times) {
@@ -151,12 +151,12 @@ Pair panels_of(const fit::Fit& fit, const reduction::Law& law, const std::vector
   pair.data.lines.push_back(std::move(curves));
   if (!textbook.lines.empty()) pair.data.lines.push_back(std::move(textbook));
   for (Panel* panel : {&pair.data, &pair.residuals}) {
-    // The axis shows the clock of the film. It begins at 0 if the film begins soon after 0.
+    // The axis shows the time of the film. The axis begins at 0 if the film begins soon after 0.
     panel->x.low = first > 0 && first < 0.1 * last ? 0 : first;
     panel->x.high = last > first ? last : first + 1;
   }
   widen(y, 0.06);
-  // Leave room for an arrow at the border, also if the panel is flat.
+  // Leave room for an arrow at the border, even if the panel is only a few millimetres high.
   pair.residuals.y.low = -1.25 * residual_border;
   pair.residuals.y.high = 1.25 * residual_border;
   pair.residuals.y.ticks = {{-3, "−3"}, {0, "0"}, {3, "3"}};
@@ -237,7 +237,7 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   return panel;
 }
 
-/// Returns true if the error of a number is large enough for an axis. It is not if data have no noise.
+/// Returns true if the error of a number is large enough for an axis. The error is too small if data have no noise.
 bool has_width(const fit::Estimate& estimate) {
   constexpr double least = 1e-6;
   return std::isfinite(estimate.standard_error) && estimate.standard_error > least * estimate.value;
@@ -257,13 +257,13 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
   if (fit.only)
     figure.subtitle = fmt::format("the data do not determine friction and patch radius, only {}",
                                   portraits::shortened(fit.only->name()));
-  std::vector<Panel> below;  // the panels of residuals, and of the words
+  std::vector<Panel> below;  // the panels of residuals, and the panel of results in words
   for (const fit::Noise& noise : fit.noise) {
     Pair pair = panels_of(fit, law, tracks, noise);
     figure.panels.push_back(std::move(pair.data));
     below.push_back(std::move(pair.residuals));
   }
-  // A page has no room for six rows.
+  // A page has no room for more rows of panels.
   constexpr std::size_t most_rows = 5;
   const bool both = fit.noise.size() < most_rows && fit.estimates[0].free && fit.estimates[1].free &&
                     std::ranges::all_of(std::span(fit.estimates).first(fit::contact_parameters), has_width) &&
@@ -280,8 +280,8 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
     figure.panels.insert(figure.panels.end(), std::make_move_iterator(below.begin()),
                          std::make_move_iterator(below.end()));
   } else {
-    // A page has no room for as many rows of usual panels. So panels are flat, and those below are put beside or left
-    // out.
+    // There are too many rows for panels of the usual height. The panels become flat. Those of residuals stand beside
+    // the panels of data, or are left out on a narrow page.
     const bool beside = portraits::panel_columns(width, 2) == 2;
     figure.max_columns = beside ? 2 : 1;
     for (int i = columns - 1; beside && i >= 0; --i)

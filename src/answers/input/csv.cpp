@@ -23,7 +23,7 @@ std::string_view utf16(std::string_view text) {
   return text[0] == '\0' && text[2] == '\0' ? "UTF-16BE" : "";
 }
 
-/// Returns advice if the first name of a header contains a semicolon or a tab, the separator there; else "".
+/// Returns advice if the first name of a header contains a semicolon or a tab, the usual other separators; else "".
 std::string separator_hint(std::string_view name) {
   const std::size_t separator = name.find_first_of(";\t");
   if (separator == std::string_view::npos) return {};
@@ -81,7 +81,7 @@ void CsvParser::add(char letter, CsvBlock& block) {
     if (place_ == Place::field_start) quote_line_ = line_;
     place_ = place_ == Place::quoted ? Place::after_quote : Place::quoted;
   } else if (letter == '"' || place_ == Place::after_quote) {
-    // The fault is the line on which a quote opens, even if the quoted field runs over many lines.
+    // The message names the line of the opening quote, even if the quoted field continues over many lines.
     const long begin = place_ == Place::after_quote ? quote_line_ : line_;
     throw complaint(begin,
                     fmt::format("a quote inside a field{}: put the field in quotes and double those inside",
@@ -143,7 +143,7 @@ void CsvReader::read_header(Separator separator) {
   first_ = std::move(first);
 }
 
-/// Tracker programs write the name of the body in a line of its own above the names of the columns.
+/// Tracker programs write the name of the body in a separate line above the names of the columns.
 void CsvReader::find_tabs() {
   constexpr std::size_t most = 4;  // number of lines searched
   std::size_t begin = 0;

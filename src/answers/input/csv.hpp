@@ -38,8 +38,8 @@ class CsvBlock {
   };
 
   std::vector<Record> records_;
-  std::string text_;                  ///< text of all records
-  std::string values_;                ///< values of all fields
+  std::string text_;                  ///< text of all records, as in the file
+  std::string values_;                ///< values of all fields, one after the other
   std::vector<std::size_t> ends_{0};  ///< field i consists of the characters of values_ from ends_[i] to ends_[i + 1]
 };
 
@@ -102,11 +102,11 @@ class CsvParser {
   Place place_ = Place::between_records;
   long line_ = 0;
   bool at_line_start_ = true;
-  bool after_return_ = false;  ///< a line feed here belongs to the previous line end
+  bool after_return_ = false;  ///< true: a line feed here belongs to the previous line end
   long record_line_ = 0;
   long quote_line_ = 0;  ///< line of the opening quote of the field
   std::string text_;     ///< text of the record so far
-  std::string values_;   ///< values of its fields
+  std::string values_;   ///< values of the fields of the record
   std::vector<std::size_t> ends_;
 };
 
@@ -124,7 +124,7 @@ class CsvReader {
 
   /// Reads the file up to the end of the header.
   /// @param path       a file, or "-" for standard input
-  /// @param separator  comma_or_tab: tabs separate if the header contains some and no comma; a title may stand above it
+  /// @param separator  comma_or_tab: tabs separate if the header contains tabs and no comma; a title may stand above
   /// @throws std::system_error  if the file cannot be read
   /// @throws BadLine            if there is no header, or it is not CSV; for UTF-16 with advice
   explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
@@ -140,14 +140,14 @@ class CsvReader {
   long header_line() const { return header_line_; }
 
   /// Returns the column with a name. Spaces around names are ignored.
-  /// @throws BadLine  unless there is exactly one; with advice if columns are separated by semicolons or tabs
+  /// @throws BadLine  unless there is exactly one such column; with advice if semicolons or tabs separate columns
   CsvColumn column(std::string_view name) const;
   bool has_column(std::string_view name) const;
 
   /// Returns true if `next` can return without waiting for input.
   bool ready() const;
 
-  /// Reads the next records, about 32 kB at most: those that are available before the input pauses.
+  /// Reads the next records, about 32 kB at most: the records that are available before the input pauses.
   /// @return  false at the end of the file
   /// @throws BadLine            as CsvParser, after all records before the mistake have been returned
   /// @throws std::system_error  if the file cannot be read
@@ -172,7 +172,7 @@ class CsvReader {
  private:
   void read_header(Separator separator);
 
-  /// Sets tabs as separators if the first line with tabs or commas has only tabs. A title above it becomes a comment.
+  /// Sets tabs as separators if the first line with tabs or commas contains tabs only. A title above becomes a comment.
   void find_tabs();
 
   /// Reads once from the file and appends the result to the buffer.

@@ -4,7 +4,7 @@
 
 namespace contensou::answers {
 
-/// A mistake of the user. The message says what is wrong, what is allowed and what to do.
+/// A mistake of the user. The message says which input is wrong, which input is allowed and how to correct it.
 struct BadInput : std::domain_error {
   using std::domain_error::domain_error;
 };

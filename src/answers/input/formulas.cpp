@@ -23,7 +23,7 @@ namespace formula_parts {
 
 using Pair = std::array<double, 2>;
 
-/// A function of one number, of two, or of more, combined two at a time. Null slopes stand for 0.
+/// A function of one number, of two numbers, or of more, which are combined two at a time. Null slopes stand for 0.
 struct Function {
   std::string_view name;
   double (*one)(double) = nullptr;
@@ -78,7 +78,7 @@ constexpr Function functions[] = {
 constexpr Function negative{"-", [](double x) { return -x; }, [](double, double) { return -1.0; }};
 constexpr Function opposite{"!", [](double x) { return x == 0 ? 1.0 : 0.0; }};
 
-/// For 0^y, y > 0, the slope by y is 0; for a negative x it is NaN. For 0^0 the slope by x would be 0 times infinity.
+/// Slope by x, then by y. 0^y with y > 0 has slope 0 by y; x < 0 gives NaN. At 0^0 the slope by x is set to 0, not NaN.
 Pair of_power(double x, double y, double value) {
   return {y == 0 ? 0 : y * std::pow(x, y - 1), value == 0 && x >= 0 ? 0 : value * std::log(x)};
 }
@@ -95,7 +95,7 @@ enum class Kind : unsigned char { number, variable, one, two, add, subtract, mul
 
 struct Step {
   Kind kind;
-  unsigned char left = 0, right = 0;  ///< bit i + 1 is set if the first or the last operand depends on variable i
+  unsigned char left = 0, right = 0;  ///< bit i + 1 is set if the first or the last operand contains variable i
   union {
     double number;
     std::size_t variable;
@@ -123,10 +123,10 @@ constexpr Operator operators[] = {
     {{"*"}, 4, Kind::multiply},
     {{"/"}, 4, Kind::divide},
 };
-constexpr int tightest = 5;  ///< higher than the levels of all operators
+constexpr int tightest = 5;  ///< above the level of every operator
 constexpr int deepest = 250;
 constexpr std::size_t longest = 20000;
-/// Each level of nesting keeps at most two values while the next level is computed. Two unused values lie below them.
+/// Each level of nesting keeps at most two values while the next level is computed. Two places below them are unused.
 constexpr std::size_t most_values = 2 * deepest + 2;
 
 /// Computes the formula with N slopes; with N = 0 the value alone.
@@ -198,18 +198,18 @@ bool is_of_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'
   throw BadInput(fmt::format("{}, at character {} of {}", message, place + 1, quotation(text)));
 }
 
-/// Characters that papers and word processors use in place of ASCII, with their ASCII.
+/// Characters that papers and word processors use in place of ASCII, each with the ASCII text that replaces it.
 constexpr std::pair<char32_t, std::string_view> pasted[] = {
     {0x2032, "'"}, {0x2019, "'"}, {0xB4, "'"},   {0x2212, "-"},         {0x2013, "-"},
     {0xD7, "*"},   {0xB7, "*"},   {0x22C5, "*"}, {0xF7, "/"},           {0x2215, "/"},
     {0xB2, "^2"},  {0xB3, "^3"},  {0x3C0, "pi"}, {0x221A, "sqrt(...)"}, {0xA0, "a blank"}};
 
-/// Throws for characters that are not ASCII. Later the place of a mistake is then the number of its byte.
+/// Throws for characters that are not ASCII. After that, the number of a byte is also the number of a character.
 void require_ascii(const std::string& text) {
   const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (at == text.end()) return;
   const auto place = static_cast<std::size_t>(at - text.begin());
-  // In UTF-8 the first byte begins with as many ones as there are bytes; the others begin with 10. Else it is Latin-1.
+  // In UTF-8 the first byte has as many leading 1 bits as there are bytes; later bytes begin with 10. Else Latin-1.
   std::size_t size = 1;
   while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
   const std::string letter = text.substr(place, size);
@@ -267,7 +267,7 @@ class Parser {
     steps.push_back(step);
   }
 
-  /// Reads operators of the given level and of higher levels.
+  /// Reads an expression with operators of the given level and of higher levels.
   void expression(int level) {
     if (++depth_ > deepest) reject(at_, fmt::format("a formula is nested at most {} deep", deepest));
     if (takes("-") || takes("!")) {
@@ -298,7 +298,7 @@ class Parser {
     --depth_;
   }
 
-  /// Reads a value and its closing sign; for a function, several values between commas.
+  /// Reads a value and its closing sign. For a function it reads several values between commas.
   /// @return  number of values
   int within(std::string_view closing, const Function* function = nullptr) {
     const std::size_t opening = at_ - 1;
@@ -329,7 +329,7 @@ class Parser {
       reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
     }
     while (at_ < text_.size() && is_of_word(text_[at_])) ++at_;
-    while (at_ > begin && at_ < text_.size() && text_[at_] == '\'') ++at_;  // the prime of x'
+    while (at_ > begin && at_ < text_.size() && text_[at_] == '\'') ++at_;  // accept the prime of x'
     const std::string name(text_.substr(begin, at_ - begin));
     const auto variable =
         static_cast<std::size_t>(std::ranges::find(shape_.variables, name) - shape_.variables.begin());
@@ -402,13 +402,13 @@ class Parser {
   std::string_view text_;
   std::size_t at_;
   int depth_ = 0;
-  bool in_bars_ = false;                  ///< true: the innermost open bracket is a bar of |x|
-  std::vector<unsigned char> variables_;  ///< variables on which each value on the stack depends; bits as in Step::left
+  bool in_bars_ = false;                  ///< true: the innermost open bracket is the bar that opens |x|
+  std::vector<unsigned char> variables_;  ///< for each value on the stack, the variables in it; bits as in Step::left
 };
 
 using Steps = std::vector<Step>;
 
-/// A factor of a product, with its exponent.
+/// A factor of a product: the steps that compute this factor, and the variables in it.
 struct Factor {
   Steps steps;
   unsigned char variables;  ///< coded like Step::left
@@ -423,7 +423,7 @@ struct Factor {
 };
 using Factors = std::vector<Factor>;
 
-/// A part of a formula as a quotient: its factors, and the factors by which it is divided.
+/// A part of a formula as a quotient: the factors of its numerator (over) and of its denominator (under).
 struct Quotient {
   Factor whole;
   Factors over, under = {};
@@ -436,14 +436,14 @@ void multiply(Factors& product, const Factors& by, int times = 1) {
   }
 }
 
-/// Appends the factors that `product` lacks to be a multiple of both.
+/// Appends to `product` the factors that it lacks to be a multiple of `of`.
 void make_multiple(Factors& product, const Factors& of) {
   for (auto each = of.begin(); each != of.end(); ++each) {
     if (std::ranges::count(product, *each) < std::count(of.begin(), each + 1, *each)) product.push_back(*each);
   }
 }
 
-/// Returns the divisors in a formula.
+/// Returns the factors of the denominator of a formula.
 Factors divisors(const Steps& formula) {
   std::vector<Quotient> stack;
   for (const Step& step : formula) {
@@ -469,7 +469,7 @@ Factors divisors(const Steps& formula) {
       multiply(joined.under, divides ? parts[1].over : parts[1].under);
     } else if (step.kind == Kind::add || step.kind == Kind::subtract ||
                (step.kind == Kind::one && step.function == &negative)) {
-      // A sum counts as one factor, which the divisors of its parts multiply.
+      // On the common denominator a sum is one factor. The factors of the denominator then multiply this sum.
       for (const Quotient& part : parts) make_multiple(joined.under, part.under);
       multiply(joined.over, joined.under);
     } else if (step.kind == Kind::two && step.function == &power && parts[1].whole.variables == 0) {
@@ -523,8 +523,8 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
                                quotation(name), fmt::join(shape.variables, ", ")));
   }
   formula_parts::require_ascii(text);
-  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each
-  std::map<std::string, double> own;                               // if a name is given twice, the last value counts
+  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
+  std::map<std::string, double> own;                               // if a parameter is set twice, the last value counts
   std::size_t begin = 0;
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find(';', begin), text.size());

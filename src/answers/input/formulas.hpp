@@ -36,15 +36,15 @@ std::vector<std::string> left_sides(const std::string& text);
 /// They may also contain brackets, |x|, numbers, pi and functions: sin cos tan asin acos atan sinh cosh tanh asinh
 /// acosh atanh exp sqrt, ln and log (both natural), log2 log10 abs sign (sign(0) = 0), rint (halves to even); of two
 /// numbers atan2 hypot; of any number of numbers min max sum avg. a^b^c is a^(b^c), -u^2 is -(u^2), and x^2 equals x*x
-/// to the last bit. A comparison is 1 or 0, and a condition holds unless it is 0. A bar opens |x| where a value is
-/// expected and closes it where an operator is expected. So || means "or" except directly within |x|.
+/// to the last bit. A comparison is 1 or 0, and a condition is true unless it is 0. A bar opens |x| where a value is
+/// expected and closes it where an operator is expected. Therefore || means "or" except directly within |x|.
 ///
 /// A value type: copies share the compiled formulas, and several threads may call them at once.
 class Formulas {
  public:
   /// @param text  formulas of at most 20000 characters, nested at most 250 deep
   /// @param parameters  values that replace values in the text
-  /// @throws BadInput  with the mistake and its character; for a parameter that has the name of something else, or that
+  /// @throws BadInput  with the mistake and its character; for a parameter whose name has another meaning, or that
   ///                   no formula contains
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);
 
@@ -60,8 +60,8 @@ class Formulas {
   template <std::size_t N>
   std::array<Dual<N>, 2> with_slopes(const std::array<double, N>& values) const;
 
-  /// Returns the common denominator of the formulas, as the first of a pair. It is the product of the divisors outside
-  /// functions that depend on variables, each to its highest power. Empty if there is no such divisor.
+  /// Returns the common denominator as the first formula of the result. It is the product of the divisors that depend
+  /// on variables and stand outside functions, each to its highest power. Empty without such a divisor.
   std::optional<Formulas> denominator() const;
 
  private:

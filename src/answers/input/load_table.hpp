@@ -8,16 +8,16 @@
 
 namespace contensou::answers {
 
-/// Reads a changing load from a CSV with columns t (s) and load (N), or in the units of their headings.
+/// Reads a changing load from a CSV file with columns t (s) and load (N). Headings may name other units.
 /// @throws BadLine      if the table does not describe a load
 /// @throws FileFailure  if the file cannot be read
 si::LoadHistory read_load_history(const std::string& path);
 
-/// Throws for a motion under a changing load that is not a motion under a constant load with another time: if the load
-/// changes the patch, or if a force is not proportional to the load.
-/// @param others  given options that need a constant load, between commas; empty if there are none
+/// Throws if a motion under a changing load differs from a motion under a constant load by more than its time: the load
+/// changes the patch, or a force is not proportional to the load.
+/// @param others  names of given options that need a constant load, between commas; empty if there are none
 /// @return  a remark on the patch, for people; empty for a body that lies flat
-/// @throws BadInput  with the reason, and the option to leave out
+/// @throws BadInput  with the reason, and the option that the user must leave out
 std::string require_load_alone(const si::Experiment& experiment, const reduction::Law& law, std::string others = "");
 
 }  // namespace contensou::answers

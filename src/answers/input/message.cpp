@@ -16,8 +16,8 @@ bool is_one_of(const std::exception& error) {
   return (... || (dynamic_cast<const Kinds*>(&error) != nullptr));
 }
 
-/// Returns true if a word before a colon is a name in the library.
-/// @param first  true at the beginning of a message; later, a column of a table may look like such a name
+/// Returns true if a word before a colon is the name of a class or function of the library.
+/// @param first  true: the word begins the message; false: a single word in lower case may be a column, so it is kept
 bool is_internal(std::string_view word, bool first) {
   const auto count = [&](auto kind) { return std::ranges::count_if(word, kind); };
   const auto is_upper = [](char letter) { return letter >= 'A' && letter <= 'Z'; };
@@ -46,7 +46,7 @@ std::string words_of(std::string message) {
 
 bool is_fault(const std::exception& error) {
   if (is_one_of<std::domain_error, std::bad_alloc>(error)) return false;
-  // Three classes of the standard library also derive from std::runtime_error, but are faults.
+  // Three classes of the standard library derive from std::runtime_error, too, but mean faults of the program.
   return !is_one_of<std::runtime_error>(error) ||
          is_one_of<std::overflow_error, std::range_error, std::underflow_error>(error);
 }

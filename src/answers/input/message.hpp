@@ -14,7 +14,7 @@ bool is_fault(const std::exception& error);
 std::string words_of(std::string message);
 
 /// Returns the message of an exception for a user. For a fault it says that the program is wrong and asks for a report.
-/// @param asked  the user's question in words, quoted for a fault
+/// @param asked  the user's request in words; the message for a fault quotes it
 std::string message_of(const std::exception& error, const std::string& asked);
 
 }  // namespace contensou::answers

@@ -15,16 +15,16 @@ std::string quotation(std::string_view input);
 
 enum class Infinity { forbidden, allowed };
 
-/// Returns a sentence about the decimal point if a text contains a comma, to end the message about a wrong number; else
-/// "".
+/// Returns a sentence about the decimal point if a text contains a comma; else "". The sentence ends a message about a
+/// wrong number.
 const char* decimal_hint(std::string_view text);
 
 /// Returns true if parse_number finds a number in a text, no matter how large.
 bool is_number(std::string_view text);
 
 /// Returns the number that a text consists of; spaces around it are allowed.
-/// @throws BadInput  with the text, if it is not a number, does not fit a double, or is infinite where that is
-///                   forbidden
+/// @throws BadInput  with the text, if it is not a number, does not fit a double, or is infinite although `infinity`
+///                   forbids this
 double parse_number(std::string_view text, Infinity infinity = Infinity::forbidden);
 
 /// Splits a text at each occurrence of a mark.

@@ -34,9 +34,9 @@ struct SeriesColumns {
   std::optional<SiColumn> sd;
 };
 
-/// Returns a doubt that a length or speed without a unit is in mm, if it is too large for a film; else "".
+/// Returns a warning if a length or speed without a unit is too large for a film and so probably in mm; else "".
 std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
-  constexpr double too_much = 30;  // m or m/s; a filmed ball stays below
+  constexpr double too_much = 30;  // m or m/s; values of a filmed ball are smaller
   const std::string_view unit = fit::kind_of(of.observable).unit;
   if (!of.value.unit.empty() || (unit != "m" && unit != "m/s")) return "";
   double largest = 0;

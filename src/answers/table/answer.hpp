@@ -34,7 +34,7 @@ struct Digits {
   }
 };
 
-/// The answer of a verb (a command of the program). Every output format is made from it.
+/// The answer of a verb (a command of the program). Every output format is computed from this answer.
 struct Answer {
   Json members = Json::object();         ///< members of JSON after the schema number and the version
   std::vector<Column> columns = {};      ///< columns of CSV and text; the last members of JSON
@@ -65,7 +65,7 @@ Json list_of(const Values& values) {
   return std::vector(values.begin(), values.end());
 }
 
-/// Returns the value, but infinity for NaN. No format can write NaN.
+/// Returns the value, or infinity if the value is NaN. No format can write NaN.
 double or_infinity(double value);
 
 }  // namespace contensou::answers

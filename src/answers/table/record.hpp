@@ -33,8 +33,8 @@ struct Field {
   Json (*value)(const Result&);  ///< returns null if this result does not have the field
 
   /// Names of the columns of CSV, between commas: for the value, for the entries of an array, or for the members of an
-  /// object. An entry without a name has no column. In an array of objects * stands for the member "name". If it is
-  /// null, the names are those of JSON; if it is empty, there are no columns.
+  /// object. An entry without a name has no column. In an array of objects * stands for the member "name". If the
+  /// pointer is null, the names are those of JSON; if the text is empty, there are no columns.
   const char* columns = nullptr;
   int place = 0;           ///< place of the columns, in increasing order
   const char* shape = "";  ///< shape of an array or object, for help
@@ -141,7 +141,7 @@ Answer answer_of_rows(const char* list, const Field<Result> (&fields)[count], co
   return answer;
 }
 
-/// Returns the fields of such an answer, as help shows them.
+/// Returns the fields of an answer of `rows`, as help shows them.
 template <class Result, std::size_t count>
 std::vector<FieldText> texts_of_rows(const char* list, const Field<Result> (&fields)[count]) {
   return joined({{{std::string("JSON `") + list + "` [...]", "",

@@ -12,7 +12,7 @@ class TextTable {
  public:
   struct Column {
     std::size_t
-        width;   ///< smallest width; a column is as wide as its widest cell; numbers after another column have two more
+        width;   ///< smallest width; a wider cell widens the column; numbers after another column get two more spaces
     char align;  ///< < for left, > for right
   };
 

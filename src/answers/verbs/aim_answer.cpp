@@ -22,7 +22,7 @@ struct AimReport {
   si::Velocities final;
   std::optional<si::Event> rolls;  ///< event at which rolling begins; empty for a body that lies flat
   std::optional<si::CueStrike> strike;
-  std::optional<si::Event> rest;  ///< only with rolling friction
+  std::optional<si::Event> rest;  ///< event at which the ball rests; empty without rolling friction
 
   bool is_ball() const { return !experiment.ball.body.lies_flat(); }
 };

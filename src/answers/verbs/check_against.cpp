@@ -91,7 +91,7 @@ std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
   std::vector<Instant> instants;
   table.for_each_row([&](const CsvRow& row) {
     const Instant instant = columns.read(row);
-    if (instants.empty() && instant.speeds.slip < 0)  // only the first row: a later slip may be negative by its error
+    if (instants.empty() && instant.speeds.slip < 0)  // a later slip may be negative by an error of measurement
       throw table.complaint(instant.line,
                             fmt::format("slip: the start is a speed, 0 or more, got {}", instant.speeds.slip));
     if (!instants.empty() && instant.t < instants.back().t) {
@@ -140,7 +140,7 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
   const std::vector<Instant> instants = read_instants(table, ball.ball);
   const si::SlipAndSpin first = instants.front().speeds;
   si::Description first_row;
-  // Rolling resistance and slope act on the rolling motion, so the start must contain all velocities.
+  // Rolling resistance and slope act on the rolling motion. Therefore the start must contain all velocities.
   const bool driven = si::is_driven(ball);
   if (const auto& body = instants.front().body; driven && body) {
     const auto& [velocity, w] = *body;
@@ -190,7 +190,7 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
     try {
       add(other.name(), under(other));
     } catch (const std::domain_error&) {
-      // For the measured spin deceleration the patch under this law would have to be larger than the ball.
+      // No patch inside the ball has the measured spin deceleration under this law, so this law is not compared.
     }
   }
   return result;

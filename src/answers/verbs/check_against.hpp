@@ -26,7 +26,7 @@ struct ModelBeside {
   std::function<si::SlipAndSpin(double)> motion;  ///< returns the speeds at a time after the first row, s
   Deviation slip = {}, spin = {};
 
-  double worst() const;  ///< larger relative error of slip and spin
+  double worst() const;  ///< the larger one of the relative errors of slip and spin
 };
 
 /// A row of a table.
@@ -41,8 +41,8 @@ struct Instant {
 struct MotionsBeside {
   std::vector<Instant> rows;
   si::SlipAndSpin start;
-  double slip_unit, spin_unit;      ///< errors are divided by these, m/s and rad/s
-  std::vector<ModelBeside> models;  ///< models; the model of the law is the first
+  double slip_unit, spin_unit;      ///< units, m/s and rad/s, by which relative errors are divided
+  std::vector<ModelBeside> models;  ///< models; the first is the motion under the law
 
   /// Returns the model with the smallest error. Among equal models the model of the law wins.
   const ModelBeside& nearest() const;

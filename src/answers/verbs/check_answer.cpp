@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array built_in_patch_ratios{1e-4, 0.0035, 0.099, 0.3, 1.0};
 
-/// Values of mu for starts with a drive. For a smaller patch creeping is stiff, and routes in steps take long.
+/// Values of mu for starts with a drive. For smaller mu creeping is stiff, and routes that integrate in steps are slow.
 constexpr std::array driven_patch_ratios{0.099, 1.0};
 constexpr std::array built_in_drives{0.05, 0.5, 0.95};
 
@@ -76,7 +76,7 @@ constexpr Field<MotionsBeside> beside_fields[]{
      [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
 };
 
-/// Returns the name of a law without the words that end a row, because the name of a file may contain these words.
+/// Returns the name of a law, in which "ok" and "FAIL" are escaped: scripts search rows for these words.
 std::string label(const std::string& law) {
   std::string text = quotation(law);
   text = text.substr(1, text.size() - 2);

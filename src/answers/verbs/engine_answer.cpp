@@ -15,7 +15,7 @@ using si::Engine;
 
 namespace {
 
-/// A contact under a setting of an engine; without a setting, the body under its law.
+/// A contact under a setting of an engine, or, without a setting, under the law of the body.
 struct Contact {
   std::string label;
   std::string cone;

@@ -9,8 +9,8 @@
 
 namespace contensou::answers {
 
-/// Returns the answer of `engine` for a ball: the settings of all engines, or of one, and the resulting motion. CSV
-/// contains one row for each setting.
+/// Returns the answer of `engine` for a ball: the settings of all engines, or of one engine, and the resulting motion.
+/// CSV contains one row for each setting.
 /// @param only  the only engine; null: all
 Answer engine_answer(const si::Experiment& experiment, const reduction::Law& law, const si::Engine* only = nullptr);
 

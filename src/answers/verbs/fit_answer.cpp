@@ -38,7 +38,7 @@ Json reduced_chi2(const fit::Fit& fit, bool planned) {
   return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
 }
 
-/// Returns the first places of outliers, such as "t = 0.1, 0.25 s"; if there are several tracks, by track.
+/// Returns the first times at which outliers lie, such as "t = 0.1, 0.25 s". For several tracks, each has its own list.
 std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vector<fit::Track>& tracks) {
   constexpr std::size_t most = 6;
   std::string text;
@@ -52,7 +52,7 @@ std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vect
   return text + (outliers.size() > most ? ", ... s" : " s");
 }
 
-/// Returns the remarks on a fit, such as outliers and turns of a mark found by trial, one sentence each.
+/// Returns the remarks on a fit, one sentence each. Examples: outliers, or turns of a mark that were found by trial.
 std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::Track>& tracks, bool planned) {
   std::vector<std::string> remarks;
   for (const fit::Noise& noise : fit.noise) {
@@ -102,7 +102,7 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
   return remarks;
 }
 
-/// Names such as "friction" and "patch_radius, mm", in the units in which people read the numbers.
+/// The name of a number and the unit in which people read it, such as "friction" and "patch_radius, mm".
 struct Shown {
   std::string name;
   double unit;

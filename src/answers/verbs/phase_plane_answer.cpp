@@ -31,7 +31,7 @@ std::string_view text_of(const std::array<std::string_view, 3>& texts, Enumerati
 
 /// Names of the regimes, in the order of reduction::TerminalRegime.
 constexpr std::array<std::string_view, 3> limits{"zero", "ray", "infinity"};
-/// The approach of orbits to the origin in words, in the order of InvariantDirection.
+/// Words for the way in which orbits approach the origin, in the order of InvariantDirection.
 constexpr std::array<std::string_view, 3> approaches{"along v = 0: k falls", "along the ray: k - k* falls",
                                                      "along u = 0: 1/k falls"};
 
@@ -42,13 +42,13 @@ std::string_view effect(const InvariantRay& ray) {
                               : "repels";
 }
 
-/// Returns the index of the end that the largest sector of starts reaches. Their size is the angle of (mu |u|, v).
+/// Returns the index of the limit of k that the largest sector of starts reaches. A sector is an angle of (mu |u|, v).
 std::size_t usual_end(const TerminalRatios& ratios) {
   const auto sector = [](const TerminalRatio& end) { return std::atan(end.to) - std::atan(end.from); };
   return static_cast<std::size_t>(std::ranges::max_element(ratios.ends, {}, sector) - ratios.ends.begin());
 }
 
-/// A limit of k at the stop, and the relative error of its k*.
+/// A limit of k at the stop; and the relative error of this limit, k*, if it belongs to a ray.
 struct End {
   TerminalRatio ratio;
   double accuracy;
@@ -104,7 +104,7 @@ constexpr Field<TerminalRatios> list_fields[]{
      "", 0, " [{`limit`, ...}]"},
 };
 
-/// Returns the members common to both answers. The end with the largest sector stands before the list of all ends.
+/// Returns the members that both answers contain. The limit with the largest sector precedes the list of all limits.
 Json ratio_members(const TerminalRatios& ratios) {
   Json members = members_of(regime_fields, ratios);
   members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
@@ -112,7 +112,7 @@ Json ratio_members(const TerminalRatios& ratios) {
   return members;
 }
 
-/// Returns the half-line along which orbits enter the origin at an end, with its k and its order of contact.
+/// Returns the half-line along which orbits with this limit of k enter the origin, with its k and order of contact.
 Json tangent_of(const PhasePlane& plane, std::size_t end) {
   const auto& [direction, k, order] = plane.tangents[end];
   return {{"half_line", name(direction)}, {"k", k}, {"contact_order", order}};
@@ -170,7 +170,7 @@ constexpr Field<PhasePlane> plane_fields[]{
      "", 0, " [...]"},
 };
 
-/// Returns a heading with the law, the numbers that give r, and the places of rays.
+/// Returns a heading with the law, the numbers from which r is computed, and the values of k at rays.
 std::string heading(const ReducedSystem& system, const TerminalRatios& ratios, std::string_view rays,
                     const Digits& digits) {
   return fmt::format(

@@ -55,7 +55,7 @@ Json json_of(const Generator& x) {
   return json;
 }
 
-/// Returns a sum of terms as people write it: without terms 0 and factors 1.
+/// Returns a sum of terms as people write it: terms with the factor 0 and factors 1 are left out.
 std::string sum(std::initializer_list<std::pair<double, std::string_view>> terms, const Digits& digits) {
   std::string text;
   for (const auto& [factor, name] : terms) {
@@ -106,7 +106,7 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
   text += "values      ";
   for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
   text += fmt::format("\n            singular ones of the determining equations at {} points; ", found.points);
-  // Singular values are relative to the largest.
+  // Each singular value is divided by the largest one.
   return text + (found.level < 1 ? fmt::format("0 is below {:.1g}, gap {:.1g}\n", found.level, found.gap)
                                  : "the errors of differences exceed all of them\n");
 }
@@ -121,8 +121,8 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
   add_text(answer, [=](const Digits& digits) { return text_of(found, time, digits); });
 }
 
-/// Adds the row of CSV: the members that are one number or text, and the first generator. The text format does not need
-/// the lists that `numbers` computes.
+/// Adds the row of CSV: the members that are one number or text, and the first generator. Only formats other than text
+/// need the lists that `numbers` computes.
 ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved) {
   Json& row = answer.rows.emplace_back();
   for (const auto& [name, value] : answer.members.items()) {
@@ -148,7 +148,7 @@ ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved)
   return {std::move(answer), solved || !found.generators.empty()};
 }
 
-/// Returns the orbit of the start in the strip, and the starts of its copies, each the same curve with another p.
+/// Returns the orbit of the start in the strip (q, p), and the starts of its copies: the same curve with p shifted.
 Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
   constexpr std::size_t most = 100;
   const portraits::ReducedOrbits from = portraits::reduced_orbits(plane, start);
@@ -168,7 +168,7 @@ Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
     const std::size_t step = (line.size() + most - 1) / most;
     for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
       const Vector2d at = place(line[i]);
-      if (!at.allFinite()) continue;  // the state lies so long before the start that it overflows
+      if (!at.allFinite()) continue;  // the speeds overflow so long before the start
       columns[x].push_back(line[i].x);
       columns["p"].push_back(line[i].y);
       columns["u"].push_back(at[0]);
@@ -190,7 +190,7 @@ std::string difference(double one, double other) {
   return fmt::format("differs by {:.1e}", std::abs(one / other - 1));
 }
 
-/// Returns a text on the forms of V that were tried. If V was found, the last form holds.
+/// Returns a text on the tried forms of the inverse integrating factor V. If V was found, it has the last form.
 std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   std::string text;
   for (const auto& [form, value, gap, residual, cleared] : tried) {
@@ -216,7 +216,7 @@ struct Equilibria {
     std::string text;
     for (const auto& each : zeros) {
       const auto [first, second] = each.eigenvalues();
-      const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: no minus sign for -0
+      const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: avoids a minus sign before 0
       text += fmt::format("equilibrium ({}, {}): {}, eigenvalues {}\n", part(each.x[0]), part(each.x[1]), each.kind(),
                           first.imag() == 0   ? part(first.real()) + ", " + part(second.real())
                           : first.real() == 0 ? fmt::format("+-{} i", part(second.imag()))
@@ -229,7 +229,7 @@ struct Equilibria {
   }
 };
 
-/// Returns canonical coordinates to show: for (2.6) v/u and ln v, on an axis their limits.
+/// Returns the canonical coordinates that the answer shows. For (2.6) they are v/u and ln v; on an axis their limits.
 PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x) {
   const reduction::Flow* flow = plane.flow();
   if (flow == nullptr) return plane.canonical(x);
@@ -246,7 +246,7 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   try {
     if (!at_centre) integral = plane.first_integral(start);
   } catch (const std::domain_error&) {
-    // the first integral has no value on a ray
+    // a start on a ray has no first integral, so `integral` stays empty
   }
   std::vector<PlanarRay> shown = plane.rays();
   if (is_paper) std::erase_if(shown, [](const PlanarRay& ray) { return ray.q < 0 || ray.q > pi / 2; });
@@ -303,7 +303,7 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   });
 }
 
-/// Adds to the answer a solution by V alone.
+/// Adds to the answer a solution by the inverse integrating factor V, for a system without a scaling.
 void add_factor(Answer& answer, const SolvedPlane& solved) {
   const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
   const std::string_view form = solved.plane->form();
@@ -321,7 +321,7 @@ void add_factor(Answer& answer, const SolvedPlane& solved) {
 }
 
 /// Distance between the state by the solution and the state by steps in time, at 95 % of a finite end time, else at t =
-/// 5. It is divided by the distance from 0 of the start or of the state by steps, the larger one.
+/// 5. It is divided by the distance of the start from 0, or of the state by steps if that one is larger.
 struct BySteps {
   double time, difference;
 };
@@ -391,7 +391,7 @@ std::vector<std::string_view> named_ends() {
   std::vector<std::string_view> names;
   for (int i = 0; i < reduction::planar_ends; ++i) {
     const auto end = static_cast<PlanarEnd>(i);
-    // Scripts that read the answer have no name for a limit cycle.
+    // An orbit that tends to a limit cycle has no name in the answer: its field `end` is null.
     if (end != PlanarEnd::undecided && end != PlanarEnd::cycle) names.push_back(name(end));
   }
   return names;
@@ -456,10 +456,10 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   if (given.at_rest()) throw BadInput("reduce needs a start other than rest: --u0 or --v0 must not be 0");
   const Vector2d start(state.u, state.v);
   const reduction::PlanarField field = reduction::planar_field(system);
-  // The samples lie about k = 1, where both speeds change, for every start. By the scaling all are alike.
+  // Both speeds matter near k = 1, so samples lie there for every start. Scaling maps these samples to other speeds.
   const PlanarSymmetries found = reduction::find_symmetries(field, Vector2d(1 / system.mu(), 1));
   if (!found.scaling) {
-    // The constructor of the law has tested that the law is homogeneous. So here only rounding can hide the scaling.
+    // The constructor of the law has tested that the law is homogeneous. Therefore only rounding can hide the scaling.
     throw std::runtime_error(fmt::format(
         "reduce: with mu = {} the scaling of (2.6) is lost in rounding, as u and v differ too much in how fast "
         "they change; stop, orbit and portrait take such a mu",
@@ -500,12 +500,12 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
   };
   const std::vector<reduction::Route> ways = reduction::routes(system);
   for (reduction::Route route : ways) {
-    // The first route is that of the flow, which is already solved.
+    // The first route is quadrature or the closed form, which has already computed tau.
     add_route(name(route),
               [&] { return route == ways.front() ? tau : reduction::stop_time(system, state, route).tau; });
   }
   add_route("section", [&] {
-    // The other quadrants are mirror images. A multiple zero of T on an axis is visible on both sides of the axis only.
+    // Other quadrants mirror u, v > 0. But a multiple zero of the angular rate on an axis shows on both its sides only.
     const bool simple = std::ranges::all_of(plane.rays(), [](const PlanarRay& ray) { return ray.order == 1; });
     const auto quadrant = [&](const Vector2d& x) -> Vector2d {
       return simple && x.minCoeff() < 0 ? Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()) : field(x);

@@ -27,7 +27,7 @@ ReduceAnswer reduce_answer(const GivenStart& given);
 /// @param text  text of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
 
-/// Returns every value of the field `end`; for an orbit with another end it is null.
+/// Returns every name that the field `end` can contain. The field is null for an orbit with an end that has no name.
 std::vector<std::string_view> named_ends();
 
 /// Returns the fields of these answers.

@@ -44,14 +44,14 @@ struct Roll {
 /// @param times  s
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 
-/// Returns the motion as text on one screen: a sentence, then time and place of the end of slip, the rolling after it,
-/// the lost energy, and the same under the uncoupled model. If the motion is integrated, the error of the stop follows.
+/// Returns the motion as text on one screen: a sentence; time and place of the end of slip; the rolling after this end;
+/// the lost energy; and the same under the uncoupled model. For an integrated motion, the error of the stop follows.
 std::string roll_text(const Roll& roll, const Digits& digits);
 
 /// Returns the fields of the answer of `roll`.
 std::vector<FieldText> roll_fields();
 
-/// Returns {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}, where NAME is a component.
+/// Returns {rolls_after: {t: {NAME: slope, ...}, x, y}, ...}. NAME is a component of the start.
 Json members_of(const si::EventGradient& gradient);
 
 }  // namespace contensou::answers

@@ -46,7 +46,7 @@ double tau_under(const GivenStart& start, const reduction::Law& law) {
 }
 
 /// Returns the stop time under the other law of the paper (exact or Pade), which belongs to the same pressure. Empty
-/// for other laws, and if slip or spin is 0, because both laws then give the same.
+/// for other laws, and if slip or spin is 0, because both laws then give the same stop time.
 std::optional<OtherLaw> other_law(const GivenStart& start) {
   const reduction::ReducedSystem& system = start.system;
   const bool is_pade = system.law().as<reduction::PadeLaw>() != nullptr;
@@ -77,7 +77,7 @@ struct StopReport {
   double sliding_only;                  ///< tau of a body with the same slip that does not pivot
   double pivoting_only;                 ///< tau of a body with the same spin that does not slide
   std::optional<OtherLaw> other;        ///< stop time under the other law of the paper, for one of its two laws
-  std::optional<CoarserTable> coarser;  ///< stop time without every other row of a pressure table
+  std::optional<CoarserTable> coarser;  ///< stop time under a pressure table without every other row
   std::vector<reduction::StopEstimate> estimates;  ///< estimates for small mu
   std::optional<reduction::StopTimeGradient> gradient;
   std::optional<Uncertainty> uncertainty;    ///< uncertainty of t_stop for a ball, else of tau_stop
@@ -90,7 +90,7 @@ struct StopReport {
   }
 };
 
-/// Returns the stop time tau of a body that does not slide at the start. With a drive it begins to slide.
+/// Returns the stop time tau of a body without slip at the start. A drive makes this body slide.
 double pivoting_only(const GivenStart& start) {
   const auto& [system, state, experiment, motion] = start;
   if (experiment && si::is_driven(*experiment) && state.u != 0) {
@@ -107,7 +107,7 @@ double sliding_only(const GivenStart& start) {
   return tau_of(si::without_spin(*start.experiment), system.law());
 }
 
-/// Returns time and place of the rest of a moving ball, with rolling friction or on a slope; empty if it never does.
+/// Returns time and place at which a ball with rolling friction or on a slope comes to rest; empty if it never rests.
 std::optional<si::Event> rest_of(const GivenStart& start) {
   return start.motion && !start.at_rest() ? start.motion->rest() : std::nullopt;
 }
@@ -117,7 +117,7 @@ double error_of(const reduction::StopEstimate& estimate, const reduction::StopTi
   return estimate.tau == stop.tau ? 0 : estimate.tau - stop.tau;
 }
 
-/// A derivative of the stop time by the variable with the name `by` and the value `at`.
+/// A derivative of the stop time by a variable. `by` is the name of the variable and `at` is its value.
 struct Derivative {
   const char* by;
   double value, at;
@@ -172,7 +172,7 @@ constexpr Field<StopReport> fields[]{
     {"tau_stop", "speed", "", [](const StopReport& r) -> Json { return r.stop.tau; }},
     {"accuracy", "speed, 1", "tau when slip and spin end; its relative error",
      [](const StopReport& r) -> Json { return r.stop.accuracy; }, nullptr, 3},
-    // the time f g t without the factor 3 pi/2 of tau
+    // f g t is tau without the factor 3 pi/2
     {"T_stop", "speed", "stop time as f g t_stop = 2 tau_stop/(3 pi)",
      [](const StopReport& r) -> Json { return r.stop.tau / (1.5 * std::numbers::pi); }, nullptr, 2},
     {"bounds", "speed", "proved bounds of tau_stop; not with pieces",
@@ -342,7 +342,7 @@ class Text {
     return chi == reduction::homogeneous_ball.chi && gamma == reduction::homogeneous_ball.gamma;
   }
 
-  /// Returns the law if it is a table of pressures. Such a law has kinks, at which its accuracy is not proved.
+  /// Returns the law if it is a table of pressures, else null. Such a law has kinks, where no accuracy is proved.
   const reduction::TabulatedPressureLaw* pressures() const {
     return system_.law().as<reduction::TabulatedPressureLaw>();
   }
@@ -505,7 +505,7 @@ class Text {
   const Digits& number_;
 };
 
-/// Returns the stop time of several orbits, one after the other. The end of each is a root, accurate to 50 bits.
+/// Returns the stop time of several successive orbits. A root search finds the end of each orbit to 2^-48.
 reduction::StopTime in_pieces(const std::vector<si::ReducedPiece>& pieces) {
   double accuracy = 0;
   long evaluations = 0;

@@ -42,7 +42,7 @@ struct Spread {
 struct Spreadable {
   Spread number;
   std::string_view unit;         ///< unit, as in si::Quantity
-  std::string_view corner = {};  ///< words for a result that has no derivative if the number is 0; empty: there is none
+  std::string_view corner = {};  ///< words for a result without a derivative if the number is 0; empty: there is none
 };
 
 /// Numbers with their standard deviations and the correlations of their errors.
@@ -50,11 +50,11 @@ struct Spreads {
   std::vector<Spread> numbers;
   Eigen::MatrixXd correlation;  ///< 1 on the diagonal
 
-  /// Returns the standard deviation of a sum of numbers; shares[i] is the factor of number i times its own deviation.
+  /// Returns the standard deviation of a sum; shares[i] is the standard deviation of summand i, with a sign.
   double standard_of(const Eigen::VectorXd& shares) const {
     const double largest = shares.size() > 0 ? shares.cwiseAbs().maxCoeff() : 0;
     if (!(largest > 0)) return 0;
-    const Eigen::VectorXd unit = shares / largest;  // squares of these are still doubles
+    const Eigen::VectorXd unit = shares / largest;  // a square of the quotient does not overflow
     return largest * std::sqrt(std::max(0.0, unit.dot(correlation * unit)));
   }
 };
@@ -65,7 +65,7 @@ std::string key(std::string name) {
 }
 
 /// Reads "slip=1%, spin=2 rad/s, ...", where % means per cent of the value. "fit" stands for the spreads of the ball.
-/// Numbers that are named beside "fit" replace spreads of the ball and are independent of the others.
+/// A number that is named beside "fit" replaces the spread of the ball, and its error is independent of other errors.
 /// @param known  numbers that a user may name; their names contain underscores
 /// @param own    spreads of the ball
 /// @throws BadInput  with the mistake and the allowed values; also for a number that is 0 and has a `corner`
@@ -142,11 +142,11 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-/// Solutions of one system for many mu. They are computed at equal steps of ln mu, with linear interpolation.
+/// Solutions of one system for many mu. They are computed at equal steps of ln mu; between these values, interpolated.
 class FlowsOfMu {
  public:
-  /// @param step  step of ln mu, >= 0; with an eighth of ln mu's standard deviation, interpolation leaves an error of
-  ///              1e-3 standard deviations of the result; 0: mu does not vary
+  /// @param step  step of ln mu, >= 0; 0: mu does not vary. A step of 1/8 of the standard deviation of ln mu leaves an
+  ///              error of interpolation of 1e-3 standard deviations of the result
   FlowsOfMu(const reduction::ReducedSystem& system, double step) : system_(system), step_(step) {}
 
   VectorXd operator()(double mu, const std::function<VectorXd(const reduction::Flow&)>& value) {
@@ -188,11 +188,11 @@ struct Varied {
   std::function<VectorXd(const Places&, const VectorXd& values, FlowsOfMu&)> at;
 };
 
-/// Returns standard normal numbers from a point of a lattice that fills the space more evenly than random numbers. The
-/// point consists of fractions of multiples of powers of 1/x, x^(n + 1) = x + 1.
+/// Returns `count` independent standard normal numbers for a point of a lattice, which fills the space more evenly than
+/// random points. Its coordinates are the fractions of 1/2 + point/x^i, i = 1 ... count, with x^(count + 1) = x + 1.
 /// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
 VectorXd normal_numbers(Index count, long point) {
-  // With long double, Boost's tables abort the program at its start under valgrind.
+  // Boost computes tables of long double at the start of the program. Under valgrind they abort it.
   constexpr boost::math::policies::policy<boost::math::policies::promote_double<false>> plain;
   double x = 2;
   for (int i = 0; i < 30; ++i) x = std::pow(1 + x, 1 / static_cast<double>(count + 1));
@@ -211,8 +211,8 @@ constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.99445788
 
 /// Sets the quantiles of a part from samples.
 /// @param samples  one or more samples of the part
-/// @param below    shares of samples below each quantile, to first order. The quantiles of the part are taken at these
-///                 shares of its samples, which removes most of the sampling error.
+/// @param below    shares of the samples of the first-order model below the normal quantiles. The quantiles of the part
+///                 are taken at these shares, not at `probabilities`, which removes most of the sampling error.
 void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const Eigen::ArrayXd& below) {
   KnownTo& known = part.known;
   constexpr double rounding = 1e-12;
@@ -243,7 +243,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
     const auto slopes = varied.slopes(place);
     if (!slopes) throw BadInput(fmt::format("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner));
     shares.col(i) = standard * *slopes;
-    // The change of mu is needed only to an eighth.
+    // A difference quotient suffices, because mu only sets the step of FlowsOfMu, an eighth of its standard deviation.
     constexpr double step = 1e-3;
     const double more = value + step * (value == 0 ? standard : std::abs(value));
     const double beside = varied.mu({place}, VectorXd::Constant(1, more));
@@ -275,7 +275,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
       for (std::size_t j = 0; j < samples.size(); ++j) samples[j].push_back(there[static_cast<Index>(j)]);
       ++result.samples;
     } catch (const std::domain_error&) {
-      // there is no start with such numbers
+      // no start has these numbers: the sample counts as outside
     }
   }
   if (result.samples == 0) throw BadInput("no sample of these spreads is a start: make them smaller");
@@ -329,7 +329,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
   return uncertainty_of(varied, read_spreads(typed, varied.numbers, experiment.spreads), corner);
 }
 
-/// Returns the spreads of a ball. Spreads of slip and spin replace spreads of its velocities.
+/// Returns the spreads of a ball. Spreads of slip and spin stand in place of the spreads of its velocities.
 si::Spreads of_slip_and_spin(const si::Experiment& experiment) {
   const si::Spreads& own = experiment.spreads;
   const Eigen::Vector2d along = si::slip_velocity_at_start(experiment).stableNormalized();

@@ -17,7 +17,7 @@ namespace contensou::answers {
 struct KnownTo {
   double standard = 0;  ///< standard deviation to first order
   /// Standard deviation due to each number alone, with the sign of the derivative. If the numbers are independent,
-  /// `standard` is the root of the sum of squares.
+  /// `standard` is the square root of the sum of their squares.
   std::vector<std::pair<std::string, double>> shares = {};
   std::array<double, 5> quantiles = {};  ///< quantiles of the samples at `probabilities`
   bool holds = true;                     ///< true if first order and quantiles agree within a tenth of `standard`

@@ -1,5 +1,5 @@
-// std::from_chars for doubles. libc++ contains it from LLVM 20 on. On systems without it (macOS, the page) the build
-// includes this header in every file.
+// std::from_chars for doubles, for a libc++ older than LLVM 20, which lacks this function (macOS, the page). There the
+// build includes this header in every file.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace std {
 
-/// Reads a number as std::from_chars does, by strtod in the locale C. A number of base 16 ends at its x.
+/// Reads a number as std::from_chars does, by strtod in the locale C. A number of base 16 ends before its letter x.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   const string text(first, find_if(first, last, [](char letter) { return letter == 'x' || letter == 'X'; }));

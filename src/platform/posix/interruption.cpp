@@ -11,17 +11,17 @@ namespace contensou::platform {
 
 namespace {
 
-/// Ends the program. It calls only async-signal-safe functions: unlink, write, signal, raise and _exit. Several threads
-/// may be here at once, and each removes the file before it ends the program.
+/// Ends the program. The function calls only async-signal-safe functions: unlink, write, signal, raise and _exit.
+/// Several threads may run it at once, and each removes the file before it ends the program.
 void end_program(int signal) {
   const char* message = remove_unfinished();
   if (message != nullptr && signal != SIGPIPE) {
-    std::signal(SIGPIPE, SIG_IGN);  // so that a closed standard error does not change the exit status
+    std::signal(SIGPIPE, SIG_IGN);  // a closed standard error must not change the exit status
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message, std::strlen(message));
   }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
-  ::_exit(128 + signal);  // in a container, process 1 survives raise()
+  ::_exit(128 + signal);  // as process 1 of a container the program survives raise()
 }
 
 sigset_t ending_signals() {

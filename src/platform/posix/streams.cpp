@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#ifndef O_PATH  // only Linux has O_PATH, which allows neither reading nor writing
+#ifndef O_PATH  // Linux alone has O_PATH: neither reading nor writing is allowed
 #define O_PATH O_RDONLY
 #endif
 

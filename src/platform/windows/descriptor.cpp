@@ -47,7 +47,7 @@ int create_unfinished(char* name) {
   for (int attempt = 0; attempt < 100; ++attempt) {
     for (char* letter = name + std::strlen(name) - 6; *letter != '\0'; ++letter)
       *letter = letters[random() % letters.size()];
-    // The file is shared so that it can be removed while it is open.
+    // FILE_SHARE_DELETE lets the signal handler remove the file while it is open.
     const HANDLE file = ::CreateFileA(name, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr, CREATE_NEW,
                                       FILE_ATTRIBUTE_NORMAL, nullptr);
     if (file != INVALID_HANDLE_VALUE)
@@ -67,7 +67,7 @@ bool is_ready(int file) {
   const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(file));
   DWORD bytes = 0;
   if (::GetFileType(handle) != FILE_TYPE_PIPE) return true;
-  // 0 means that the pipe has ended, so a read does not wait.
+  // PeekNamedPipe returns 0 if the pipe has ended. Then a read does not wait.
   return ::PeekNamedPipe(handle, nullptr, 0, nullptr, &bytes, nullptr) == 0 || bytes > 0;
 }
 

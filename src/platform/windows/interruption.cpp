@@ -11,10 +11,10 @@ namespace contensou::platform {
 
 namespace {
 
-/// A lock that delays the end of the program. `paper` holds it for all its files, and again for each file.
+/// A lock that delays the end of the program. The verb `paper` locks it for all its files and again for each file.
 std::recursive_mutex wait;
 
-/// Removes the unfinished file; the system calls it in its own thread. Then the system ends the program.
+/// Removes the unfinished file. The system calls this function in a separate thread and ends the program afterwards.
 BOOL WINAPI end_program(DWORD) {
   const std::lock_guard lock(wait);
   if (const char* message = remove_unfinished()) {

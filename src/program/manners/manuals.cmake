@@ -25,18 +25,18 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   file(WRITE ${OUT}/include "${include}")
   execute_process(COMMAND ${HELP2MAN} --no-info --include=${OUT}/include --output=${OUT}/${page}.1 "--help-option=help ${verb}"
     ./${program} WORKING_DIRECTORY ${folder} COMMAND_ERROR_IS_FATAL ANY)
-  # A line each.
+  # The lines of an example keep their line ends, between .nf and .fi.
   file(READ ${OUT}/${page}.1 manual)
   string(REGEX REPLACE "(\n\\.SH EXAMPLES\n\\.IP\n)(([^.\n][^\n]*\n)+)" "\\1.nf\n\\2.fi\n" manual "${manual}")
   file(WRITE ${OUT}/${page}.1 "${manual}")
 endforeach()
 file(REMOVE ${OUT}/include)
 
-# The text of a topic has lines of up to 80 columns already: it is neither indented nor filled.
+# The text of a topic already has lines of at most 80 columns. The manual page neither indents nor fills this text.
 foreach(topic IN LISTS TOPICS)
   contensou_help(${topic} text)
   string(REPLACE "\\" "\\e" text "${text}")
-  string(REPLACE "\n" "\n\\&" text "\n${text}")  # no line begins with a dot or an apostrophe
+  string(REPLACE "\n" "\n\\&" text "\n${text}")  # a dot or an apostrophe would begin a request
   string(TOUPPER ${topic} title)
   file(WRITE ${OUT}/../man7/contensou-${topic}.7 ".TH CONTENSOU-${title} 7 \"\" contensou \"Topics of contensou\"
 .SH NAME

@@ -13,8 +13,8 @@
 
 namespace contensou::program {
 
-/// A value that can be read but is not allowed. An Argument puts its value before such a message. Other BadInput
-/// messages already quote the text that cannot be read.
+/// A value that can be read but is not allowed. An Argument puts the value before such a message. A message of another
+/// BadInput already quotes the text that cannot be read.
 struct NotAllowed : BadInput {
   using BadInput::BadInput;
 };
@@ -32,10 +32,10 @@ class Argument {
   CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help,
                    Take take = {}, bool repeatable = false);
 
-  /// Returns true if the argument was given. Returns false also if the verb does not have it.
+  /// Returns true if the argument was given. Returns false also for a verb without this argument.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
 
-  /// Returns the first of its names; messages use this name.
+  /// Returns the first name of the argument; messages use this name.
   const std::string& name() const { return name_; }
 
   const std::string& text() const { return option_->results().front(); }
@@ -86,13 +86,13 @@ std::string with_name(const std::string& names, const std::string& more);
 /// Returns true if a value is the path of a file: it contains a / or ends with one of these endings.
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings);
 
-/// Readers of a number, and of a whole number.
+/// Read a number, and a whole number, for an ArgumentOf.
 inline double number(const std::string& typed) { return parse_number(typed); }
 inline auto whole_number(long lowest, long highest) {
   return [=](const std::string& typed) { return parse_integer(typed, lowest, highest); };
 }
 
-/// Reads a number that is in a unit, or that is followed by another unit of the same kind.
+/// Reads a number in a unit. Another unit of the same kind may follow the number.
 /// @param symbol  symbol of the unit (si::dimensions); empty for a pure number
 double parse_quantity(const std::string& typed, std::string_view symbol);
 /// @throws std::logic_error  unless the text is a symbol in si::dimensions
@@ -101,10 +101,10 @@ inline auto quantity(std::string_view symbol) {
   return [unit = known_unit(symbol)](const std::string& typed) { return parse_quantity(typed, unit); };
 }
 
-/// Reads each text as parse_quantity. A unit after the last number applies to all numbers, unless each has its own.
+/// Reads each text as parse_quantity. If only the last number has a unit, this unit applies to all numbers.
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
 
-/// Reads a number of numbers that are separated by commas.
+/// Reads `count` numbers that are separated by commas.
 /// @param names   names of the numbers in messages, such as U,V
 /// @param symbol  symbol of the unit, as in parse_quantity
 std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names,
@@ -115,7 +115,7 @@ template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
 /// Returns the error for an unknown name.
-/// @param kind  noun for the named things, such as "law"; if empty, the message is "one of them is needed"
+/// @param kind  noun for the named things, such as "law"; if empty, the message asks for one of the names
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names);
 
 /// Reads the value that a name stands for. Messages do not list the empty name.

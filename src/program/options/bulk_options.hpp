@@ -9,7 +9,7 @@
 namespace contensou::program {
 
 /// Returns the default rule for progress. Progress of long work is shown if standard error is a terminal and the output
-/// does not go to a terminal; otherwise it is never shown.
+/// does not go to a terminal. Otherwise progress is never shown.
 /// @param output  the file of -o; "-" is standard output
 ShowProgress progress_if_watched(const std::string& output);
 

@@ -37,7 +37,7 @@ portraits::AskedSize parse_size(const std::string& typed) {
 }
 
 std::string parse_font(const std::string& typed) {
-  // Other characters would end the name of the font in the picture formats.
+  // Picture formats would take other characters for the end of the name of the font.
   const auto forbidden = [](char c) {
     return static_cast<unsigned char>(c) < ' ' || std::string_view("'\",;:<>&\\").find(c) != std::string_view::npos;
   };

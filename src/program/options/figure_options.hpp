@@ -8,7 +8,7 @@
 
 namespace contensou::program {
 
-/// Throws BadInput if `names` names options and no picture is written.
+/// Throws BadInput if `names` is not empty and no picture is written.
 void require_picture(const std::string& names, const Output& output);
 
 /// Name of the group of these options in the help.
@@ -17,19 +17,19 @@ std::string figure_group();
 /// The options for the look of a figure on a page: --size, --font, --title and --dpi.
 class FigureOptions {
  public:
-  /// @param several  true: only --size and --font, for several figures that have titles of their own and no pixels
+  /// @param several  true: only --size and --font, for a verb that draws several figures with titles of their own
   void add(CLI::App& app, bool several = false);
 
   /// Returns the names of the options that were given, for a message.
   std::string names() const { return names_given({&size_, &font_, &title_, &dpi_}); }
 
-  /// Throws BadInput if one of them was given and no picture is written.
+  /// Throws BadInput if one of these options was given and no picture is written.
   void require_picture(const Output& output) const { program::require_picture(names(), output); }
 
   /// Returns the value of --size; empty without the option.
   portraits::AskedSize size() const { return size_.value_or(portraits::AskedSize{}); }
 
-  /// Returns the figure with the title, font and resolution that the options set. By default the height fits.
+  /// Returns the figure with the title, font and resolution that the options set. The default height fits the contents.
   /// @param format  format in which the figure is written
   /// @throws BadInput  for --dpi with a format other than png; for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;

@@ -9,16 +9,16 @@
 
 namespace contensou::program {
 
-/// Returns instants from 0 to the end, both included. Half of them lie before `busy`, because most of the motion
-/// happens before it. They are equidistant if `busy` is not in the first half.
+/// Returns instants from 0 to the end, both included. Half of the instants lie before `busy`, because most of the
+/// motion happens before that time. The instants are equidistant if `busy` is not in the first half of the time.
 Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
 
 /// The options --at, --samples and --equidistant, which set the instants of a motion or their number.
 class InstantsOption {
  public:
   /// @param time    name of the time, the column of the file of --at
-  /// @param unit    symbol of its unit; empty for tau
-  /// @param extent  extent of the instants of --samples: "" or " from WHERE to WHERE"
+  /// @param unit    symbol of the unit of the time; empty for tau
+  /// @param extent  time span of the instants of --samples: "" or " from WHERE to WHERE"
   /// @return        the option --at
   CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
@@ -28,13 +28,13 @@ class InstantsOption {
     bool in_seconds = false;
   };
 
-  /// Reads a list of times, or the column with the name of the time in a file.
+  /// Reads a list of times, or the column of a file that has the name of the time.
   /// @param unit  unit of the list, as in parse_quantity; if empty, the list has no unit, or is in seconds
   static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
   bool given() const { return !names().empty(); }
 
-  /// Returns the names of those of the three options that were given, joined for a message.
+  /// Returns the names of the given ones of these three options, joined for a message.
   std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
 
   /// Returns the instants of --at, in the order given; null without --at.

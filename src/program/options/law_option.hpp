@@ -15,7 +15,7 @@ class LawOption {
   /// @param note  sentence that is added to the help
   void add(CLI::App& app, const std::string& note = "");
 
-  /// Adds an option for several laws; read_several reads it.
+  /// Adds an option for several laws. The function read_several reads this option.
   void add_several(CLI::App& app, const std::string& value_name, const std::string& help);
 
   /// Adds an option under another name, for a second law. Formulas of this law have no parameters.
@@ -26,14 +26,14 @@ class LawOption {
   const ParameterOptions& parameters() const { return parameters_; }
 
   /// Returns the law with a name, with an exponent (pressure:P), with formulas (phi = F; psi = G), or with the
-  /// pressures in a file (its name contains / or ends in .csv). If none is given, it returns the law `standard`; for a
-  /// start this is StartOptions::standard_law().
+  /// pressures in a file (the name of the file contains / or ends in .csv). Without the option it returns the law
+  /// `standard`; for a start, `standard` is StartOptions::standard_law().
   /// @throws BadInput           for an unknown name, an exponent out of range, or formulas that are no law; BadLine for
   ///                            a bad line of the file
   /// @throws std::system_error  if the file cannot be read
   reduction::Law read(const std::string& standard) const;
 
-  /// Returns the laws with several names, separated by commas, or the law of the formulas. Throws as read.
+  /// Returns the laws with several names, separated by commas, or the single law of the formulas. Throws as read.
   std::vector<reduction::Law> read_several(const std::string& standard) const;
 
  private:

@@ -54,8 +54,8 @@ class OutputOptions {
 
   void add(CLI::App& app);
 
-  /// Reads the three options. The ending of the file sets the format; without it --format; without that the kind.
-  /// @param place  index of the kind
+  /// Reads the three options. The ending of the file sets the format; without an ending, --format sets the format;
+  /// without both, the kind of output.
   /// @throws BadInput  if the kind does not have the format, if ending and --format disagree, if a file needs an
   ///                   ending, or if --digits is given with a format other than text
   Output read(std::size_t place = 0) const;

@@ -179,7 +179,7 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     const si::Experiment experiment = read_ball(law);
     try {
       GivenStart start{si::undriven_system(experiment, law), si::reduced_start(experiment), experiment};
-      (void)si::drive_of(experiment);  // throws with a reason if the motion has no reduced system
+      (void)si::drive_of(experiment);  // throws with the reason if the motion has no reduced system
       start.motion = si::Motion::reduced(experiment, law);
       if (!start.motion->is_reduced()) {
         throw std::domain_error(
@@ -243,7 +243,7 @@ const si::Description& StartOptions::ball_of_its_own() const {
   if (own_) return *own_;
   if (!ball_.given() && radius_is_ball_) {
     if (const auto& given = value(si::radius); given.given()) {
-      // Friction and patch radius are only first guesses.
+      // Friction and patch radius are only first guesses of a fit.
       own_ = si::describe(si::Experiment{.ball = {.name = "ball", .radius = given->front()},
                                          .contact = {.friction = 0.2, .patch = si::PatchRadius{0.1 * given->front()}},
                                          .start = si::SlipAndSpin{.slip = 0, .spin = 0}});
@@ -307,7 +307,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
     return experiment;
   } catch (const si::RunFileError&) {
     throw;
-  } catch (const std::domain_error& error) {  // an error that concerns several values, not one place in a file
+  } catch (const std::domain_error& error) {  // the error concerns several values and has no line in a file
     reject_ball(error.what());
   }
 }
@@ -358,7 +358,7 @@ void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduct
     const si::Experiment before = si::experiment_of(ball_of_its_own().under(at_rest("")));
     own = si::patch_radius_of(before, *find_law_or_formulas(si::law_of(before)));
   } catch (const std::domain_error&) {
-    return;  // the file leaves one of the values to the command line
+    return;  // the file leaves this value to an option
   }
   const double patch = si::patch_radius_of(experiment, law);
   if (std::abs(patch - own) <= 1e-12 * own) return;

@@ -23,7 +23,7 @@ using si::Body;
 class BodyOptions {
  public:
   void add_mu(CLI::App& app);
-  /// Allows --mu to be a list, for a verb that compares. Call it before add_mu.
+  /// Allows --mu to be a list, for a verb that compares several mu. This must be called before add_mu.
   void take_several_mu() { takes_several_mu_ = true; }
   void add_body(CLI::App& app);
   void add_drive(CLI::App& app);
@@ -58,7 +58,7 @@ class StartOptions {
  public:
   void add(CLI::App& app);
 
-  /// Allows --mu to be a list, for a verb that compares. Call it before add.
+  /// Allows --mu to be a list, for a verb that compares several mu. This must be called before add.
   void take_several_mu() { body_.take_several_mu(); }
 
   /// Returns a start for each value of --mu under a law; without a motion, the bodies alone. Throws as read.
@@ -67,7 +67,7 @@ class StartOptions {
   /// Adds --drive, for a verb that can compute with a drive.
   void add_drive(CLI::App& app) { body_.add_drive(app); }
 
-  /// Predicate that is true if a verb with --ball has an option for a quantity.
+  /// Predicate on a quantity. It is true if a verb with --ball has an option for this quantity.
   using Offer = bool (*)(const si::Quantity& quantity);
   static bool all(const si::Quantity& /*quantity*/) { return true; }
   static bool no_start(const si::Quantity& quantity) { return quantity.section != si::slip.section; }
@@ -88,7 +88,7 @@ class StartOptions {
   std::string names_of_one_start() const;
   double drive() const { return body_.drive().value_or(0); }
 
-  /// Returns the drive of a ball whose slip points along x. It does not depend on the speed. Throws as read.
+  /// Returns the drive of a ball whose slip points along x. The drive does not depend on the speed. Throws as read.
   double drive_along_x(si::Experiment ball) const;
 
   /// Returns true if the options give no motion: neither --u0 nor --v0 nor --ball.
@@ -110,10 +110,10 @@ class StartOptions {
 
   bool ball_given() const { return ball_.given(); }
 
-  /// Also allows --load to name a table of the load against time. Call it before add_ball.
+  /// Also allows --load to name a table of the load against time. This must be called before add_ball.
   void take_load_history() { takes_load_history_ = true; }
 
-  /// Returns the table that --load names. Throws BadLine, and FileFailure if it cannot be read.
+  /// Returns the table that --load names. Throws BadLine for its mistakes, and FileFailure if it cannot be read.
   std::optional<si::LoadHistory> load_history() const;
 
   /// Returns the values that are given by single options, such as --slip.
@@ -126,7 +126,7 @@ class StartOptions {
   /// Returns the name of the law that belongs to the body or the ball. Throws as read.
   std::string standard_law() const;
 
-  /// Returns true if the ball has a law of its own, or if its body has another default law than a ball.
+  /// Returns true if the ball has its own law, or if its body has another default law than a ball.
   bool brings_law() const;
 
   /// Prints which spreads in the ball's run file do not apply, because options replace their numbers.
@@ -136,13 +136,13 @@ class StartOptions {
   void tell_left_out() const;
 
   /// Returns the ball of --ball, which must roll. Throws as read_ball, and BadInput for a body that lies flat.
-  /// @param way_out  advice for a user who gives such a body, for the message
+  /// @param way_out  advice for the message to a user with a body that lies flat
   si::Experiment read_rolling_ball(const reduction::Law& law, const std::string& way_out,
                                    const si::Description& between = {}) const;
 
   /// Returns the ball of --ball. Throws as read.
   ///
-  /// @param between  values that replace values of the ball; options replace both
+  /// @param between  values that replace values of the ball; values of options replace both
   si::Experiment read_ball(const reduction::Law& law, const si::Description& between = {}) const;
 
   /// Throws an error about --ball and the options that replace its values.
@@ -153,7 +153,7 @@ class StartOptions {
   /// @param what  name of the verb or option, for the message
   void require_undriven(const si::Experiment& experiment, const std::string& what) const;
 
-  /// Returns the body without a motion. It needs --mu, a --body that determines mu, or --ball. Throws as read.
+  /// Returns the body without a motion. This needs --mu, a --body that determines mu, or --ball. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
   /// Returns the argument --body.
@@ -163,8 +163,8 @@ class StartOptions {
  private:
   const si::Description& ball_of_its_own() const;
 
-  /// Prints a warning on standard error if a measured spin deceleration now gives another patch than with the ball's
-  /// own values, because options replace some of these values or the law.
+  /// Prints a warning on standard error if options replace values of the ball or the law, so that a measured spin
+  /// deceleration now gives another patch than before.
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   void require_one_kind() const;
@@ -176,8 +176,8 @@ class StartOptions {
   const ArgumentOf<std::vector<double>>& value(const si::Quantity& quantity) const;
 
   bool radius_is_ball_ = false, takes_load_history_ = false;
-  mutable std::optional<si::LoadHistory> load_history_;  ///< empty until it is read, once
-  mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, because its file may be a pipe
+  mutable std::optional<si::LoadHistory> load_history_;  ///< empty until load_history() has read the table, once
+  mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, as it may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
 

@@ -29,7 +29,7 @@ struct Piece {
   long overflows = 0;
   std::string first_overflow;  ///< message about the first infinite result
   ExitStatus status = ExitStatus::done;
-  std::exception_ptr fault;  ///< exception of the first row without a line of output; null if there is none
+  std::exception_ptr fault;  ///< exception for the first row without a line of output; null if each row has a line
   double fraction_read = 0;  ///< fraction of the table read up to these rows; NaN if its length is unknown
 };
 

@@ -17,7 +17,7 @@ struct BatchRequest {
   std::vector<std::string> inputs;   ///< columns that are read; all others are copied
   std::vector<std::string> results;  ///< columns that are added
 
-  /// Computes the results of a row from its inputs. `line` is the number of lines before the row. Threads call it.
+  /// Computes the results of a row, which begins on the given line, from its inputs. Threads call this function.
   /// @throws std::domain_error   for a bad row
   /// @throws std::runtime_error  for a row that cannot be computed
   std::function<void(std::span<const double> inputs, std::span<double> results, long line)> compute;
@@ -27,14 +27,14 @@ struct BatchRequest {
   ShowProgress progress = ShowProgress::never;
 };
 
-/// Computes a table of any length; only a few blocks of it are in memory. Rows are written in order, as soon as they
-/// are done. The bytes do not depend on the number of threads. Standard error gets the number of infinite results.
+/// Computes a table of any length; only a few blocks of the table are in memory. Rows are written in order, as soon as
+/// possible. The bytes do not depend on the number of threads. Standard error shows the number of infinite results.
 ///
 /// @param output  file for the table; the caller finishes it
 /// @return        status of the worst row that has no result; `done` if all rows have results
-/// @throws BadLine             for a table that lacks a column or is not CSV, and, unless keep_going, for a bad row
+/// @throws BadLine             for a table that lacks a column or is not CSV. Without keep_going also for a bad row,
 ///                             after the rows before it have been written
-/// @throws std::runtime_error  likewise, for a row that cannot be computed
+/// @throws std::runtime_error  without keep_going, for a row that cannot be computed, after the rows before it
 ExitStatus run_batch(CsvReader& table, OutputFile& output, const BatchRequest& request);
 
 }  // namespace contensou::program

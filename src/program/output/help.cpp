@@ -124,7 +124,7 @@ std::string help_on_fields(const VerbEntry& verb, bool all) {
 
 namespace {
 
-/// Returns the names of the fields of a verb. The help shows them if it would be too long with their meanings.
+/// Returns the names of the fields of a verb, for a help that would be too long with the meanings of the fields.
 std::string names_of_fields(const VerbEntry& verb) {
   std::vector<std::string> all;
   for (auto [names, unit, meaning] : verb.fields.front().fields()) {

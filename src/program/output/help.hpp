@@ -26,14 +26,14 @@ std::string help_entry(std::string_view name, std::string_view meaning);
 /// options; 'contensou help TOPIC' explains them.
 std::string shared_group(std::string_view title, std::string_view topic);
 
-/// Returns the entries of those options of a command line that belong to such a group.
+/// Returns the entries of those options of a command line that belong to the group of this name.
 std::string help_on_group(const CLI::App& app, const std::string& group);
 
 /// Returns the columns and fields of a verb; empty if it has none.
-/// @param all  true: also fields with an option such as --batch; false: only the names of these options
+/// @param all  true: also the fields of an option such as --batch; false: only the names of such options
 std::string help_on_fields(const VerbEntry& verb, bool all);
 
-/// Returns the entries of the glossary with these names, under a heading; all entries without names.
+/// Returns the entries of the glossary with these names, under a heading. Without names it returns all entries.
 std::string help_on_words(const std::vector<std::string_view>& names = {});
 
 /// The format in which CLI11 writes help.

@@ -19,8 +19,8 @@ std::string clock(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-/// Returns the progress bar for a fraction of the work, with rate and time left. If the total is NaN, it returns the
-/// amount of work that is done. There is no line end.
+/// Returns the progress bar for a fraction of the work, with the rate and the time left, without a line end. If `total`
+/// is NaN, it returns only the amount of work that is done.
 std::string progress_line(double done, double total, const std::string& what, double seconds) {
   constexpr int width = 24;
   const double rate = done / seconds;

@@ -1,4 +1,4 @@
-// Notation: V and omega are the velocities of centre and ball, c that of the contact point, e = c/v, n across e.
+// V and omega: velocities of the centre and of rotation; c: of the contact point; v = |c|, e = c/v, n is normal to e.
 #include <Eigen/Geometry>
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -19,7 +19,7 @@ using zh98::pi;
 
 double cross(Vector2d a, Vector2d b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Returns the moment of inertia of a homogeneous ball divided by m R^2: 2/3 r^2, averaged with 3 r^2 dr.
+/// Returns the moment of inertia of a homogeneous ball divided by m R^2: the mean of 2/3 r^2 with the weight 3 r^2 dr.
 double moment_of_inertia() {
   return boost::math::quadrature::gauss<double, 7>::integrate([](double r) { return 2 * r * r * r * r; }, 0, 1);
 }
@@ -59,7 +59,7 @@ std::vector<Statement> ball_statements() {
   const auto position_at = [&](int i) { return Vector2d(at.x[i], at.y[i]); };
   const auto c_at = [&](int i) { return Vector2d(V_at(i) + R * Vector2d(-omega_at(i).y(), omega_at(i).x())); };
   const double omega_along = omega.head<2>().dot(e);
-  const double first_integral = 7 * R * omega.head<2>().dot(n) + 5 * v;  // along n is omega_y of the paper
+  const double first_integral = 7 * R * omega.head<2>().dot(n) + 5 * v;  // omega along n is omega_y of the paper
 
   // Evaluate the formulas as printed in the paper.
   const Vector2d printed_c = zh98::contact_velocity(R, V, omega);

@@ -44,7 +44,7 @@ double ends_of_puck() {
   return first_below(steps.u) / first_below(steps.v);
 }
 
-/// Returns the sliding distance of a ring with v = u, divided by the distance with the same v and u = 0.
+/// Returns the sliding distance of a ring with v = u at the start, divided by the distance with this v and u = 0.
 double way_of_ring() {
   const reduction::ReducedSystem ring = flat("ring", 1);
   const reduction::Flow flow(ring);
@@ -52,7 +52,7 @@ double way_of_ring() {
   return way({.u = 1, .v = 1}) / way({.u = 0, .v = 1});
 }
 
-/// A bowling ball in the textbooks' example: it starts by sliding at 8 m/s without spin.
+/// A bowling ball in an example of textbooks: it starts by sliding at 8 m/s without spin.
 struct Bowled {
   double speed = 8;
   si::Experiment ball = [this] {
@@ -65,7 +65,7 @@ struct Bowled {
   double friction = ball.contact.friction * ball.environment.gravity;
 };
 
-/// Returns the speed at which a ball begins to roll, divided by v at the start. It starts with backspin (5/2) v/R.
+/// Returns the speed at which a ball begins to roll, divided by its speed v at the start. Its backspin is (5/2) v/R.
 double speed_of_draw() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const double speed = 1;
@@ -74,8 +74,8 @@ double speed_of_draw() {
   return motion.at(motion.stop_time()).velocity.norm() / speed;
 }
 
-/// Returns the height of a level cue's tip above the centre, in radii, for which the ball rolls at once. The slip
-/// divided by the speed is a linear function of this height.
+/// Returns the height of a level cue's tip above the centre, in radii, at which the stroke makes the ball roll at once.
+/// There the slip is 0. The slip divided by the speed is a linear function of this height.
 double height_of_rolling() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const auto slip_over_speed = [&](double above) {
@@ -86,8 +86,8 @@ double height_of_rolling() {
   return high * centre / (centre - slip_over_speed(high));
 }
 
-/// Returns the spin deceleration of a curling stone with its typical spin, multiplied by v, m/s^3. Its friction is that
-/// of the program DigitalCurling.
+/// Returns the spin deceleration of a curling stone with its typical spin, multiplied by v, in m/s^3. The stone has the
+/// friction of the program DigitalCurling.
 /// @param v  slip, m/s, > 0
 double spin_decay_of_stone(double v) {
   const si::Experiment& stone = si::find_ball("curling-stone")->experiment;

@@ -12,7 +12,7 @@ struct Published {
   std::string_view link;    ///< DOI or repository of the source; empty if there is none
   std::string_view read;    ///< part of the source that was read: "abstract", "code", "in textbooks" or "as cited"
   double published;
-  double allowed;         ///< half a unit of the last printed digit; for a closed expression, the rounding
+  double allowed;         ///< half a unit of the last printed digit; for an exact expression, the error of rounding
   double computed;        ///< computed without the published number
   bool confirmed = true;  ///< recorded result: true if both agree
 

@@ -13,21 +13,21 @@ using namespace zh98;
 
 constexpr double by_integral = 1e-10;        ///< allowed error of an integral over the patch
 constexpr double by_difference = 1e-6;       ///< allowed error of a difference quotient
-constexpr double quantitatively_well = 0.1;  ///< largest error for which the paper's "well, in numbers" counts as true
+constexpr double quantitatively_well = 0.1;  ///< largest error that the words "well, in numbers" of the paper allow
 
 template <class Integrand>
 double integral(Integrand integrand, double left, double right, unsigned halvings = 8) {
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(integrand, left, right, halvings, 1e-12);
 }
 
-/// Returns the one-sided derivative to second order; side = 1: from above, -1: from below.
+/// Returns the one-sided derivative with an error of second order; side = 1: from above, -1: from below.
 template <double (*function)(double), int side>
 double derivative(double at) {
   constexpr double step = side * 1e-5;
   return (-3 * function(at) + 4 * function(at + step) - function(at + 2 * step)) / (2 * step);
 }
 
-/// Returns d ln f/d ln k.
+/// Returns the logarithmic derivative d ln f/d ln k of a function f(k).
 template <double (*function)(double)>
 double order(double k) {
   return std::log2(function(2 * k) / function(k));
@@ -44,22 +44,22 @@ double true_moment(double k) { return patch().over_disc(reduction::slip_of_ratio
 
 double last_angle(double k) { return k > 1 ? std::asin(1 / k) : pi; }
 
-/// Returns the integral of Q_n cos(theta)^power over (0, top), with Q_n of (1.2) multiplied by 3/(2 pi).
+/// Returns the integral of Q_n cos(theta)^power for theta in (0, top); Q_n is the integral in (1.2) times 3/(2 pi).
 double over_angles(int n, int power, double k, double top) {
   const auto integrand = [&](double theta) {
     return std::pow(std::cos(theta), power) * patch().chord_moment(n, theta, k);
   };
-  // With theta = top sin(x) the integrand is smooth, although the chord's length has a square root at the last angle.
+  // Theta = top sin(x) makes the integrand smooth: at the last angle the chord's length has a square root.
   return integral([&](double x) { return top * std::cos(x) * integrand(top * std::sin(x)); }, 0, pi / 2, 2);
 }
 
-/// Returns the force by (1.2), with a power of cos(theta) under the integral.
+/// Returns the force by (1.2), with cos(theta)^power under the integral.
 template <int power>
 double force_by_chords(double k) {
   return (k > 1 ? 2 : 1) * over_angles(1, power, k, last_angle(k));
 }
 
-/// Returns M^h - h F, integrated over a multiple of the angles of (1.2).
+/// Returns M^h - h F of the paper, by an integral over `multiple` times the angles of (1.2).
 template <int multiple>
 double moment_by_chords(double k) {
   return (k > 1 ? 2 : 1) * over_angles(2, 0, k, multiple * last_angle(k)) - k * true_force(k);
@@ -72,7 +72,7 @@ double load() {
   return 2 * pi * integral([](double c) { return c * pressure(std::sqrt((1 - c) * (1 + c))); }, 0, 1);
 }
 
-/// Returns the friction across the slip, over the disc. The midpoint rule uses no symmetry.
+/// Returns the friction force across the slip, by an integral over the disc. The midpoint rule uses no symmetry.
 double force_across(double k) {
   constexpr int points = 64;
   const auto of_circle = [&](double rho) {
@@ -86,7 +86,7 @@ double force_across(double k) {
   return integral(of_circle, 0, 1);
 }
 
-/// Returns the distance from the centre of the patch of that end of a chord that is farther from the edge.
+/// Returns the distance from the centre of the patch to one end of a chord: the end that is farther from the edge.
 double worst_chord_end(double k) {
   const double theta = 0.7 * last_angle(k);
   const auto rho = [&](double q) { return std::hypot(k - q * std::cos(theta), q * std::sin(theta)); };

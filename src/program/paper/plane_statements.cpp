@@ -28,10 +28,10 @@ Orbit orbit(double mu) { return Flow(system(mu)).orbit(start); }
 
 double slope_of(Rate rate) { return rate.v / rate.u; }
 
-/// Returns the motion when a fraction of the stop time is left. A small fraction stands for the limit.
+/// Returns the state at which the given fraction of the stop time is left. A small fraction stands for the limit.
 OrbitPoint late(const Orbit& motion, double fraction) { return motion.at_time_left(fraction * motion.stop_time()); }
 
-/// Returns the exponent with which y falls as a power of beta next to the stop.
+/// Returns the exponent of the power of beta with which y falls next to the stop.
 template <class Logarithm>
 double exponent(const Orbit& motion, Logarithm ln_y) {
   const OrbitPoint before = late(motion, 1e-8), after = late(motion, 1e-12);
@@ -40,16 +40,16 @@ double exponent(const Orbit& motion, Logarithm ln_y) {
 double ln_u(const OrbitPoint& at) { return std::log(at.u); }
 double ln_v(const OrbitPoint& at) { return at.ln_v; }
 
-/// Returns the integral of (2.8) from beta = lower along the solution u = u1/beta of (2.7) with v = 0, 1/u1 = -u'/u^2.
+/// Returns (2.8) from beta = lower, along the solution u = u1/beta of (2.7) with v = 0; u1 = -u^2/u', u' = du/dbeta.
 double time_from(double mu, double lower) {
-  if (lower == 0) return infinity;  // the integrand is like 1/beta^2 there
+  if (lower == 0) return infinity;  // the integrand grows like 1/beta^2 at beta = 0
   const double u1 = -1 / regularised_field(mu, {1, 0}).u;
   boost::math::quadrature::exp_sinh<double> rule;
   const auto along = [&](double beta) { return weight(mu, {u1 / beta, 0}); };
   return rule.integrate(along, lower, infinity, 1e-10) / u1;
 }
 
-/// Returns the tau at which a speed vanishes, divided by the stop time. At last the speed is a power of the time left.
+/// Returns the tau at which a speed vanishes, divided by the stop time. At the end the speed is a power of time left.
 template <class Logarithm>
 double vanishes(const Orbit& motion, Logarithm ln_y, double power) {
   const OrbitPoint before = late(motion, 1e-2), after = late(motion, 1e-3);
@@ -57,7 +57,7 @@ double vanishes(const Orbit& motion, Logarithm ln_y, double power) {
   return (after.tau - ratio * before.tau) / (1 - ratio) / motion.stop_time();
 }
 
-/// Returns dp/dq with q = v/u, p = ln v, from the printed field.
+/// Returns dp/dq with q = v/u and p = ln v, computed from the printed field.
 double dp_dq(double mu, State state) {
   const Rate rate = field(mu, state);
   return rate.v / state.v / (rate.v / state.u - state.v * rate.u / (state.u * state.u));
@@ -100,7 +100,7 @@ std::vector<Statement> plane_statements(double mu) {
        regularised_field(mu, start).u / reduced.field(start).u, arithmetic},
       {"(2.7)", "reaches rest in infinite beta only: beta grows without bound, by", 1000.,
        late(motion, 1e-12).beta / late(motion, 1e-8).beta, lower_bound, 0, "tau* - tau from 1e-8 to 1e-12 tau*"},
-      // On u = u1/beta, v = v1/beta both speeds fall at the same relative rate.
+      // On u = u1/beta, v = v1/beta the rates u'/u and v'/v are both -1/beta.
       {"(2.7)", "u = u(1)/beta, v = v(1)/beta is a solution: (v'/v)/(u'/u)", 1.,
        slope_of(regularised_field(mu, start)) * start.u / start.v, arithmetic, 0, "", Verdict::not_true,
        "only on the axes u = 0 and v = 0"},
@@ -118,7 +118,7 @@ std::vector<Statement> plane_statements(double mu) {
       {"", "u and v vanish at the same time: that of v over that of u", 1.,
        vanishes(motion, ln_v, 2 / reduced.r()) / vanishes(motion, ln_u, 1), limit},
       {"", "and that is the stop time", 1., vanishes(motion, ln_u, 1), limit},
-      // If the times were equal, the velocity dv/dtau at a times the state would have to be a times as large.
+      // If times stayed equal, multiplying the state by a would multiply its velocity dv/dtau by a.
       {"", "(u, v) -> (a u, a v) is a symmetry of (2.6): dv/dtau there, a = 2", a * field(mu, start).v,
        reduced.field(scaled).v, arithmetic, 0, "", Verdict::erratum, "with tau -> a tau (and beta -> beta/a in (2.7))",
        field(mu, start).v},

@@ -17,7 +17,7 @@ enum class Verdict {
 /// Returns the word for a verdict in the verb `paper`: holds, erratum or false.
 std::string_view word(Verdict verdict);
 
-/// Numbers that result from the examination of a statement.
+/// The numbers that result from the examination of a statement.
 struct Finding {
   double printed, computed;
   std::optional<double> corrected;
@@ -27,7 +27,7 @@ struct Finding {
 /// Value of Statement::allowed that marks a printed number as a lower bound.
 constexpr double lower_bound = -1;
 
-/// Differences allowed between two computations: by plain arithmetic, and by steps of a differential equation.
+/// Differences allowed between two computations: `arithmetic` for formulas, `stepping` for an integration in steps.
 constexpr double arithmetic = 1e-13, stepping = 1e-9;
 
 /// A statement of V. F. Zhuravlev, 1998 (Zh98), as two numbers, or two functions of k, that must agree.
@@ -42,8 +42,8 @@ struct Statement {
   Number printed;                     ///< number from the statement
   Number computed;                    ///< number computed without the statement
   double allowed;                     ///< largest difference, relative to max(1, |computed|)
-  double at = 0;                      ///< k or mu at which they are compared
-  std::string_view where = {};        ///< text about `at`: a format of fmt with the argument `at`
+  double at = 0;                      ///< k or mu at which the numbers are compared
+  std::string_view where = {};        ///< text that shows `at`: a format of fmt with the argument `at`
   Verdict recorded = Verdict::holds;  ///< verdict in README.md
   std::string_view correction = {};   ///< a format of fmt with the arguments `computed` and `percent`
   Number corrected = nullptr;         ///< number from the corrected statement

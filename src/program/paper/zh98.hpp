@@ -7,17 +7,17 @@
 
 #include "contensou/reduction/reduced_system.hpp"
 
-/// The formulas of V. F. Zhuravlev, 1998 (Zh98), exactly as printed, with errata. Nothing is tested; 0/0 gives NaN.
+/// Formulas of V. F. Zhuravlev, 1998 (Zh98), exactly as printed, with errata. No argument is checked; 0/0 gives NaN.
 namespace contensou::program::zh98 {
 
 using std::numbers::pi;
 
-// Section 1: force and moment of the patch against k, with the units N f and N f eps.
+// Section 1: force and moment of the patch as functions of k, in the units N f and N f eps.
 
-/// Returns sigma eps^2/N, sigma the normal stress at the distance rho eps from the centre.
+/// Returns sigma eps^2/N; sigma is the normal stress at the distance rho eps from the centre.
 inline double pressure(double rho) { return 3 / (2 * pi) * std::sqrt(1 - rho * rho); }
 
-/// Returns q_- or q_+ (by sign), the end of the chord with the angle theta at the edge.
+/// Returns q_- or q_+ (by `sign`), the end of the chord at the edge, for the angle theta.
 inline double chord_end(double k, double theta, double sign) {
   return k * std::cos(theta) + sign * std::sqrt(1 - k * k * std::sin(theta) * std::sin(theta));
 }
@@ -64,14 +64,14 @@ inline Eigen::Vector3d moment(double friction, double eps, double R, double spin
   return {R * F.y(), -R * F.x(), 3 * pi * friction * eps * eps * spin / (16 * eps * std::abs(spin) + 15 * pi * v)};
 }
 
-/// Returns d(omega_x, omega_y, u, v, alpha)/dtau, the five equations before (2.6) and in (2.6).
+/// Returns d(omega_x, omega_y, u, v, alpha)/dtau. The paper prints these five equations before (2.6) and in (2.6).
 inline Eigen::Matrix<double, 5, 1> rates(double mu, double R, double u, double v, double alpha) {
   const double sliding = 8 * mu * std::abs(u) + 3 * pi * v;
   return {-5 * v * std::sin(alpha) / (R * sliding), 5 * v * std::cos(alpha) / (R * sliding),
           -5 * mu * mu * u / (16 * mu * std::abs(u) + 15 * pi * v), -7 * v / sliding, 0};
 }
 
-// The plane (u, v): a homogeneous ball, u of either sign, v >= 0.
+// The plane (u, v) of a homogeneous ball, for u of either sign and v >= 0.
 
 /// Returns d(u, v)/dtau, the equations of motion (2.6).
 inline reduction::Rate field(double mu, reduction::State state) {

@@ -12,7 +12,7 @@ namespace contensou::program {
 
 namespace {
 
-/// Reads a quantity that is not negative; with `above` it must be above 0.
+/// Reads a quantity >= 0, or > 0 if `above` is true.
 auto at_least_0(const char* unit, bool above = false) {
   return [=](const std::string& typed) {
     const double value = parse_quantity(typed, unit);

@@ -18,7 +18,7 @@ namespace {
 
 using si::CatalogueEntry;
 
-/// Returns the law that belongs to the ball.
+/// Returns the default law of the ball.
 reduction::Law own_law(const CatalogueEntry& entry) { return *reduction::find_law(si::law_of(entry.experiment)); }
 
 constexpr Field<CatalogueEntry> ball_fields[]{

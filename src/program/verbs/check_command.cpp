@@ -66,7 +66,7 @@ class CheckCommand final : public Verb {
 
   static ExitStatus status_of(bool passed) { return passed ? ExitStatus::done : ExitStatus::check_failed; }
 
-  /// Compares a motion in a table with the motion of the law.
+  /// Compares the motion in a table with the motion under the law.
   ExitStatus compare(const Output& output) const {
     const Law law = law_.read(start_.standard_law());
     if (!start_.ball_given()) {
@@ -88,7 +88,7 @@ class CheckCommand final : public Verb {
     const GivenStart start = start_.read(law);
     if (start.at_rest()) throw BadInput("u0 = v0 = 0 is rest, there is no motion to check: make one of them positive");
     if (!start.motion) return verify(start.system, start.state);
-    std::vector<Check> worst;  // for each check the worst result over the orbits of the motion
+    std::vector<Check> worst;  // for each check, the worst result over all orbits of the motion
     for (const si::ReducedPiece& piece : start.pieces()) take_worse(worst, verify(piece.flow.system(), piece.start));
     return worst;
   }

@@ -47,7 +47,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const auto place = static_cast<std::size_t>(found - names.begin());
     const std::string_view unit = name == stop ? "s" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);
-    // A plain angle is in radians here, in contrast to other angles.
+    // A number without a unit is in radians here, in contrast to other angles.
     const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
@@ -235,7 +235,7 @@ class FitCommand final : public Verb {
     return tracks;
   }
 
-  /// Returns tracks with the times and the errors of a planned film of the ball.
+  /// Returns tracks with the times and the standard deviations of a planned film of the ball.
   std::vector<fit::Track> planned_tracks(const fit::FitRequest& request) const {
     if (files_.given()) throw BadInput("--plan predicts a film that is not made yet: leave out FILE");
     if (from_.given()) from_.reject("a film that is planned begins with the motion: leave it out");

@@ -55,7 +55,7 @@ class LawCommand final : public Verb {
       std::vector<reduction::Law> laws = reduction::paper_laws();
       if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
       if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) {
-        if (!surface_) laws.clear();  // the figure (Fig. 2 of the paper) compares the paper's two laws
+        if (!surface_) laws.clear();  // Fig. 2 of the paper compares only the two laws of the paper
         laws.push_back(law);
       }
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;

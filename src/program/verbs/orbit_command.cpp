@@ -128,7 +128,7 @@ class OrbitCommand final : public Verb {
     const auto load = start_.load_history();
     if (load) {
       fmt::print(stderr, "{}", require_load_alone(*start.experiment, system.law()));
-      // Under a changing load, seconds of the time left would depend on the load that is still to come.
+      // The seconds of a time left would depend on the future load, if the load changes.
       if (time_left_.given() && time_left_->in_seconds)
         time_left_.reject("with a load that changes so much tau is left, and no seconds: leave the unit out");
     }
@@ -141,7 +141,7 @@ class OrbitCommand final : public Verb {
         : beta_.given()      ? motion_at_beta(system, start.state, route, *beta_)
         : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start, load))
                              : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
-    // At rest, k is replaced by its limit.
+    // At rest the row contains the limit of k, because 0/0 has no value.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
       const double k0 = start.state.u == 0 ? infinity : start.state.v / (system.mu() * std::abs(start.state.u));
       const reduction::Flow last = pieces.empty() ? reduction::Flow(system) : pieces.back().flow;
@@ -156,7 +156,7 @@ class OrbitCommand final : public Verb {
         const double nominal = si::seconds(*start.experiment, tau);
         return load ? load->time_of(nominal) : nominal;
       };
-      const bool given = at != nullptr && at->in_seconds;  // true: keep the typed values unconverted
+      const bool given = at != nullptr && at->in_seconds;  // true: the output repeats the typed seconds
       report.t = given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds));
     }
     if (reduction_) add_canonical(report);
@@ -165,7 +165,7 @@ class OrbitCommand final : public Verb {
   }
 
  private:
-  /// @throws BadInput  for options that need a single orbit, if rolling friction makes a motion of several orbits
+  /// @throws BadInput  for options that need a single orbit, if rolling friction divides the motion into several orbits
   void require_one_orbit(reduction::Route route) const {
     const char* const why = " needs one orbit, and rolling friction divides this motion into several";
     if (route != reduction::Route::quadrature)
@@ -175,7 +175,7 @@ class OrbitCommand final : public Verb {
     if (reduction_) throw BadInput(fmt::format("--reduction{}: leave it out", why));
   }
 
-  /// Returns the states at the given times, or at the given times left, or else at equal times.
+  /// Returns the states at the given times, or at the given times left, or else at equidistant times.
   reduction::OrbitColumns motion_of_pieces(const std::vector<si::ReducedPiece>& pieces, const Eigen::ArrayXd& at,
                                            const Eigen::ArrayXd& lefts) const {
     const auto state = [&](double tau) { return si::state_at(pieces, tau); };
@@ -208,8 +208,8 @@ class OrbitCommand final : public Verb {
     }
   }
 
-  /// Adds q = v/u, p = ln v and the first integral. The first integral is infinite where it has no value: on the axes,
-  /// on an invariant ray and at rest.
+  /// Adds q = v/u, p = ln v and the first integral. The first integral is infinite at points without a value: on the
+  /// axes, on an invariant ray and at rest.
   static void add_canonical(OrbitReport& report) {
     const reduction::OrbitColumns& motion = report.motion;
     const reduction::Flow flow = report.start.flow();
@@ -218,7 +218,7 @@ class OrbitCommand final : public Verb {
       try {
         report.integral[i] = flow.log_first_integral(motion.u[i], motion.ln_v[i]);
       } catch (const std::domain_error&) {
-        // no first integral here
+        // the point has no first integral, so infinity stays
       }
     }
     const double factor = report.start.system.mu() * (report.start.state.u < 0 ? -1 : 1);

@@ -32,8 +32,8 @@ namespace fs = std::filesystem;
 using portraits::Figure;
 using portraits::PictureFormat;
 
-/// mu of the statements about the plane. In Fig. 4 mu has the largest value of a ball, so that the way of orbits into
-/// the origin is visible.
+/// mu of the statements about the plane. Fig. 4 is drawn with the largest mu of a ball. Then the direction in which
+/// orbits enter the origin is visible.
 constexpr double stated_patch_ratio = 0.3;
 constexpr double drawn_patch_ratio = 1;
 

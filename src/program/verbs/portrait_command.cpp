@@ -205,7 +205,7 @@ class PortraitCommand final : public Verb {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
     start_.require_point_or_none();
-    // Sample the field at a point of the window, or at the distance of the start from 0.
+    // Sample the field about a point of the window, or, without a window, at the distance of the start from 0.
     Vector2d around = request_.window
                           ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
                           : request_.sides.value_or(Vector2d(1, 1));
@@ -220,7 +220,7 @@ class PortraitCommand final : public Verb {
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 
-  /// Reads destination and format of the result, and throws for options that have no effect on it.
+  /// Reads destination and format of the result. Throws for options that have no effect on this result.
   Output read_output() {
     Output output = output_.read();
     figure_.require_picture(output);
@@ -242,7 +242,7 @@ class PortraitCommand final : public Verb {
     return ExitStatus::done;
   }
 
-  /// Throws for windows and points that the half-plane does not contain.
+  /// Throws for a window or a point that lies outside the half-plane.
   void require_half_plane() const {
     const auto& window = request_.window;
     if (window && window->low[1] < 0) window_->reject("here v is 0 or more: the plane is a half-plane");
@@ -336,7 +336,7 @@ class PortraitCommand final : public Verb {
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
-  /// Returns the names of the given options in looks_, from a place on, joined for a message.
+  /// Returns the names of the given options in looks_ from place `first` on, joined for a message.
   std::string names_of_looks(std::size_t first) const {
     std::vector<const Argument*> arguments;
     for (; first < looks_.size(); ++first) arguments.push_back(&looks_[first]);
@@ -359,8 +359,8 @@ class PortraitCommand final : public Verb {
   LawOption law_, against_;
   RouteOption route_;
   std::deque<Argument> looks_;
-  std::size_t first_of_drawing_ = 0;  ///< place in looks_ from which on options change the drawing only, not the data
-  /// Single options in looks_.
+  std::size_t first_of_drawing_ = 0;  ///< options in looks_ from this place on change only the drawing, not the data
+  /// Options in looks_ that are used by name.
   const Argument *window_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
   portraits::PortraitRequest request_;
   Style style_;

@@ -39,7 +39,7 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
                                   .finished()};
 }
 
-/// Returns the data for the picture of the motion at these instants, beside the motion of the uncoupled model.
+/// Returns the data for the picture of the motion at these instants. They include the motion of the uncoupled model.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const si::Experiment& experiment = roll.experiment;
   const double rolls = roll.whole.rolls(roll.rolling_below);
@@ -242,7 +242,7 @@ class RollCommand final : public Verb {
     const double chi = still.ball.body.inertia.chi, u_r = still.contact.rolling_friction;
     const si::Shots shots(still, law);
     const double rolling_below = rolling_below_.value_or(si::rolling_slip);
-    // otherwise the body rolls down for ever
+    // If resistance is too small for the slope, the body never rests and has no columns of rest.
     const bool may_rest = u_r * si::pressing(still.environment) > (1 - 1 / chi) * si::pull(still.environment).norm();
     OutputFile output(out.path);
     CsvReader table(batch_.text());
@@ -267,7 +267,7 @@ class RollCommand final : public Verb {
                          .progress = bulk_.progress(out.path)};
     std::vector<std::string>& names = request.results;
     if (still.ball.body.lies_flat())
-      std::copy(names.end() - 3, names.end(), names.begin());  // these columns are of rest in place of rolling
+      std::copy(names.end() - 3, names.end(), names.begin());  // columns of the rest, in place of columns of rolling
     if (!may_rest) names.resize(names.size() - 3);
     const ExitStatus status = run_batch(table, output, request);
     output.finish();

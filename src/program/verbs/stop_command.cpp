@@ -130,7 +130,7 @@ class StopCommand final : public Verb {
           results[i] = si::seconds(experiment, stop_times[i](mu[i], start, 0));
       };
     }
-    OutputFile output(out.path);  // opened before the input, which may be slow to arrive
+    OutputFile output(out.path);  // opened before the input, so that an error appears at once
     CsvReader table(batch_.text());
     const bool si_columns = table.has_column("slip") || table.has_column("spin");
     if (!has_ball && !table.has_column("mu") && si_columns) {

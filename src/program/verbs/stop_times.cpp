@@ -21,11 +21,11 @@ using reduction::State;
 namespace {
 
 /// Largest number of curves that are kept. A curve by quadrature takes about 300 kB, and so does a table. If each row
-/// has its own mu, no curve is used twice; a grid uses one mu at a time.
+/// has its own mu, no curve is used twice. A grid uses one mu after the other.
 constexpr std::size_t max_curves = 256;
 constexpr std::size_t max_tables = 16;
 
-/// StopTimesOfMu takes about as long as so many curves; then a start takes 1 us in place of a Flow's 0.3 us.
+/// StopTimesOfMu costs as much time as 32 curves. Later a start takes 1 us; by the Flow of its mu it takes 0.3 us.
 constexpr long mus_that_pay = 32;
 constexpr std::size_t starts_that_pay = 300;
 
@@ -89,7 +89,7 @@ std::shared_ptr<const StopTimes::AtMu> StopTimes::at(double mu) {
     }
     made_once = place;
   }
-  return made_once.get();  // the first thread makes it, and other threads wait
+  return made_once.get();  // the first thread makes the stop times, and other threads wait for it
 }
 
 double StopTimes::operator()(double mu, State start, long row) {

@@ -16,14 +16,14 @@
 
 namespace contensou::program {
 
-/// Stop times of many starts of one body under one law and one drive. The first thread that needs a mu computes its
-/// solution, which is kept for a limited number of mu. Threads may share the object.
+/// Stop times of many starts of one body under one law and one drive. The first thread that needs a mu computes the
+/// solution for this mu. Solutions are kept for a limited number of mu. Threads may share the object.
 class StopTimes {
  public:
   /// The stop times of one mu. Threads may share the object.
   struct AtMu {
     std::optional<reduction::Flow> flow;
-    std::function<double(reduction::State)> one;  ///< computes a single start without a flow; throws as stop_time
+    std::function<double(reduction::State)> one;  ///< computes a single start without a Flow; throws as stop_time
     std::size_t starts = 0;                       ///< number of all starts with this mu
 
     double operator()(reduction::State start) const { return flow ? flow->stop_time(start).tau : one(start); }
@@ -50,7 +50,7 @@ class StopTimes {
 
   /// Returns the stop time of one row of a table, whose rows may all have different mu. After many rows, a solution for
   /// every mu replaces the curves of single mu, unless a route is given.
-  /// @param row  number of rows before this one; the bits of the result do not depend on their content
+  /// @param row  number of rows before this one; the bits of the result depend on this number, not on those rows
   /// @throws     as at and stop_time
   double operator()(double mu, reduction::State start, long row);
 
@@ -72,7 +72,7 @@ class StopTimes {
   std::map<double, std::shared_future<std::shared_ptr<const AtMu>>> known_;
 };
 
-/// Prints on standard error if Flow::stop_times computes some of these starts one by one.
+/// Prints a message on standard error if Flow::stop_times must compute some of these starts one by one.
 void tell_if_refused(const reduction::Flow& flow, std::size_t starts);
 
 }  // namespace contensou::program

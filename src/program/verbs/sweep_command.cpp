@@ -33,7 +33,7 @@ namespace {
 
 constexpr long points_at_once = 1 << 15;
 constexpr long longest_kept_axis = 1 << 20;
-constexpr double max_points = 1e18;  // multiplied by 8 bytes, this is below the largest file size
+constexpr double max_points = 1e18;  // times 8 bytes, this is below the largest size of a file
 
 /// Numbers from the least to the largest, both included, in equal steps or in equal ratios.
 struct Range {
@@ -41,7 +41,7 @@ struct Range {
   long count = 1;
   bool in_ratios = false;
 
-  /// Returns the number at a place from 0 to count - 1. It is rounded only once if long double is longer.
+  /// Returns the number at a place from 0 to count - 1. If long double is longer than double, only one rounding occurs.
   double operator[](long place) const {
     const long last = count - 1;
     if (place == 0) return min;
@@ -59,11 +59,11 @@ struct Range {
 struct SweepGrid {
   Range mu;
   bool mu_is_range;  ///< true if the array has an axis for mu
-  Range u0;          ///< values of u0; for a ball, of its spin
+  Range u0;          ///< values of u0; for a ball, values of its spin
   Range v0;
-  std::optional<si::Experiment> ball = {};  ///< if it is set, grid and stop times are in SI units
+  std::optional<si::Experiment> ball = {};  ///< if this is set, grid and stop times are in SI units
 
-  /// Returns the number of starts, also if it does not fit an integer.
+  /// Returns the number of starts as a double, because it may exceed every integer type.
   double points() const {
     return static_cast<double>(mu.count) * static_cast<double>(v0.count) * static_cast<double>(u0.count);
   }
@@ -98,8 +98,8 @@ std::vector<double> values_of(const Range& range, long begin, long count) {
   return values;
 }
 
-/// Returns the beginning of a file: the names of the columns, or NumPy's description of the array. In an npy file the
-/// doubles of the array follow as they are stored in memory.
+/// Returns the beginning of a file: the names of the columns, or NumPy's description of the array. In an npy file, the
+/// doubles of the array follow in the byte order of the machine.
 std::string heading(const SweepRequest& request) {
   if (request.format == SweepFormat::csv)
     return csv_line(names_of({request.grid.ball ? ball_columns : system_columns}));
@@ -211,7 +211,7 @@ class Sweep {
   const long starts_of_mu_ = grid_.v0.count * grid_.u0.count;
   StopTimes stop_times_;
   Progress progress_;
-  std::vector<double> u0_;  ///< all values of u0; empty if they are too many to be kept
+  std::vector<double> u0_;  ///< all values of u0; empty if there are too many to keep
   long next_ = 0;           ///< number of the first start that is not taken yet
   double done_ = 0;
 };

@@ -32,7 +32,7 @@ class TerminalCommand final : public Verb {
       output.write(terminal_answer(body_.read(law)));
       return ExitStatus::done;
     }
-    // The figure shows all r. If a body is given, its r is marked.
+    // The figure shows all r. If a body is given, a mark shows the r of this body.
     std::optional<double> r;
     if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();
     output.write(

@@ -1,4 +1,4 @@
-// Catch2 3 under the names of Catch2 2, by which the tests call it.
+// Gives Catch2 3 the names of Catch2 2 that the tests use.
 #pragma once
 
 #include <catch2/catch_all.hpp>

@@ -1,4 +1,4 @@
-# The example of portraits/README.md is own_gnuplot.cpp, which draws a picture:
+# Tests that the example of portraits/README.md is the file own_gnuplot.cpp, and that it draws a picture:
 #   cmake -D PROGRAM=own_gnuplot -D README=portraits/README.md -D WORK=FOLDER -P own_gnuplot_test.cmake
 cmake_minimum_required(VERSION 3.25)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/own_gnuplot.cpp code)

@@ -40,7 +40,7 @@ struct Fault {
   char kind = ' ';
   int value = 0;
   std::atomic<int> calls = 0;
-  bool active = std::string_view(program_invocation_short_name) == "contensou";  // not in gnuplot
+  bool active = std::string_view(program_invocation_short_name) == "contensou";  // false in gnuplot
 };
 
 Fault fault;

@@ -1,4 +1,4 @@
-// `aim` is compared with `stop` and `roll`, which compute the result of a start.
+// `aim` is compared with `stop` and `roll`, which compute the motion from a start.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -101,7 +101,7 @@ TEST_CASE("a ball begins to roll where and as fast as aim was asked", "[cli]") {
     CHECK(json.at("rolls_after").at("x").get<double>() == Approx(place).epsilon(1e-9));
     CHECK(json.at("final_velocity") == speed);
   }
-  // Without spin, Coulomb's law applies: the slip falls at (7/2) f g, to 1 mm/s, and f g slows down the centre.
+  // Without spin, Coulomb's law applies: the slip falls at (7/2) f g to 1 mm/s, and the centre slows down at f g.
   const double fg = 0.2 * 9.80665;
   const auto json = json_of("aim --ball pool --rolls-at 0.5 --rolling-speed 1 --format json");
   const double slip = json.at("slip"), v = json.at("velocity")[0], t = (slip - 1e-3) / (3.5 * fg);
@@ -176,7 +176,7 @@ TEST_CASE("aim with rolling friction: the motion from its start comes to the goa
         Approx(9).epsilon(1e-9));
   CHECK_THAT(run_program("aim --ball pool --rolling-friction 0.01 --distance 2 --turns 30").out,
              Contains("rolling and spin end"));
-  // These two starts go equally far in the same time. This is why distance and time together are refused.
+  // These two starts give the same distance in the same time. Therefore distance and time together are refused.
   for (const auto& [slip, spin] : {std::pair{1.097088, 78.541367}, {1.098345, 48.564403}}) {
     const auto two = motion_from({{"slip", slip}, {"spin", spin}});
     CHECK(two.at("rest").at("x").get<double>() == Approx(3.1690917).epsilon(1e-5));
@@ -201,7 +201,7 @@ TEST_CASE("aim with rolling friction at the least time, and at far scales", "[cl
       "aim --ball steel --rolling-friction 0.01 --turns 0.5238089926174072 --time 3.2911889661822333 --format json");
   CHECK(least.at("slip") == 0);
   CHECK(least.at("spin").get<double>() == Approx(2).epsilon(1e-10));
-  // At the root the result jumps by more than the tolerance.
+  // At the solution of this search the result jumps by more than the tolerance of the search.
   const auto far = json_of(
       "aim --ball pool --mass 1 --radius 0.03 --friction 0.4 --rolling-friction 0.03 --patch-radius 1e-5 "
       "--turns 4010.4623044603322 --time 886.1097135698567 --format json");

@@ -44,7 +44,7 @@ TEST_CASE("reference motions are what both routes give, and have enough digits",
     std::string times;
     for (std::size_t i = 1; i < rows.size(); ++i) times += (i > 1 ? "," : "") + rows[i][0];
     const auto start = json_of("roll --format json --samples 2 " + ball_of(name));
-    double speed = 0, turning = 0;  // the scales of the motion
+    double speed = 0, turning = 0;  // largest speeds of the motion, as scales for differences
     for (const auto& v : start.at("velocity")) speed = std::hypot(speed, v.get<double>());
     for (const auto& w : start.at("angular_velocity")) turning = std::hypot(turning, w.get<double>());
     const double R = start.at("ball").at("radius").get<double>();
@@ -52,7 +52,7 @@ TEST_CASE("reference motions are what both routes give, and have enough digits",
     const double length = speed * start.at("t_stop").get<double>();
     const std::map<std::string, double> scales{{"t", 1e300},  {"x", length},     {"y", length},     {"vx", speed},
                                                {"vy", speed}, {"wx", speed / R}, {"wy", speed / R}, {"wz", speed / R}};
-    // In steps, resistance begins to hold a ball when its rolling is 1e-9 of the speeds.
+    // Steps treat a ball as held by resistance if its rolling is below 1e-9 of the speeds.
     const bool resisted = start.at("ball").value("rolling_friction", 0.0) > 0;
     for (const auto& [route, allowed] : {std::pair{"reduced", 1e-12}, {"integrated", resisted ? 1e-9 : 1e-10}}) {
       const auto motion = json_of(fmt::format("roll --format json --route {} {} --at {}", route, ball_of(name), times));

@@ -77,7 +77,7 @@ TEST_CASE("a law's name cannot break the table of check", "[cli]") {
     CHECK(count_words(run.out, "ok") == count_rows(run.out, "ok"));
     CHECK(run.out.find("FAIL") == std::string::npos);
     CHECK(count_rows(run.out, "ok") + 1 == std::ranges::count(run.out, '\n'));
-    // Between columns there is at least one space.
+    // At least one space stands between two columns.
     std::istringstream lines(run.out);
     std::string heading, row;
     std::getline(lines, heading);
@@ -115,7 +115,7 @@ TEST_CASE("a table of the exact motion passes, to all digits", "[cli]") {
 }
 
 TEST_CASE("a table of the textbook's motion leaves the exact one and is known for what it is", "[cli]") {
-  // A motion by hand: slip falls at 7 f g/2, spin of this ball at 10 rad/s^2. The clock starts at 5 s.
+  // A motion computed by hand: slip falls at 7 f g/2, spin of this ball at 10 rad/s^2. The first row has t = 5 s.
   std::string table = "# made by hand\nspin, note,slip,t\n";
   for (int i = 0; i <= 100; ++i) {
     const double t = 11 * std::pow(i / 100.0, 3);
@@ -137,7 +137,7 @@ TEST_CASE("a table of the textbook's motion leaves the exact one and is known fo
     const double off = std::max(model.at("slip").get<double>(), model.at("spin").get<double>());
     CHECK((off < 1e-14) == (model.at("model") == "textbook (uncoupled)"));
   }
-  // The errors equal those that `roll` gives.
+  // The errors must be the differences from the motion that `roll` computes.
   const auto& slip = answer.at("checks").at(0);
   const double t = slip.at("t").get<double>() - 5;
   const auto exact = json_of(fmt::format("roll --ball pool --spin -100 --format json --at {:.17g}", t));
@@ -172,7 +172,7 @@ TEST_CASE("an engine's pyramid is known for what it is", "[cli]") {
 }
 
 TEST_CASE("the log of a rigid body is a motion, too, in any units", "[route]") {
-  // A motion by the equations of motion alone, for a shot that swerves. The table has no column of slip.
+  // The table is a swerving shot, computed from the equations of motion alone. It has no column of slip.
   const auto log_of = [](const std::string& ball, bool lies_flat, double time_unit, double speed, double turning) {
     const auto json = json_of("roll --route integrated --format json --samples 80 " + ball);
     std::string table = lies_flat ? "time [ms],x,y,vx [mm/s],vy [mm/s],wz [rpm]\n"
@@ -197,10 +197,10 @@ TEST_CASE("the log of a rigid body is a motion, too, in any units", "[route]") {
     INFO(run.out << run.err);
     CHECK(run.status == 0);
     CHECK_THAT(run.out, Contains(puck ? "nearest: uniform" : "nearest: exact"));
-    // In the wrong units the table shows another motion.
+    // A table whose numbers are read in wrong units shows another motion.
     CHECK(run_program("check --against - --ball " + ball, log_of(start, puck, 1e3, 1e3, 1.1 * rpm)).status == 1);
   }
-  // The slip is that of the contact point, not of the centre: a rolling ball does not slide.
+  // The slip belongs to the contact point and not to the centre: a rolling ball has no slip.
   const auto rolls = nlohmann::json::parse(
       run_program("check --format json --ball pool --against -",
                   "t,vx,vy,wx,wy,wz\n0,1,0,0,34.995625546806649,10\n1,1,0,0,34.995625546806649,0\n")

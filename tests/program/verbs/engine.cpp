@@ -42,7 +42,7 @@ TEST_CASE("engine says how far a puck slides and how often it turns, by law and 
     close(engine.at("settings")[1], slide, slid, a * a * 1e4 / (4 * 0.1 * g * a) / (2 * pi));
   }
   CHECK(box == std::set<std::string>{"jolt", "rapier", "box3d", "bepu"});
-  // This engine uses a quarter of the number typed in, so the body slides four times as far.
+  // bepu uses a quarter of the typed friction, so the body slides four times as far.
   const auto bepu =
       json_of("engine bepu --ball puck --slip 5 --spin 100 --friction 0.1 --format json").at("engines")[0];
   CHECK(bepu.at("settings")[2].at("slip_length").get<double>() ==

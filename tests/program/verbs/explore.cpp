@@ -19,7 +19,7 @@ TEST_CASE("explore writes one whole page", "[cli]") {
   const std::string page = read_file(scratch.file("page.html"));
   CHECK_THAT(page, StartsWith("<!doctype html>") && EndsWith("</html>\n"));
   CHECK(run_program("explore -o -").out == page);
-  // Every placeholder for a part is filled, and no part is in another file.
+  // The page must contain every part in place of its placeholder, and must refer to no other file.
   for (const std::string absent :
        {"/*STYLE*/", "/*LIBRARY*/", "/*BUNDLE*/", "@VERSION@", "href=\"http", "src=\"http", "<script src"}) {
     INFO(absent);

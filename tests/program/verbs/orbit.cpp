@@ -19,7 +19,7 @@ TEST_CASE("orbit gives 200 rows from the start to the stop", "[cli]") {
   CHECK(rows[1][0] == "0");
   CHECK(rows[1][1] == "-1");
   CHECK(rows[1][5] == "0");
-  CHECK(std::stod(rows[100][1]) < 0);  // u keeps its sign
+  CHECK(std::stod(rows[100][1]) < 0);  // u keeps the sign of its start
   const auto& last = rows.back();
   CHECK(std::stod(last[0]) == Flow({PadeLaw{}, 0.3}).orbit({-1, 1}).stop_time());
   CHECK(last[1] == "0");
@@ -169,8 +169,8 @@ TEST_CASE("instants of a ball in seconds", "[cli]") {
   CHECK(std::stod(seconds[1].back()) == Approx(1).epsilon(1e-15));
   CHECK(std::stod(seconds[2].back()) == Approx(2).epsilon(1e-15));
   CHECK(rows_of(run_program({"orbit", "--ball", "pool", "--at", "2000 ms"}).out)[1] == seconds[2]);
-  CHECK(seconds[2].back() == "2");                                                       // as it was typed
-  auto by_tau = rows_of(run_program("orbit --ball pool --at " + seconds[2][0]).out)[1];  // a number is tau
+  CHECK(seconds[2].back() == "2");                                                       // the number as it was typed
+  auto by_tau = rows_of(run_program("orbit --ball pool --at " + seconds[2][0]).out)[1];  // without a unit: tau
   CHECK(std::stod(by_tau.back()) == Approx(2).epsilon(1e-15));
   by_tau.back() = seconds[2].back();
   CHECK(by_tau == seconds[2]);
@@ -193,7 +193,7 @@ TEST_CASE("instants by the regularised time", "[cli]") {
   CHECK(found[0] == rows[0]);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto &wanted = rows[rows.size() - i], &row = found[i];
-    CHECK(row[5] == wanted[5]);  // as it was typed
+    CHECK(row[5] == wanted[5]);  // the number as it was typed
     for (std::size_t column : {0, 1, 2, 3, 4})
       CHECK(std::stod(row[column]) == Approx(std::stod(wanted[column])).epsilon(1e-9));
   }

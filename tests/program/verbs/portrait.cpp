@@ -93,7 +93,7 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
   CHECK_THAT(script("--size 100x80"), Contains("size 500,400"));
   CHECK_THAT(script("--size single"), Contains("size 425,"));
   CHECK_THAT(script("--size double"), Contains("size 850,"));
-  // Three panels of curves stand one above the other: the figure is 1.5 times as high as wide. A given size is kept.
+  // Three panels stand one above the other: the figure is 1.5 times as high as wide. A size of the user is kept.
   CHECK_THAT(script("--view regularised --size single"), Contains("size 425,647"));
   CHECK_THAT(script("--view regularised --size 85x180"), Contains("size 425,900"));
   CHECK_THAT(script("--view regularised --size double"), Contains("size 850,"));
@@ -105,7 +105,7 @@ TEST_CASE("portrait shows what its switches say", "[cli]") {
   CHECK_THAT(script("--scale linear"), !Contains("slip falls first"));
   // Equal input gives equal bytes.
   CHECK(script("--view disc") == script("--view disc"));
-  // The units are those of a ball.
+  // A portrait of a ball has axes in the units of the ball.
   CHECK_THAT(run_program("portrait --ball pool --view patch --format gp -o -").out, Contains("m/s") && Contains(", s"));
 }
 
@@ -120,8 +120,8 @@ TEST_CASE("k of an orbit's last points is 0, or what is left of it", "[cli]") {
 }
 
 TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
-  // The twisting controller: dry friction and a relay. From u = 0 it is at rest after v0 (1/(a + b) + q/(a - b))/(1 -
-  // q), q^2 = (a - b)/(a + b).
+  // The twisting controller combines dry friction and a relay. From u = 0 it comes to rest after the time v0 (1/(a + b)
+  // + q/(a - b))/(1 - q) with q^2 = (a - b)/(a + b).
   const std::vector<std::string> twisting{
       "portrait", "--system", "u' = v; v' = -a*sign(u) - b*sign(v)", "--param", "a=1", "--param", "b=0.5"};
   const auto with = [&](std::vector<std::string> more) {
@@ -189,7 +189,7 @@ TEST_CASE("portrait draws fields without a scaling, by quadrature or by steps", 
   CHECK(pendulum["equilibria"][1]["kind"] == "center");
   CHECK(pendulum["equilibria"][1]["eigenvalues"][0][1].get<double>() == Approx(-1).epsilon(1e-12));
   REQUIRE(pendulum["separatrices"].size() >= 4);
-  // Energy is constant along orbits. On separatrices it equals the energy of the saddles.
+  // The energy of an orbit is constant. On a separatrix it must equal the energy of the saddles.
   const auto energy = [](const nlohmann::json& orbit, std::size_t i) {
     return std::pow(orbit["v"][i].get<double>(), 2) / 2 - std::cos(orbit["u"][i].get<double>());
   };

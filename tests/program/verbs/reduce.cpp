@@ -80,7 +80,7 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
     CHECK(strip["p"].size() <= 101);
     for (std::size_t i = 0; i < strip["p"].size(); ++i) {
       const double u = strip["u"][i], v = strip["v"][i], left = strip["tau_left"][i];
-      if (strip["p"][i] < -700) {  // v has few correct digits, or none
+      if (strip["p"][i] < -700) {  // then v is near the least double and has few correct digits
         CHECK(v <= 1e-300);
         continue;
       }
@@ -104,7 +104,7 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
   }
   const Json weighted = json_of_system("u' = v; v' = -sign(u) - 0.5*sign(v)", {"--u0", "0.5", "--v0", "1"});
   for (const Json& piece : weighted["strip"]) CHECK(piece["q"].size() == piece["tau_left"].size());
-  for (const Json& copy : weighted["copies"]) {  // u has twice the weight of v, and the weight of t^2
+  for (const Json& copy : weighted["copies"]) {  // v and t^2 have the same weight, and u has twice this weight
     const double factor = copy["factor"];
     CHECK(copy["u0"].get<double>() == Approx(0.5 * factor).epsilon(1e-13));
     CHECK(copy["v0"].get<double>() == Approx(std::sqrt(factor)).epsilon(1e-13));
@@ -119,11 +119,11 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
 }
 
 TEST_CASE("reduce --system: known answers", "[cli]") {
-  // dry friction of equal strength for both, and a slope: r' = -1 without it
+  // dry friction with the same limit for u and v, and a slope a; r' = -1 if a = 0
   const Json friction = json_of_system("u' = -u/hypot(u,v); v' = -v/hypot(u,v)", {"--u0", "3", "--v0", "-4"});
   CHECK(friction["kind"] == "stable star");
   CHECK(friction["tau_stop"].get<double>() == Approx(5).epsilon(1e-13));
-  // On v = 0 only the balance of the slope is left: k tends to the ray. From (0, v) the stop takes v/(1 + a).
+  // On v = 0 the slope alone acts on v: k tends to the ray. From (0, v) the stop takes v/(1 + a).
   const std::string slope = "u' = -u/hypot(u,v); v' = -v/hypot(u,v) - a";
   const Json down = json_of_system(slope, {"--param", "a=0.25", "--u0", "0", "--v0", "1"});
   CHECK(down["tau_stop"].get<double>() == Approx(1 / 1.25).epsilon(1e-13));
@@ -148,7 +148,7 @@ TEST_CASE("a formula's rint and && are those of every other build", "[cli]") {
 
 TEST_CASE("formulas: bars, functions, constants and parameters", "[cli]") {
   const auto time_of = [](const std::string& speed) {
-    // along v = 0 at u = 2 the motion is u' = -speed, a number
+    // on v = 0 at u = 2 the rate u' = -speed is a constant
     return json_of_system("u' = -sign(u)*(" + speed + "); v' = -2*sign(v)*(" + speed + ")",
                           {"--param", "a=3", "--param", "b_1=-2", "--u0", "2", "--v0", "1"})["canonical"]["dp_dq"];
   };
@@ -284,14 +284,14 @@ TEST_CASE("reduce solves from an equilibrium, and with a drive from v = 0", "[cl
   const Json creeping = json_of("reduce --mu 0.3 --u0 1 --v0 0 --drive 0.2 --format json");
   CHECK(creeping["tau_stop"] == json_of("stop --mu 0.3 --u0 1 --v0 0 --drive 0.2 --format json")["tau_stop"]);
   CHECK_FALSE(creeping.contains("first_integral"));
-  CHECK(creeping["routes"].back().contains("failure"));  // two motions leave v = 0
+  CHECK(creeping["routes"].back().contains("failure"));  // two motions begin on v = 0
 }
 
 TEST_CASE("reduce solves quotients with their denominator cleared", "[cli]") {
   const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7"};
   const Json plain = json_of_system("y' = x/y + 1/(x*y)", start);
   CHECK_FALSE(plain["tried"].back().contains("cleared"));
-  // The product V D is a polynomial, but V is not.
+  // The inverse integrating factor V is no polynomial, but V times the common denominator D is one.
   const Json reduced = json_of_system("y' = (y^2-3*x^2*y+x)/(x^3-2*x*y)", start);
   CHECK(reduced["form"] == "constant");
   CHECK(reduced["tried"].back()["cleared"] == true);
@@ -314,7 +314,7 @@ TEST_CASE("reduce recognises V and H", "[cli]") {
     CHECK(reduced["factor"] == factor);
     CHECK(reduced.value("integral", "") == integral);
   }
-  // Coefficients that are not rational give no formula.
+  // The program writes no formula of V if coefficients are not rational.
   CHECK(json_of_system("u' = u*(1-v)+sqrt(2)*u^2; v' = v*(u-1)", start)["factor"] != "");
   CHECK(json_of_system("y' = x - y**2", start)["factor"] == "quadratic in v, 1 at the start");
 }
@@ -324,7 +324,7 @@ TEST_CASE("reduce looks for V in a basis of one's own", "[cli]") {
   CHECK(reduced["form"] == "basis");
   CHECK(reduced["factor"] == "1");
   CHECK(reduced["tried"].size() == 1);
-  // Kamke's equation 1.114 has none of the forms that are tried.
+  // For Kamke's equation 1.114 no form that is tried is an inverse integrating factor.
   const std::string equation = "y' = sqrt(x^2+y^2) + a*y/x";
   const std::vector<std::string> start{"--u0", "1.3", "--v0", "0.7", "--param", "a=1"};
   CHECK(json_of_system(equation, start)["form"].is_null());
@@ -353,7 +353,7 @@ TEST_CASE("reduce --system shows equilibria and reversors, solved or not", "[cli
   const Json van_der_pol = json_of_system("u' = v; v' = (1-u^2)*v-u");
   CHECK(van_der_pol["equilibria"][0]["kind"] == "unstable focus");
   CHECK(van_der_pol["reversors"].empty());
-  // There is no reversor, but V = u v is not 0 at the center.
+  // The field has no reversor. But V = u v is not 0 at the center, which proves the center.
   const Json rabbits = json_of_system("u' = u*(1-v); v' = v*(2*u-1)", {"--u0", "1", "--v0", "1.1"});
   CHECK(rabbits["reversors"].empty());
   CHECK(rabbits["equilibria"][1]["kind"] == "center");

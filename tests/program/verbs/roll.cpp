@@ -70,11 +70,11 @@ TEST_CASE("a start by velocities, from a run file and from options", "[invariant
   const std::string file = scratch.file("masse.toml");
   write_file(file, general_file);
   CHECK(run_program("roll --ball " + file + " --samples 9").out == run_program(masse + " --samples 9").out);
-  // Each option alone replaces its part of a [start] of its kind.
+  // A single option replaces only its own part of a [start] that has the same form.
   CHECK(run_program("roll --ball " + file + " --velocity 2,3 --at 0").out ==
         run_program("roll --ball pool --velocity 2,3 --angular-velocity 40,35,-50 --at 0").out);
   CHECK(rows_of(run_program("roll --ball pool --velocity 2,3 --at 0").out)[1][7] == "100");
-  // The other verbs accept the option, too. The slip is the speed of the contact point.
+  // The other verbs accept this start, too. Their slip is the speed of the contact point.
   const auto stop = json_of("stop --format json --ball " + file);
   const double R = 0.028575;
   CHECK(stop.at("v0").get<double>() == Approx(std::hypot(1 - R * 35, R * 40)).epsilon(1e-15));
@@ -148,7 +148,7 @@ TEST_CASE("rolling friction acts while the ball slides, too, and brings it to re
   const auto both = json_of(slowed + " --samples 2 --route integrated --format json");
   CHECK(both.at("integrated").at("rest").at("x").get<double>() == Approx(rest.at("x").get<double>()).epsilon(1e-6));
 
-  // A motion that does not slide the way it rolls is integrated, and the output says so.
+  // If slip and rolling have different directions, the motion is integrated, and the output says this.
   const auto turned = json_of(masse + " --rolling-friction 0.01 --samples 2 --format json");
   CHECK(turned.at("route") == "integrated");
   CHECK_FALSE(turned.contains("creeps"));
@@ -182,7 +182,7 @@ TEST_CASE("a spinning ball never rolls before the textbook's, whatever counts as
       }
     }
   }
-  // With a threshold of 0 the slip ends only with the spin.
+  // If the threshold is 0, the slip ends together with the spin.
   const auto all = json_of("roll --ball pool --samples 2 --format json --rolling-below 0");
   CHECK(all.at("rolls_after").at("t") == all.at("t_stop"));
 }

@@ -21,7 +21,7 @@ TEST_CASE("a ball that is pressed on the plane", "[invariant]") {
   // A load that equals the weight changes nothing.
   CHECK(stop("--load 0.320677455").at("t_stop").get<double>() ==
         Approx(stop("").at("t_stop").get<double>()).epsilon(1e-14));  // 0.0327 kg * 9.80665 m/s^2
-  // A load of 100 N on 33 g: the friction is f N in place of f m g, and Hertz's patch is that of this load, eps^3 ~ N.
+  // A load of 100 N on 33 g: the friction is f N in place of f m g, and eps^3 of Hertz's patch is proportional to N.
   const json pressed = stop("--load 100N --spin 0");
   CHECK(pressed.at("t_stop").get<double>() == Approx(2 * 0.5 * 0.0327 / (7 * 0.12 * 100)).epsilon(1e-12));
   const double share = 100 / 0.320677455;
@@ -96,10 +96,10 @@ TEST_CASE("negative numbers are values, not options", "[cli]") {
 }
 
 TEST_CASE("overrides act as if the run file had said so", "[cli]") {
-  // The patch of the pool ball follows from its spin deceleration: eps ~ R^2/(f g).
+  // The patch radius of the pool ball is computed from its spin deceleration: eps is proportional to R^2/(f g).
   CHECK(json_of("stop --ball pool --radius 0.05715 --format json").at("mu").get<double>() ==
         Approx(2 * json_of("stop --ball pool --format json").at("mu").get<double>()).epsilon(1e-14));
-  // The patch of the steel ball follows from Hertz's formula: eps ~ m^(1/3).
+  // The patch radius of the steel ball is computed by Hertz's formula: eps is proportional to m^(1/3).
   CHECK(json_of("stop --ball steel --mass 0.2616 --format json").at("mu").get<double>() ==
         Approx(2 * json_of("stop --ball steel --format json").at("mu").get<double>()).epsilon(1e-14));
   CHECK(json_of("stop --ball steel --patch-radius 1e-3 --format json").at("mu").get<double>() == 0.1);
@@ -137,14 +137,14 @@ TEST_CASE("what interpolation of a pressure table may cost stands beside its sto
   const double tau = table.at("tau_stop").get<double>();
   const double said = std::abs(table.at("coarser_table").at("tau_stop").get<double>() - tau);
   CHECK(table.at("coarser_table").at("rows") == 21);
-  // The curve that the rows sample is the exact law's pressure.
+  // The rows sample the pressure of the exact law.
   const double missed = std::abs(json_of(start + "exact --format json").at("tau_stop").get<double>() - tau);
   CHECK(missed > 1e-4 * tau);
   CHECK(missed < said);
   CHECK(said < 5 * missed);
   CHECK_THAT(run_program(start + scratch.file("hertz.csv")).out,
              Contains("with 21 rows") && Contains("what interpolation between all 41 may cost"));
-  // The field needs a table of pressures, which named laws do not have.
+  // Only tables of pressures have this field. Named laws have no rows.
   CHECK_FALSE(json_of(start + "annulus:0.5 --format json").contains("coarser_table"));
   CHECK_FALSE(json_of(start + "exact --format json").contains("coarser_table"));
   CHECK_THAT(run_program("help laws").out, Contains("linear in rho^2 between two rows"));
@@ -155,7 +155,7 @@ TEST_CASE("T_stop is a number wherever it fits", "[cli]") {
   CHECK(fast.at("T_stop").get<double>() == Approx(fast.at("tau_stop").get<double>() / 4.71238898038469).epsilon(1e-15));
 }
 
-// A difference r/r_high - 1 = 8.5e-14 counts as 0, which costs a fraction of it. The stated accuracy was 2.4e-15.
+// r/r_high - 1 = 8.5e-14 counts as 0. The error of this must be in the stated accuracy, which once was 2.4e-15.
 TEST_CASE("the accuracy next to a border counts what was taken for the border", "[cli]") {
   const json stop = json_of(
       "stop --mu 1 --law elliptic:0.05 --body 3.5,1400.0000000001196 --u0 1.5283057164038434 --v0 0.1665941353948894 "

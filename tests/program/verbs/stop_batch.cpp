@@ -75,7 +75,7 @@ TEST_CASE("quoted fields pass through", "[cli]") {
   CHECK(run.out == "note,mu,u0,v0,tau_stop\n\"a,\"\"b\"\"\nc\",1,0,0,0\n\"#d\",1,0,0,0\n\"plain\",1,0,0,0\n");
 }
 
-// csv.cpp tests records for all line ends and all ends of blocks.
+// csv.cpp tests all combinations of line ends and ends of blocks.
 TEST_CASE("line ends of Windows and of old, comments, blank lines and a byte order mark", "[cli]") {
   const Run run = run_program("stop --law pade --batch -",
                               "\xEF\xBB\xBF# made by hand\r\nmu,u0,v0\r\n\r\n1,0,0\r\n# more\r\n0.5,0,0");
@@ -106,7 +106,7 @@ TEST_CASE("a filter: rows leave while the input pauses, and up to the first bad 
         scratch.path().string(), CONTENSOU_PROGRAM, threads);
     write_file(scratch.file("script"), script);
     INFO("threads " << threads);
-    // Only a program that hangs takes so long.
+    // The limit is so long that only a program that hangs reaches it.
     REQUIRE(std::system(("timeout 600 sh '" + scratch.file("script") + "'").c_str()) == 0);
     CHECK(read_file(scratch.file("answer")) == "mu,u0,v0,tau_stop 1,0,0,0 1,0,0,0 2\n");
     CHECK(read_file(scratch.file("err")) == "<stdin>:13: v0: 'x' is not a number; write it like 0.1, -5 or 1e-3\n");
@@ -264,7 +264,7 @@ TEST_CASE("a long batch has the stop times of single calls, and one set of bits 
   std::size_t misplaced = 0, different = 0;
   for (std::size_t i = 0; i < table.mu.size(); ++i) {
     const double tau = Flow({PadeLaw{}, table.mu[i]}).stop_time(table.starts[i]).tau;
-    const bool single = i < 1000;  // later rows are computed by the solution for every mu
+    const bool single = i < 1000;  // rows after these use the solution for every mu
     misplaced += rows[i + 1][1] != fmt::format("row {}", i);
     if (single ? rows[i + 1].back() != shortest(tau) : !(std::abs(std::stod(rows[i + 1].back()) / tau - 1) < 2e-15)) {
       ++different;

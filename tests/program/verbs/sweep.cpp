@@ -87,7 +87,7 @@ TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   REQUIRE(cube.values.size() == 30);
   CHECK(std::vector<double>(cube.values.begin(), cube.values.begin() + 15) == map.values);
   CHECK(cube.values[29] == Approx(Flow({HertzLaw{}, 0.2}).stop_time({2, 1.5}).tau).epsilon(1e-14));
-  // A range of one number also has an axis. --format sets the format if the file has no ending.
+  // A range of one number gives the array an axis. --format sets the format of a file without an ending.
   CHECK_THAT(NumpyFile(run_program("sweep --mu 1:1:1 --u0 1 --v0 0:1:2 -o - --format npy").out).dictionary,
              Contains("'shape': (1, 2, 1), }"));
   CHECK(scratch.names() == std::vector<std::string>{"map.npy"});
@@ -116,7 +116,7 @@ TEST_CASE("a stop time that overflows is inf in a sweep", "[limit]") {
 
 TEST_CASE("a sweep has the same bytes for any number of threads", "[route]") {
   for (const std::string format : {"npy", "csv"}) {
-    // Rows shorter and longer than the part that a thread computes at once.
+    // Rows are shorter or longer than the part that one thread computes at once.
     for (const std::string axes :
          {"--mu 0.1:0.5:3 --u0 -1:1:701 --v0 0:3:101", "--mu 0.1 --u0 0:2:100001 --v0 0:3:2"}) {
       const std::string command = "sweep " + axes + " -o - --format " + format + " --threads ";
@@ -158,7 +158,7 @@ TEST_CASE("a sweep without room on the disk is status 4 and leaves nothing", "[c
   CHECK(scratch.names().empty());
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which needs an address space without limit
+#if !defined(__SANITIZE_ADDRESS__)  // AddressSanitizer needs an address space without limit
 TEST_CASE("a sweep of any size takes constant memory", "[limit]") {
   const TemporaryDirectory scratch;
   const std::string command =
@@ -171,7 +171,7 @@ TEST_CASE("a sweep of any size takes constant memory", "[limit]") {
 
 TEST_CASE("a sweep says once that its tables are not whole, and has the numbers all the same", "[cli]") {
   const TemporaryDirectory scratch;
-  // A pressure that is the mean of two discs has a kink at k = 0.6.
+  // The mean of the pressures of two discs gives a law with a kink at k = 0.6.
   write_file(scratch.file("two.csv"), "rho,pressure\n0,2\n0.6,2\n0.61,1\n1,1\n");
   const std::string law = " --law " + scratch.file("two.csv");
   const Run run = run_program("sweep --mu 0.3:0.4:2 --u0 1:2:182 --v0 0.1:0.3:182 --threads 2" + law);

@@ -1,4 +1,4 @@
-// The law whose motions are elementary functions, compared with README (R35).
+// Tests the law whose motions are elementary functions, (R35) of README.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ namespace {
 
 using Real = long double;
 
-/// Returns (R35) in units of w0, integrated over z = -ln y panel by panel, where y is the fraction of w that is left.
+/// Returns (R35) in units of w0. Panels integrate over z = -ln y, where y is the fraction of w0 that is left.
 Real time_left(Real k0, Real r, Real c) {
   const Real ratio = r * c * c;
   const Real exponent = (1 - ratio) / ratio;
@@ -49,7 +49,7 @@ TEST_CASE("an ellipse's motions are powers, wherever k goes", "[laws]") {
         CAPTURE(c, r, k0);
         const double wanted = static_cast<double>(1.5L * std::numbers::pi_v<Real> * time_left(k0, system.r(), c));
         CHECK(flow.stop_time({1, k0}).tau == Approx(wanted).epsilon(1e-15).margin(0));
-        // Halfway, v ~ w^(1/(r c^2)).
+        // At half of the stop time, v is proportional to w^(1/(r c^2)).
         const auto half = flow.orbit({1, k0}).at_time(flow.stop_time({1, k0}).tau / 2);
         const double power = 1 / (system.r() * c * c);
         CHECK(half.ln_v == Approx(std::log(k0) + power * std::log(half.u)).margin(1e-11 * (1 + power)));
@@ -62,7 +62,7 @@ TEST_CASE("an annulus is a disc less a disc", "[laws]") {
   for (double k : {0.01, 0.5, 2.0, 100.0}) {
     CAPTURE(k);
     const auto [force, moment] = (*find_law("annulus:0.65"))({k, 1});
-    // An annulus is the outer disc minus the inner disc, whose load is eta^2 and whose k is k/eta.
+    // An annulus is the outer disc minus the inner disc. The inner disc has the load eta^2 and the ratio k/eta.
     const double eta = 0.65;
     const auto outer = PressureLaw::uniform()({k, 1}), inner = PressureLaw::uniform()({k / eta, 1});
     const double load = 1 - eta * eta;
@@ -76,7 +76,7 @@ TEST_CASE("a soft finger's pressure is the table's that stands for it", "[laws]"
     CAPTURE(exponent);
     const Law law = *find_law(fmt::format("soft:{}", exponent));
     const ContactPatch patch([=](double rest) {
-      return std::pow(-std::expm1(std::log1p(-rest) * exponent / 2), 1 / exponent);  // rest = 1 - rho^2
+      return std::pow(-std::expm1(std::log1p(-rest) * exponent / 2), 1 / exponent);  // with rest = 1 - rho^2
     });
     const auto gamma = [=](double times) { return std::tgamma(times / exponent); };
     CHECK(law.pivoting_moment() == Approx(0.75 * gamma(3) * gamma(3) / (gamma(2) * gamma(4))).epsilon(4e-7));

@@ -25,7 +25,7 @@ struct Named : RootLaw {
   static constexpr std::string_view name = "mine";
 };
 
-/// Makes a law from two functions of k, for laws that break a requirement.
+/// Returns a law from two functions of k. Tests use it for laws that break a requirement.
 template <class Force, class Moment>
 auto from_ratio(Force force, Moment moment) {
   return [=](Slip slip) {
@@ -63,7 +63,7 @@ TEST_CASE("a law keeps what it offers", "[friction_law]") {
   CHECK(exact.force_deficit({1, 1e-9}) == HertzLaw{}.force_deficit({1, 1e-9}));
   CHECK(Law(PadeLaw{}).name() == "pade");
   CHECK(Law(Named{}).name() == "mine");
-  // A law is identified by its type alone.
+  // The type of a law identifies it, not its name.
   CHECK(Law(PadeLaw{}).as<PadeLaw>());
   CHECK_FALSE(Law(PadeLaw{}).as<HertzLaw>());
   CHECK_FALSE(Law(Impostor{}).as<PadeLaw>());
@@ -90,7 +90,7 @@ TEST_CASE("a law of one function has the defaults", "[friction_law]") {
 TEST_CASE("a law that was copied or moved from is still a law", "[friction_law]") {
   Law pade = PadeLaw{};
   const Law copy = pade;                            // NOLINT(performance-unnecessary-copy-initialization)
-  CHECK(copy.as<PadeLaw>() == pade.as<PadeLaw>());  // one function for both
+  CHECK(copy.as<PadeLaw>() == pade.as<PadeLaw>());  // both copies share one function
   const Law other = std::move(pade);
   CHECK(pade.name() == other.name());  // NOLINT(bugprone-use-after-move)
   CHECK(pade({1, 1}).force == other({1, 1}).force);
@@ -99,10 +99,10 @@ TEST_CASE("a law that was copied or moved from is still a law", "[friction_law]"
 
 TEST_CASE("a law whose limits are not those of friction is rejected", "[friction_law][domain]") {
   CHECK_NOTHROW(Law(from_ratio(root_force, root_moment)));
-  // Coulomb's friction is as large for the slowest sliding as for any other.
+  // Coulomb friction is as large at the slowest sliding as at any other speed.
   CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0 ? 1.0 : 0.0; }, root_moment)),
                     Contains("user's law") && Contains("2^-60"));
-  // Phi is a root or a square near 0: Phi'(0) is infinite, or 0.
+  // Phi is proportional to sqrt(k) or k^2 near 0. Therefore Phi'(0) is infinite, or 0.
   CHECK_THROWS_AS(Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : std::sqrt(k / (1 + k)); }, root_moment)),
                   std::domain_error);
   CHECK_THROWS_AS(Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k * k / (1 + k * k); }, root_moment)),
@@ -122,7 +122,7 @@ TEST_CASE("a law whose limits are not those of friction is rejected", "[friction
 
 TEST_CASE("a law that depends on more than the ratio of the speeds is rejected, with what was measured",
           "[friction_law][domain]") {
-  // Friction that is softened below a speed, as in engines, and friction that falls with speed.
+  // Two laws depend on the speeds: friction softened below a speed, as in engines; and friction that falls with speed.
   const auto softened = [](Slip slip) {
     const double size = std::hypot(slip.sliding, slip.pivoting, 1e-3);
     return Resistance{slip.sliding / std::hypot(slip.sliding, slip.pivoting), 0.6 * slip.pivoting / size};
@@ -146,13 +146,13 @@ TEST_CASE("a law that does not resist, or comes to its limits too slowly, is rej
                     Contains("positive and finite") && Contains("Psi = 0"));
   CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0.2 && k < 2 ? -1.0 : root_force(k); }, root_moment)),
                     Contains("positive and finite") && Contains("Phi = -1"));
-  // Under this law m would grow like 1/sqrt(k).
+  // Under this law the sliding coefficient m would grow like 1/sqrt(k).
   CHECK_THROWS_WITH(Law(from_ratio(root_force, [](double k) { return 1 / (1 + std::sqrt(k) + k); })),
                     Contains("Psi(0) in proportion to k"));
   CHECK_THROWS_WITH(
       Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k / (1 + std::sqrt(k) + k); }, root_moment)),
       Contains("Phi must come to 1"));
-  // From above: 1 + 2/k tends to 1 fast enough, 1 + 1/k^0.75 too slowly.
+  // Phi may tend to 1 from above: 1 + 2/k is fast enough, 1 + 1/k^0.75 is too slow.
   CHECK_NOTHROW(
       Law(from_ratio([](double k) { return std::isinf(k) ? 1.0 : k * (k + 3) / (k * k + k + 1); }, root_moment)));
   CHECK_THROWS_WITH(

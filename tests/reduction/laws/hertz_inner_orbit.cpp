@@ -25,7 +25,7 @@ TEST_CASE("inside k = 1 the exact orbit is elementary: table", "[hertz_inner_orb
     const double r = 5 * mu * mu / 7;
     const long double wanted = std::log(std::abs(row.result("u")) / u0);
     const double got = hertz_inner_ln_w(r, k) - hertz_inner_ln_w(r, k0);
-    // The error includes rounding of u/u0 in long double and of r ln k.
+    // The allowed error includes the rounding of u/u0 in long double and of r ln k.
     rim.add(wanted, got, 1e-3 + std::abs(wanted) + r * (1 + std::abs(std::log(k))), row.where());
   }
   CHECK_WITHIN_EPS(rim, 16);
@@ -38,7 +38,7 @@ TEST_CASE("inside k = 1 the exact orbit is elementary: quadrature", "[hertz_inne
     for (double k : {1e-15, 1e-9, 1e-3, 0.1, 0.5, 0.8, 0.99, 0.9999999}) {
       const double got = hertz_inner_ln_w(r, k) - hertz_inner_ln_w(r, 1);
       const double wanted = curve.ln_w(std::log(k)) - curve.ln_w(0);
-      // As r -> 2, the difference Phi - r k Psi vanishes.
+      // The difference Phi - r k Psi vanishes as r tends to 2, so the allowed error grows.
       rim.add(wanted, got, (std::abs(wanted) + r) * 2 / (2 - r), fmt::format("r = {}, k = {}", r, k));
     }
   }

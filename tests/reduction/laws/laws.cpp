@@ -29,7 +29,7 @@ namespace {
 struct Asked {
   std::string type;
   Law law;
-  std::string table, column;  ///< in tests/reference; empty for a table of pressures
+  std::string table, column;  ///< table in tests/reference; empty for a table of pressures
   long double steepest = 1;   ///< the largest logarithmic slope of Phi and Psi
   double curvature = 0;       ///< value of (1 - Psi/Psi(0))/k^2 for k << 1
 };
@@ -57,7 +57,7 @@ const std::vector<Asked>& all_laws() {
     };
     pressure(PressureLaw::uniform(), 1.5L);
     pressure(PressureLaw::punch(), 2);
-    pressure(PressureLaw::ring(), 16);  // a logarithm at k = 1
+    pressure(PressureLaw::ring(), 16);  // this law has a logarithm at k = 1
     for (double p : {-0.3, 1.7, 25.0}) pressure(PressureLaw(p), 3);
     return laws;
   }();
@@ -104,12 +104,12 @@ TEST_CASE("every law keeps 4 eps for every k", "[laws][table]") {
       const long double force = row.result("phi_" + column), moment = row.result("psi_" + column);
       given.add(force, law({k, 1}).force, row.where());
       given.add(moment, law({k, 1}).moment, row.where());
-      // Compare only if the difference in long double keeps its digits.
+      // Compare only if the difference 1 - moment/pure_pivoting in long double keeps enough digits.
       if (const long double wanted = 1 - moment / pure_pivoting; wanted > 1e-3L) {
         deficit.add(wanted, law.moment_deficit({k, 1}), row.where());
       }
       if (const long double wanted = 1 - force; wanted > 1e-3L) {
-        missing.add(wanted, law.force_deficit({k, 1}), k < 1.5 ? 1 : wanted, row.where());  // Phi has eps of 1
+        missing.add(wanted, law.force_deficit({k, 1}), k < 1.5 ? 1 : wanted, row.where());  // Phi has the error eps
       }
       if (!std::isnormal(inverse)) continue;
       // 1/k is rounded unless k is a power of two.
@@ -177,7 +177,7 @@ TEST_CASE("no law has a step where its form changes", "[laws][limit]") {
   for (const Asked& asked : all_laws()) {
     WorstCase step(asked.law.name() + " one ulp across a switch");
     for (double square : {0.0625, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5625, 2.0}) {
-      // The ring has infinite slopes at k = 1: a change of k by one ulp changes it by 36 ulp.
+      // The ring has infinite slopes at k = 1: one ulp of k changes the law by 36 ulp.
       if (asked.column == "ring" && square == 1) continue;
       const double k = std::sqrt(square), below = std::nextafter(k, 0), above = std::nextafter(k, 2 * k);
       for (double neighbour : {below, above, std::nextafter(below, 0), std::nextafter(above, 2 * k)}) {
@@ -191,8 +191,8 @@ TEST_CASE("no law has a step where its form changes", "[laws][limit]") {
   }
 }
 
-// Rounding may make the functions flat but not reverse them. Under Coulomb friction the curve (Phi, Psi) is convex. The
-// Pade law lies on the other side of the chord.
+// Rounding may make the functions flat but must not reverse them. Coulomb friction has a convex curve (Phi, Psi). The
+// curve of the Pade law lies on the other side of the chord.
 TEST_CASE("forces rise, moments fall, and Phi + Psi/Psi(0) is on its side of 1", "[laws][invariant]") {
   for (const Asked& asked : all_laws()) {
     Resistance before = asked.law({0, 1});
@@ -209,7 +209,7 @@ TEST_CASE("forces rise, moments fall, and Phi + Psi/Psi(0) is on its side of 1",
   }
 }
 
-// Phi = R' and Psi = R - k R' for the dissipation R(v, w), by difference quotients of order 4 away from k = 1.
+// Compare Phi = R' and Psi = R - k R', R the dissipation, with difference quotients of order 4 away from k = 1.
 TEST_CASE("every law but Pade's is the gradient of its dissipation", "[laws][invariant]") {
   const auto slope = [](auto function) {
     constexpr double h = 1e-3;

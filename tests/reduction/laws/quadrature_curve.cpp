@@ -18,7 +18,7 @@ using namespace contensou::tests;
 
 namespace {
 
-/// A law with more noise, about 1e-9, than the quadrature can resolve. The noise is deterministic.
+/// A law with noise of about 1e-9, more than the quadrature allows. Equal arguments give equal noise.
 struct NoisyLaw {
   Resistance operator()(Slip slip) const {
     const auto [force, moment] = RootLaw{}(slip);
@@ -44,7 +44,7 @@ TEST_CASE("the quadrature of the Pade law is its closed form", "[quadrature_curv
       share.add(closed.sliding_coefficient(ln_k), curve.sliding_coefficient(ln_k), where);
       age.add(closed.beta_coefficient(ln_k), curve.beta_coefficient(ln_k), where);
       rate.add(closed.time_rate(ln_k), curve.time_rate(ln_k), where);
-      // n enters the slip length as v w (n + k/2), so its error is relative to n + k/2.
+      // The slip length contains n as v w (n + k/2), so the error of n is relative to n + k/2.
       const double n = closed.slip_length_coefficient(ln_k);
       if (ln_k < 50) slip.add(n, curve.slip_length_coefficient(ln_k), n + std::exp(ln_k) / 2, where);
     }
@@ -90,8 +90,8 @@ TEST_CASE("panels join without a step", "[quadrature_curve][limit]") {
   CHECK_WITHIN_EPS(rim, 16);
 }
 
-// A failure found with RootLaw, mu = 1e-4: below k = 1e-5 the difference 1 - Psi/Psi(0) was only rounding, and panels
-// were halved to depth 40 everywhere.
+// RootLaw once failed at mu = 1e-4. Below k = 1e-5 the difference 1 - Psi/Psi(0) was only rounding, and the quadrature
+// halved panels to depth 40 everywhere.
 TEST_CASE("no law costs more than another by much", "[quadrature_curve]") {
   for (double r : {1e-8, 1e-4, 0.06, 0.7}) {
     CAPTURE(r);
@@ -100,7 +100,7 @@ TEST_CASE("no law costs more than another by much", "[quadrature_curve]") {
     CHECK(QuadratureCurve(CallOnly<PadeLaw>{}, r).evaluations() < 10'000);
   }
   CHECK(QuadratureCurve(HertzLaw{}, 0.1).evaluations() < 10'000);
-  // Laws with a logarithm at k = 1.
+  // These laws have a logarithm at k = 1.
   for (const char* name : {"uniform", "punch", "ring"}) {
     for (double r : {1e-6, 0.01, 0.4}) {
       const QuadratureCurve curve(*find_law(name), r);
@@ -123,7 +123,7 @@ TEST_CASE("the curve is that of one side, and says what is not", "[quadrature_cu
   for (double bad : {0.0, -1.0, infinity, static_cast<double>(NAN)}) {
     CHECK_THROWS_AS(QuadratureCurve(PadeLaw{}, bad), std::domain_error);
   }
-  // Under both laws r = 2 is the smallest r with an invariant ray, and r = 5 the largest.
+  // Under both laws rays exist for r from 2 to 5.
   const TerminalChart to_infinity(TerminalChart::Side::below, infinity);
   for (const Law& law : {Law(PadeLaw{}), Law(HertzLaw{})}) {
     CAPTURE(law.name());

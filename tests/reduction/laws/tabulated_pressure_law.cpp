@@ -43,7 +43,7 @@ class RingsOfTable {
  private:
   struct Place {
     long double radius;
-    bool inside;        ///< k < radius
+    bool inside;        ///< true if k < radius
     long double along;  ///< (2/pi) E
     long double cross;  ///< (2/pi) (E - (1 - q^2) K)/q
   };
@@ -106,7 +106,7 @@ TabulatedPressureLaw table_of(const std::vector<double>& rho, const std::vector<
           Eigen::Map<const Eigen::ArrayXd>(pressure.data(), std::ssize(pressure))};
 }
 
-/// Compares Phi, Psi and 1 - Psi/Psi(0) of a table with rings in long double, also next to every row.
+/// Compares Phi, Psi and 1 - Psi/Psi(0) of a table with RingsOfTable, for many k and next to every row.
 struct Comparison {
   WorstCase force{"Phi"}, moment{"Psi"}, deficit{"1 - Psi/Psi(0)"};
 
@@ -149,7 +149,7 @@ TEST_CASE("a steep flank loses no digit, however steep", "[tabulated_pressure_la
   }
   comparison.add({0, 1e-3, 1.001e-3, 0.999, 1}, {1e4, 1e4, 1, 1, 0}, "a spike in the centre");
   comparison.add({0, 1e-3, 1.001e-3, 0.9, 0.9001, 0.9002, 1}, {1e6, 1e6, 0, 0, 4e-3, 0, 0}, "a spike and a thin ring");
-  // Rows far from k are grouped.
+  // The law computes rows far from k in groups.
   std::vector<double> rho, pressure;
   for (int i = 0; i <= 300; ++i) {
     rho.push_back(i / 300.0);

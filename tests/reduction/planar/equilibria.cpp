@@ -10,7 +10,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 TEST_CASE("equilibria are found with their types", "[planar]") {
-  // A matrix is the field about its own zero. The type of the zero is that of the matrix.
+  // The field is a matrix times the distance from its zero. The type of the zero follows from the matrix.
   const auto kind = [](double a, double b, double c, double d) {
     return Equilibrium{{0, 0}, (Matrix2d() << a, b, c, d).finished()}.kind();
   };
@@ -25,7 +25,7 @@ TEST_CASE("equilibria are found with their types", "[planar]") {
   CHECK(first == std::complex<double>(-1, -2));
   CHECK(second == std::complex<double>(-1, 2));
 
-  // Fields with an exact Jacobian and without one.
+  // Two fields: one with an exact Jacobian, one without.
   const SmoothField rabbits{
       [](const Vector2d& x) { return Vector2d(x[0] * (3 - x[0] - 2 * x[1]), x[1] * (2 - x[0] - x[1])); },
       [](const Vector2d& x) {
@@ -44,7 +44,7 @@ TEST_CASE("equilibria are found with their types", "[planar]") {
   CHECK(find_equilibria(rabbits, {0.5, 1.5}, {0.8, 1.9}).empty());
   // u' = 1 has no equilibria, although its Jacobian is singular everywhere.
   CHECK(find_equilibria({[](const Vector2d& x) { return Vector2d(1, x[0] - x[1] * x[1]); }}, {-2, -3}, {6, 3}).empty());
-  // A field that has no value in a part of the rectangle.
+  // This field has no value in a part of the rectangle.
   const std::vector<Equilibrium> half =
       find_equilibria({[](const Vector2d& x) { return Vector2d(std::log(x[0]), x[1]); }}, {-2, -1}, {2, 1});
   REQUIRE(half.size() == 1);
@@ -53,7 +53,7 @@ TEST_CASE("equilibria are found with their types", "[planar]") {
 
 TEST_CASE("equilibria that are not isolated are left out", "[planar]") {
   const auto count = [](auto f) { return find_equilibria({f}, {-3, -2}, {2, 3}).size(); };
-  // A line or a circle of zeros does not count. A multiple zero is isolated and counts.
+  // Zeros on a line or circle do not count. A multiple zero is isolated and counts.
   CHECK(count([](const Vector2d& x) { return Vector2d(x[1], 0); }) == 0);
   CHECK(count([](const Vector2d& x) { return Vector2d(x * (1 - x.squaredNorm())); }) == 1);
   CHECK(count([](const Vector2d& x) { return Vector2d(x[0] * x[0], -x[1]); }) == 1);
@@ -88,10 +88,10 @@ TEST_CASE("a reflection that turns motions back proves a center, alone it proves
       names([](const Vector2d& x) { return Vector2d(x[0] - x[1] + x[0] * x[1] * x[1], x[0] - x[1]); }, {1, 1}).empty());
   CHECK(names([](const Vector2d& x) { return Vector2d(x[0] + x[1] * x[1], -x[1] - x[0] * x[0]); }, {1, 1}) ==
         Names{"(v, u)"});
-  // With imaginary eigenvalues and no reversor, the cubic terms decide.
+  // If eigenvalues are imaginary and there is no reversor, the cubic terms decide between center and focus.
   const auto turning = [](const Vector2d& x) { return Vector2d(-x[1] - x[0] * x.squaredNorm(), x[0]); };
   CHECK(kinds(turning) == Names{"center or focus"});
-  // The damping is small compared with the other terms, but not 0.
+  // The damping is small compared with the other terms of the field, but it is not 0.
   CHECK(names([](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0]) - 1e-11 * x[1]); }, {1, 1}).empty());
   // The field has values on one side of u = 0 only.
   CHECK(names([](const Vector2d& x) { return Vector2d(x[1], -std::log(x[0])); }, {1, 1}) == Names{"(u, -v)"});

@@ -79,7 +79,7 @@ struct Example {
   std::string text, form;
   Formulas field;
   Vector2d start;
-  std::function<double(double u, double v)> factor;  ///< V up to a number
+  std::function<double(double u, double v)> factor;  ///< V up to a constant factor
 };
 
 const Formulas pendulum = [](Dual u, Dual v) { return std::array{v, -sin(u)}; };
@@ -175,13 +175,13 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
       CAPTURE(time, wanted, got);
       states.add(0, (got - wanted).norm(), wanted.norm(), example.text);
       if (time > 0.02) continue;
-      // The change of H between two points, converted to a length across the orbit.
+      // Convert the change of H between two points to a length across the orbit.
       const Vector2d f = smooth(example.field).value(got);
       levels.add(0, plane.first_integral(got) * plane.factor(got) / f.norm(), got.norm(), example.text);
       const Vector2d beside = got + 1e-3 * Vector2d(-f[1], f[0]) / f.norm();
       CHECK(std::abs(plane.first_integral(beside) * plane.factor(got) / f.norm() - 1e-3) < 1e-5);
     }
-    // The orbit from a later point is the rest of this orbit. V is then fitted in other boxes.
+    // A later point lies on the same orbit. But V is fitted in other boxes there.
     const Vector2d later = plane.part_of_orbit(orbit.at(0.7)).at(0.8);
     states.add(0, (later - orbit.at(1.5)).norm(), later.norm(), example.text + ", in two parts");
   }
@@ -259,7 +259,7 @@ TEST_CASE("No V is found for systems that have none", "[factor]") {
   none([](Dual u, Dual v) { return std::array{v, -sin(u) - v / 5}; }, {1.3, 0.7});
   none([](Dual u, Dual v) { return std::array{u * u * v - u + v / 10, 0.5 - u * u * v - v / 10}; }, {1.3, 0.7});
   none(brusselator, {1.3, 0.7});
-  // In a small box every V is close to a polynomial.
+  // In a small box every V is nearly a polynomial. Such a V must not be accepted.
   none(brusselator, {0.01, 0.02});
   none(brusselator, {0, 1});
   none([](Dual u, Dual v) { return std::array{v, u - u * u * u - v / 5}; }, {100, 3});
@@ -283,20 +283,20 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
     }
     return there;
   };
-  // v = u^2/3 + C u^10 about (1, 2), u - 1 = exp(-t)/2: near the equilibrium a curve on which V = 0 is within rounding.
+  // Orbits: a = u - 1 = exp(-t)/2, b = v - 2 = a^2/8 + C a^10. Near the end, a curve with V = 0 is within rounding.
   const Formulas node = [](Dual u, Dual v) { return std::array{1 - u, (u - 1) * (u - 1) - 10 * (v - 2)}; };
   const PlanarOrbit to_node = ends(node, {1.5, 1}, PlanarEnd::equilibrium, infinity);
   for (const double t : {1.0, 10.0, 30.0, 1e4}) {
     const double a = std::exp(-t) / 2, b = a * a / 8 - (1 + 1. / 32) * std::exp(-10 * t);
     CHECK((to_node.at(t) - Vector2d(1 + a, 2 + b)).norm() < 1e-13);
   }
-  // The stable line of a saddle: the axis, or a parabola.
+  // Orbits on the stable line of a saddle: the line is an axis, then a parabola.
   CHECK(ends(lotka, {0, 0.7}, PlanarEnd::equilibrium, infinity).at(10) ==
         Vector2d(0, orbit(lotka, {0, 0.7}).at(10)[1]));
   const Formulas saddle = [](Dual u, Dual v) { return std::array{-u, u * u + 2 * v}; };
   const Vector2d near_saddle = ends(saddle, {1, -0.25}, PlanarEnd::equilibrium, infinity).at(10);
   CHECK((near_saddle - Vector2d(std::exp(-10), -std::exp(-20) / 4)).norm() < 1e-11 * near_saddle.norm());
-  // Cases: a line of equilibria; a closed orbit.
+  // Ends: a line of equilibria; a closed orbit.
   ends(
       [](Dual u, Dual v) {
         return std::array{-2 * u * v, 2 * u * v - v};
@@ -304,7 +304,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
       {1.3, 0.7}, PlanarEnd::equilibrium, infinity);
   const PlanarOrbit to_cycle = ends(hopf, {0.1, 0}, PlanarEnd::cycle, infinity);
   CHECK((to_cycle.at(100) - Vector2d(std::cos(100), std::sin(100))).norm() < 1e-10);
-  // Cases: infinity in finite time and never; a pole; the border of a root.
+  // Ends: infinity in finite time; infinity after infinite time; a pole; the border at which a root has no value.
   ends(
       [](Dual, Dual v) {
         return std::array{Dual(1), 1 + v * v};
@@ -318,13 +318,13 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
         return std::array{-sqrt(u), sqrt(u) - sqrt(v)};
       },
       {1.3, 0.7}, PlanarEnd::border, 2 * std::sqrt(1.3));
-  // A pole in which all orbits meet, although each orbit is smooth there.
+  // All orbits of this field meet in a pole, although each orbit is smooth there.
   ends(
       [](Dual u, Dual v) {
         return std::array{Dual(1), sin(2 * u) - v * sin(u) / cos(u)};
       },
       {1.3, 0.7}, PlanarEnd::border, pi / 2 - 1.3);
-  // The end is not decided on the separatrix of the double well, because rounding moves points off it.
+  // Rounding moves points off the separatrix of the double well. Therefore the end of an orbit on it is undecided.
   const auto open = [&](const Formulas& field, const Vector2d& start, const std::string& reason) {
     const PlanarOrbit there = orbit(field, start);
     CHECK(there.end() == PlanarEnd::undecided);
@@ -335,7 +335,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
   open(well, {std::sqrt(2), 0}, "saddle");
   const PlanarOrbit resting = orbit(lotka, {1.3, 0.7});
   CHECK_THROWS_WITH(resting.at(-1), Contains("times >= 0"));
-  // From an equilibrium, V is found in a box beside it.
+  // V has no value at an equilibrium, so it is found in a box beside the equilibrium.
   CHECK(reduced(lotka, {1, 1}).form() == "polynomial");
   CHECK(orbit(lotka, {1, 1}).at(5) == Vector2d(1, 1));
   CHECK(orbit(lotka, {1, 1}).end() == PlanarEnd::equilibrium);

@@ -25,7 +25,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// One line through the centre: |T| ~ z^angular and R ~ z^radial, z the angle from it.
+/// A line through the centre. Near it |T| ~ z^angular and |R| ~ z^radial, z being the angle from the line.
 struct Line {
   double angle;
   int angular, radial;
@@ -70,7 +70,7 @@ struct RandomField {
 
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// Returns the end, by the orders alone, of orbits that come to a line, if R has the given sign.
+/// Returns the end of orbits that come to a line. It follows from the orders and the sign of R.
 PlanarEnd expected_end(const Line& line, double sign) {
   const int a = line.angular, b = line.radial, gamma = b - a + 1;
   if (gamma > 0 && !(a > 0 && b == 0)) return a > 0 && b > 0 ? PlanarEnd::rest : PlanarEnd::border;
@@ -79,7 +79,7 @@ PlanarEnd expected_end(const Line& line, double sign) {
 
 using Polar = std::array<double, 2>;  ///< ln r and the angle
 
-/// Returns the state after a time, by steps.
+/// Returns the state after a time, computed by steps.
 Polar stepped(const RandomField& field, Polar state, double time) {
   namespace odeint = boost::numeric::odeint;
   const auto rates = [&](const Polar& x, Polar& slope, double) {
@@ -132,7 +132,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
     }
     if (nearest < 1e-3 || nearest > pi - 1e-3) continue;
     const double sign = field.growth(direction(angle + (turning > 0 ? 1 : -1) * nearest * (1 - 1e-6)));
-    // A zero of T at a pole of R off the axes is lost in the rounding of R.
+    // If T has a zero and R a pole on the same line off the axes, the rounding of R hides the zero.
     const bool is_ordinary =
         std::ranges::none_of(field.lines, [](const Line& line) { return line.angular > 0 && line.radial < 0; });
     ordinary += is_ordinary;
@@ -155,7 +155,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
       try {
         got = orbit.at(time);
       } catch (const std::domain_error&) {
-        continue;  // beyond a border, or at infinity
+        continue;  // the orbit has ended at a border or at infinity
       }
       Polar state;
       try {
@@ -168,7 +168,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
       const double error = (got - wanted).norm() / wanted.norm();
       ++compared;
       accurate += error < 1e-10;
-      // Multiple rays off the axes are accurate to 1e-12. Some ends are ill-conditioned next to them.
+      // Multiple rays off the axes have an error of 1e-12. Some ends are ill-conditioned next to such rays.
       CHECK(error < 1e-3);
     }
   }

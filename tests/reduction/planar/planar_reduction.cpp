@@ -76,7 +76,7 @@ TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law
   }
   CHECK(times.count() == 1000);
   CHECK_WITHIN_EPS(times, 2000);
-  CHECK_WITHIN_EPS(points, 4500);  // 1e-12
+  CHECK_WITHIN_EPS(points, 4500);  // 4500 eps are 1e-12
 }
 
 TEST_CASE("system (2.6) solved by its flow agrees with the solution by the values of its field", "[planar][route]") {
@@ -114,7 +114,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       CHECK(got.to_centre == wanted.to_centre);
       CHECK(std::isnan(wanted.k));
       CHECK(std::atan(mu * got.k) == Approx(std::abs(std::asin(std::sin(got.q)))).margin(1e-14));
-      // sigma depends on the scale of the closed curve p = 0.
+      // The value of sigma depends on the scale of the closed curve p = 0.
       radial.add(wanted.radial * around.norm(), got.radial, what);
       if (std::isfinite(wanted.angular)) {
         angular.add(wanted.angular * around.norm(), got.angular, what);
@@ -123,7 +123,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
     }
     REQUIRE(by_flow.sectors().size() == by_values.sectors().size());
     for (std::size_t j = 0; j < by_flow.sectors().size(); ++j) {
-      // Both lists are counter-clockwise. The first sector may be another one.
+      // Both lists run counter-clockwise, but they may begin with different sectors.
       const PlanarSector& got = by_flow.sectors()[j];
       const auto same = std::ranges::find_if(by_values.sectors(), [&](const PlanarSector& other) {
         return std::abs(wrapped(got.from - other.from)) < 1e-13 &&
@@ -132,7 +132,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       REQUIRE(same != by_values.sectors().end());
       const PlanarSector& wanted = *same;
       CHECK(std::pair(got.from_ray, got.to_ray) == std::pair(wanted.from_ray, wanted.to_ray));
-      // For two orbits of each sector the difference of both first integrals is the same.
+      // Two orbits of a sector have a difference of first integrals. Both solutions must give the same difference.
       const double one = uniform(0.05, 0.95), other = uniform(0.05, 0.95);
       double differences[2]{};
       for (int n : {0, 1}) {
@@ -189,7 +189,7 @@ TEST_CASE("where a ray of (2.6) merges with an axis, its order is that of the so
 }
 
 TEST_CASE("a focus whose centre is not smooth: its spiral and its stop are exact", "[planar][exact]") {
-  // r' = -1, angle' = b/r: angle = -b ln(1 - t/r0), and r shrinks by exp(-2 pi/b) in a turn
+  // The field is r' = -1, angle' = b/r. The angle is -b ln(1 - t/r0), and r shrinks by exp(-2 pi/b) in a turn.
   for (double b : {1.0, -0.3, 20.0}) {
     const PlanarReduction plane =
         reduced([b](const Vector2d& x) -> Vector2d { return Vector2d(-x[0] - b * x[1], b * x[0] - x[1]) / x.norm(); });
@@ -237,9 +237,9 @@ TEST_CASE("linear fields: kind, rays and motion against the exponential of the m
     for (const Vector2d& start : {Vector2d(0.7, 0.2), Vector2d(-0.1, 1.5), Vector2d(-1, -1e-3)}) {
       const PlanarOrbit orbit = plane.orbit(start);
       CHECK(orbit.end() == end);
-      CHECK(orbit.end_time() == infinity);  // a linear motion never reaches its end
+      CHECK(orbit.end_time() == infinity);  // a linear motion needs infinite time
       for (double t : {0.0, 0.5, 3.0, 12.0}) {
-        // exp(t m) by the series for a small part of t, squared repeatedly
+        // The exponential exp(t m) by its series for a small part of t, which is then squared repeatedly.
         Matrix2d exact = Matrix2d::Identity(), term = exact;
         for (int i = 1; i < 20; ++i) exact += term = (term * m * (t / 256 / i)).eval();
         for (int i = 0; i < 8; ++i) exact = (exact * exact).eval();
@@ -265,7 +265,7 @@ TEST_CASE("the rays of a node are its eigenvectors, and R and dT/dq its eigenval
 }
 
 TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors", "[planar][exact]") {
-  // z' = z^2, z = u + i v: z = z0/(1 - z0 t). Orbits are circles through the origin; only v = 0, u > 0 escapes.
+  // The field z' = z^2, z = u + i v, gives z = z0/(1 - z0 t). Orbits are circles through 0; on v = 0 < u they escape.
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); });
   CHECK(plane.kind() == "mixed");
@@ -286,7 +286,7 @@ TEST_CASE("motions that escape to infinity in finite time, and elliptic sectors"
 }
 
 TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][exact]") {
-  // z' = z^2/|z|^2 has the same circles with another time: |z| = d sin(angle), dt = d d(angle); d (pi - angle) is left.
+  // The field z' = z^2/|z|^2 has the same circles: |z| = d sin(angle), dt = d d(angle). Time left: d (pi - angle).
   const PlanarReduction plane = reduced([](const Vector2d& x) -> Vector2d {
     return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]) / x.squaredNorm();
   });
@@ -300,7 +300,7 @@ TEST_CASE("an elliptic sector whose orbits come back in finite time", "[planar][
 }
 
 TEST_CASE("weights that differ", "[planar][exact]") {
-  // u' = -1, v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. u and v become 0 at different times.
+  // Scaling of u' = -sign(u), v' = -3 sqrt|v| sign(v): u -> c u, v -> c^2 v, t -> c t. u and v end at different times.
   const PlanarReduction plane = reduced([](const Vector2d& x) {
     return Vector2d(-std::copysign(1, x[0]), -3 * std::copysign(std::sqrt(std::abs(x[1])), x[1]));
   });
@@ -309,10 +309,10 @@ TEST_CASE("weights that differ", "[planar][exact]") {
   CHECK(plane.scaling()->matrix(1, 1) == Approx(2 * plane.scaling()->time).epsilon(1e-13));
   const PlanarCanonical here = plane.canonical({0.3, 0.7});
   CHECK((plane.point(here.q, here.p) - Vector2d(0.3, 0.7)).norm() < 1e-14);
-  // a smooth field: u' = v, v' = -u^3 - v |v| has the weights 1, 2 and the weight -1 of time
+  // The field u' = v, v' = -u^3 is smooth. Its scaling has the weights 1 of u, 2 of v and -1 of time.
   const PlanarReduction oscillator = reduced([](const Vector2d& x) { return Vector2d(x[1], -x[0] * x[0] * x[0]); });
   CHECK(oscillator.kind() == "center");
-  // energy v^2/2 + u^4/4; period of amplitude a: (4/a) K(1/sqrt 2), K = 1.8540746773013719
+  // The energy is v^2/2 + u^4/4. The period of amplitude a is (4/a) K(1/sqrt 2), with K(1/sqrt 2) = 1.8540746773013719.
   const PlanarOrbit orbit = oscillator.orbit({1.3, 0});
   CHECK(orbit.end() == PlanarEnd::periodic);
   const double period = 4 / 1.3 * 1.8540746773013719184;
@@ -328,13 +328,13 @@ TEST_CASE("about another centre", "[planar][exact]") {
       reduced([&](const Vector2d& x) -> Vector2d { return -(x - centre) / std::sqrt((x - centre).norm()); }, {1, 2});
   CHECK((plane.centre() - centre).norm() < 1e-12);
   CHECK(plane.kind() == "stable star");
-  // r' = -sqrt r: the time left is 2 sqrt r
+  // For r' = -sqrt r the time left is 2 sqrt r.
   CHECK(plane.end_time({6, 3}) == Approx(2 * std::sqrt(5)).epsilon(1e-12));
   CHECK(plane.end_time(plane.centre()) == 0);
 }
 
 TEST_CASE("a constant force beside friction: creeping rays, and a start that never stops", "[planar][exact]") {
-  // A drive of 0.2 or 1.5 of the friction along u = 0, which is 1: k tends to a ray, or v grows for ever.
+  // The drive is 0.2 or 1.5 times the friction along u = 0, which is 1. k tends to a ray, or v grows for ever.
   const double rate = ReducedSystem(PadeLaw{}, 0.5).scaled_time_rate();
   const auto driven = [&](double drive) {
     return reduced([=, friction = planar_field({PadeLaw{}, 0.5})](const Vector2d& x) -> Vector2d {
@@ -361,7 +361,7 @@ TEST_CASE("a first integral is one number along an orbit, and moves with the sca
 }
 
 TEST_CASE("a field with values in a part of the plane", "[planar][domain]") {
-  // u' = -1 for v > u: orbits leave this region through v = u, or end at the border of the values
+  // For v > u the field has u' = -1. Orbits leave this region through v = u, or end where the field has no value.
   const PlanarReduction plane =
       reduced([](const Vector2d& x) { return x[1] > 0 ? Vector2d(1, -1) : Vector2d(not_a_number, 0); });
   CHECK(plane.kind() == "bordered");
@@ -385,7 +385,7 @@ TEST_CASE("a matrix that is no scaling is refused", "[planar][domain]") {
 
 namespace {
 
-/// r' = R(angle), angle' = T(angle)/r
+/// The field r' = R(angle), angle' = T(angle)/r.
 template <class Radial, class Angular>
 PlanarField polar(const Radial& radial, const Angular& angular) {
   return [=](const Vector2d& x) -> Vector2d {
@@ -405,8 +405,8 @@ TEST_CASE("a relay about another point stops when the one about the origin does"
   const PlanarReduction here = reduced(relay(0), {0.5, 2}), there = reduced(relay(1), {1.5, 2});
   CHECK(there.kind() == "stable focus");
   CHECK(there.end_time({1.5, 2}) == Approx(here.end_time({0.5, 2})).epsilon(1e-12));
-  // By hand: let an orbit meet u = 0 at v, then at -w. In each half turn v^2 (1 + ...) falls by the same factor.
-  const double a = 0.7, b = 1.3;  // |v'| on the way out and on the way back
+  // Computed by hand: an orbit meets u = 0 at v, then at -w. In each half turn v^2 (1 + ...) falls by the same factor.
+  const double a = 0.7, b = 1.3;  // size of v' on the way out and on the way back
   const double out = 2 / b, top = 0.5 + 2 * out - b * out * out / 2, in = std::sqrt(2 * top / a), w = a * in;
   const double ratio = std::sqrt(a / b), half_turn = w / b + w * ratio / a;
   CHECK(there.end_time({1.5, 2}) == Approx(out + in + half_turn / (1 - ratio)).epsilon(1e-12));
@@ -432,10 +432,10 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
       CHECK(plane.end_time({1, 0.2}) > 0.5);
     }
   }
-  // reference by SciPy's DOP853 in ln r and the angle, to 1e-11
+  // The reference was computed by SciPy's DOP853 in ln r and the angle, to 1e-11.
   CHECK(reduced(node(1, 0.004)).end_time({1, 0.2}) == Approx(0.7710816980055679).epsilon(1e-8));
   CHECK(reduced(node(1, 0.03)).end_time({1, 0.2}) == Approx(0.7712289685393047).epsilon(1e-8));
-  // T touches 0 at a direction where it is not exactly 0. Up to its rounding there is one double ray.
+  // T touches 0 at a direction that is no double. Up to rounding of T there is one double ray.
   const PlanarReduction touching = reduced(node(0.96, 0));
   CHECK(touching.kind() == "stable node");
   REQUIRE(touching.rays().size() == 2);
@@ -447,7 +447,7 @@ TEST_CASE("rays that are close to one another are found", "[planar][exact]") {
 }
 
 TEST_CASE("nodes with a double ray", "[planar][exact]") {
-  // exp(t m) = exp(l t) (1 + t (m - l))
+  // If l is the double eigenvalue of m, exp(t m) = exp(l t) (1 + t (m - l)).
   struct Case {
     Matrix2d m;
     double eigenvalue;
@@ -462,7 +462,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
   }
   for (const auto& [m, eigenvalue, kind, end] : cases) {
     CAPTURE(m);
-    // The solution uses the given scaling of a linear field, even if the field has others.
+    // A linear field has several scalings. The solution uses the given one.
     const PlanarReduction plane(linear(m), {0, Matrix2d::Identity(), Vector2d::Zero(), true}, {1, 0.5}, 1e-15);
     CHECK(plane.kind() == kind);
     CHECK(plane.rays().size() == 2);
@@ -473,7 +473,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
       for (double t : {0.0, 0.4, 2.0, 20.0, 100.0}) {
         const Vector2d exact = std::exp(eigenvalue * t) * (start + t * (m * start - eigenvalue * start));
         CAPTURE(start, t);
-        // Next to a double ray p ~ 1/z ~ t. The angle of the ray is accurate to 1e-12.
+        // Next to a double ray, p ~ 1/z ~ t, with z the angle from the ray. The angle of the ray has an error of 1e-12.
         CHECK((orbit.at(t) - exact).norm() < 1e-12 * (1 + t * t) * exact.norm());
       }
     }
@@ -481,7 +481,7 @@ TEST_CASE("nodes with a double ray", "[planar][exact]") {
 }
 
 TEST_CASE("resonant nodes", "[planar][exact]") {
-  // u' = -u, v' = -k v + c u^k: v exp(k t) = v0 + c u0^k t
+  // The field u' = -u, v' = -k v + c u^k has the motions v exp(k t) = v0 + c u0^k t.
   for (int k : {2, 3}) {
     for (double c : {-2.0, -0.3, 0.7, 2.0}) {
       CAPTURE(k, c);
@@ -501,14 +501,14 @@ TEST_CASE("resonant nodes", "[planar][exact]") {
 }
 
 TEST_CASE("poles are borders", "[planar][exact]") {
-  // u' = u^2/(2 v), v' = u - v/2: u/v = x grows by x' = x - x^2/2, and v reaches 0 at t = 2 ln 2 from (-1, 1)
+  // The field is u' = u^2/(2 v), v' = u - v/2. For x = u/v, x' = x - x^2/2. From (-1, 1), v reaches 0 at t = 2 ln 2.
   const PlanarReduction pole =
       reduced([](const Vector2d& x) { return Vector2d(0.5 * x[0] * x[0] / x[1], x[0] - 0.5 * x[1]); }, {-1, 1});
   CHECK(pole.kind() == "bordered");
   CHECK(pole.end({-1, 1}) == PlanarEnd::centre);
   CHECK(pole.end_time({-1, 1}) == Approx(2 * std::numbers::ln2).epsilon(1e-12));
   CHECK(pole.end_time_error({-1, 1}) < 1e-12);
-  // u' = 1, v' = 3 v/u - u: v = (v0/u0^3 - 1/u0) u^3 + u^2
+  // The field u' = 1, v' = 3 v/u - u has the orbits v = (v0/u0^3 - 1/u0) u^3 + u^2.
   const PlanarReduction linear_equation =
       reduced([](const Vector2d& x) { return Vector2d(1, 3 * x[1] / x[0] - x[0]); }, {1.3, 0.7});
   const PlanarOrbit orbit = linear_equation.orbit({1.3, 0.7});
@@ -520,13 +520,13 @@ TEST_CASE("poles are borders", "[planar][exact]") {
   }
   CHECK(linear_equation.end({-1, 0.5}) == PlanarEnd::centre);
   CHECK(linear_equation.end_time({-1, 0.5}) == Approx(1).epsilon(1e-12));
-  // u' = 1, v' = -u/v: a circle, which ends at v = 0
+  // The orbit of u' = 1, v' = -u/v is a circle, which ends at v = 0.
   const PlanarReduction circle = reduced([](const Vector2d& x) { return Vector2d(1, -x[0] / x[1]); }, {0.6, 0.8});
   CHECK(circle.end({0.6, 0.8}) == PlanarEnd::border);
   CHECK(circle.end_time({0.6, 0.8}) == infinity);
   CHECK((circle.orbit({0.6, 0.8}).at(0.3) - Vector2d(0.9, std::sqrt(0.19))).norm() < 1e-12);
   CHECK_THROWS_WITH(circle.orbit({0.6, 0.8}).at(0.5), Contains("border"));
-  // u' = 1, v' = v/u + u on one of its rays: v = u^2
+  // The start lies on a ray of the field u' = 1, v' = v/u + u: v = u^2.
   const PlanarReduction on_ray = reduced([](const Vector2d& x) { return Vector2d(1, x[1] / x[0] + x[0]); }, {1, 1});
   CHECK((on_ray.orbit({1, 1}).at(2) - Vector2d(3, 9)).norm() < 1e-11);
 }
@@ -568,23 +568,23 @@ TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
 }
 
 TEST_CASE("a ray that orbits join, and may leave, is not decided", "[planar][domain]") {
-  // u' = -u, v' = sqrt|u v|: v = 0 is reached from below. The motion may stay there or continue.
+  // Motions of u' = -u, v' = sqrt|u v| reach v = 0 from below. They may stay there or continue.
   const PlanarReduction branching =
       reduced([](const Vector2d& x) { return Vector2d(-x[0], std::sqrt(std::abs(x[0] * x[1]))); }, {1, -0.1});
   CHECK(branching.kind().empty());
   CHECK(branching.end({1, -0.1}) == PlanarEnd::undecided);
   CHECK_THAT(branching.undecided(), Contains("no single motion"));
-  // u' = -u, v' = -sqrt|u v| sign(v): v = 0 is reached from both sides
+  // Motions of u' = -u, v' = -sqrt|u v| sign(v) reach v = 0 from both sides.
   const PlanarReduction joining =
       reduced([](const Vector2d& x) { return Vector2d(-x[0], -std::copysign(std::sqrt(std::abs(x[0] * x[1])), x[1])); },
               {1, -0.1});
   CHECK(joining.end({1, -0.1}) == PlanarEnd::centre);
-  // sqrt|v| falls by (1 - exp(-t/2)) sqrt u0: v = 0 at exp(-t/2) = 1 - sqrt 0.1
+  // In the time t, sqrt|v| falls by (1 - exp(-t/2)) sqrt u0. It reaches 0 at exp(-t/2) = 1 - sqrt 0.1.
   CHECK((joining.orbit({1, -0.1}).at(2) - Vector2d(std::exp(-2), 0)).norm() < 1e-12);
 }
 
 TEST_CASE("relays whose jumps lie on no axis", "[planar][exact]") {
-  // The same relay in sheared coordinates stops at the same time.
+  // The same relay in sheared coordinates must stop at the same time.
   const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
   std::mt19937 random(7);
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
@@ -613,14 +613,14 @@ TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exa
   const PlanarReduction resting = reduced([](const Vector2d& x) { return Vector2d(0, -x[1] / x.norm()); });
   CHECK(resting.kind() == "degenerate");
   CHECK(resting.end({2, 1}) == PlanarEnd::rest);
-  // The same field, rotated, so that the ray is not an axis.
+  // The same field is rotated, so that the ray is not an axis.
   const Vector2d n(std::cos(0.3), std::sin(0.3));
   const PlanarReduction turned =
       reduced([&](const Vector2d& x) -> Vector2d { return (-x.dot(n) / x.norm()) * n; }, {2, 1});
   CHECK(turned.kind() == "degenerate");
   CHECK(turned.end({2, 1}) == PlanarEnd::rest);
   CHECK(reduced([](const Vector2d&) { return Vector2d(-1, -1); }).kind() == "regular point");
-  // u' = v, v' = u^2: v^2/2 = u^3/3 + const
+  // Orbits of u' = v, v' = u^2 satisfy v^2/2 = u^3/3 + constant.
   CHECK(reduced([](const Vector2d& x) { return Vector2d(x[1], x[0] * x[0]); }).kind() == "cusp");
 }
 
@@ -635,7 +635,7 @@ TEST_CASE("far from 1, too", "[planar][domain]") {
 TEST_CASE("the period of a centre is that of closed forms", "[planar]") {
   CHECK(reduced(linear((Matrix2d() << 0, 1, -4, 0).finished())).orbit({1, 0.3}).period().value() ==
         Approx(pi).epsilon(1e-13));
-  // u'' = -u^3 from rest at a has the period 4 K(1/2)/a, where 1/2 is the parameter of K.
+  // From rest at u = a, the motion of u'' = -u^3 has the period 4 K(1/2)/a, where 1/2 is the parameter of K.
   const PlanarReduction quartic = reduced([](const Vector2d& x) { return Vector2d(x[1], -std::pow(x[0], 3)); });
   constexpr double k_half = 1.8540746773013719184338503471953;
   for (double a : {0.1, 1.0, 7.0}) {

@@ -26,7 +26,7 @@ TEST_CASE("orbits by steps are those of closed forms, in any order of times", "[
 }
 
 TEST_CASE("steps see jumps of the field", "[planar]") {
-  // u'' = -sign u: from rest at 1/2 the motion takes the time 1 to u = 0 and returns there after each time 2.
+  // u'' = -sign u: from rest at u = 1/2 the motion reaches u = 0 at t = 1 and meets u = 0 again after each time 2.
   const PlanarOrbit relay =
       by_steps([](const Vector2d& x) { return Vector2d(x[1], x[0] > 0 ? -1.0 : 1.0); }).orbit({0.5, 0});
   CHECK((relay.at(2) - Vector2d(-0.5, 0)).norm() < 1e-9);

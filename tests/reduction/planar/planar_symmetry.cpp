@@ -24,7 +24,7 @@ const Vector2d around{1, 1};
 
 PlanarSymmetries symmetries(const PlanarField& field) { return find_symmetries(field, around); }
 
-/// Checks that there is exactly one generator, the given one.
+/// Checks that there is exactly one generator and that it is the given one.
 void check_one(const PlanarSymmetries& found, double time, const Matrix2d& matrix,
                const Vector2d& shift = Vector2d::Zero()) {
   CAPTURE(found.singular_values, found.level, found.gap, found.residual);
@@ -78,7 +78,7 @@ TEST_CASE("friction with a constant force, of another degree, about another poin
 }
 
 TEST_CASE("the weights of a scaling are found", "[planar][symmetry]") {
-  // u -> c u, v -> c^(2/3) v, t -> c^(1/3) t: by hand
+  // Computed by hand: the scaling is u -> c u, v -> c^(2/3) v, t -> c^(1/3) t.
   check_one(symmetries([](const Vector2d& x) {
               const double r = std::sqrt(x[0] * x[0] + std::pow(std::abs(x[1]), 3));
               return Vector2d(-x[0] * std::pow(r, -1. / 3), -x[1] * std::pow(r, -1. / 3) - 0.3 * std::cbrt(r));
@@ -95,7 +95,7 @@ TEST_CASE("linear fields have several, and a plain scaling among them", "[planar
     REQUIRE(found.scaling);
     CHECK(found.scaling->matrix == Matrix2d::Identity());
     CHECK(found.scaling->time == Approx(0).margin(1e-13));
-    // the second generator commutes with m and is no multiple of 1
+    // The second generator commutes with m and is no multiple of the identity.
     const Matrix2d& other = found.generators[1].matrix;
     CHECK((other * m - m * other).norm() < 1e-11);
     CHECK((other - other.trace() / 2 * Matrix2d::Identity()).norm() > 0.1);
@@ -135,7 +135,7 @@ TEST_CASE("no symmetry: viscous drag beside dry friction", "[planar][symmetry]")
 }
 
 TEST_CASE("a symmetry that is no scaling", "[planar][symmetry]") {
-  // x' = 1 + sin y, y' = cos y: a translation along x
+  // The field x' = 1 + sin y, y' = cos y has a translation along x as its symmetry.
   const PlanarSymmetries found =
       symmetries([](const Vector2d& x) { return Vector2d(1.5 + std::sin(3 * x[1]), std::cos(3 * x[1])); });
   CAPTURE(found.singular_values, found.level);
@@ -173,7 +173,7 @@ TEST_CASE("fields without values", "[planar][domain]") {
   CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(0, 0); }), Contains("the field is 0"));
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(0, 0)), std::domain_error);
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(1, infinity)), std::domain_error);
-  // Half of the plane is enough, for both ways in which a field can have no value.
+  // Values in half of the plane suffice. A field can have no value in two ways; both are tested.
   check_one(symmetries([&](const Vector2d& x) -> Vector2d {
               if (x[1] < 0) throw std::domain_error("v < 0");
               return friction(x) * (x[0] < 0 ? not_a_number : 1);
@@ -190,7 +190,7 @@ TEST_CASE("a generator that does not hold across a kink says so", "[planar][symm
   CHECK(relay.generators[0].everywhere);
   CHECK(relay.generators[1].shift == Vector2d(1, 0));
   CHECK_FALSE(relay.generators[1].everywhere);
-  // A kink off the axes. Differences do not cross it either.
+  // The field has a kink off the axes. Differences must not cross this kink either.
   const PlanarSymmetries slanted = symmetries([=](const Vector2d& x) {
     const double side = sign(x[0] - 2 * x[1]);
     return Vector2d(2 + side, 1 - 0.5 * side);
@@ -198,7 +198,7 @@ TEST_CASE("a generator that does not hold across a kink says so", "[planar][symm
   REQUIRE(slanted.scaling);
   CHECK(slanted.generators.front().everywhere);
   CHECK(std::ranges::any_of(slanted.generators, [](const Generator& x) { return !x.everywhere; }));
-  // Every symmetry of a smooth field holds everywhere: shifts, a spiral, another centre, weights; also with noise.
+  // A symmetry of a smooth field holds everywhere. Cases: shifts, a spiral, another centre, weights; also with noise.
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, 1e-9);
   const PlanarField fields[] = {
@@ -222,7 +222,7 @@ TEST_CASE("a generator that does not hold across a kink says so", "[planar][symm
 
 TEST_CASE("a scaling that does not hold across jumps is no scaling of the field", "[planar][symmetry]") {
   const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
-  // Friction with a jump along a line, on a circle and beside the origin; a relay about (0, 0) and (0, 1) at once.
+  // Fields: friction with a jump along a line, on a circle, beside the origin; a relay about (0, 0) and (0, 1) at once.
   const PlanarField fields[] = {
       [=](const Vector2d& x) -> Vector2d { return -x / x.norm() - Vector2d(0, 0.5 * sign(x[0] - 0.6)); },
       [=](const Vector2d& x) -> Vector2d { return -x / x.norm() * (2 + sign(x.norm() - 1)); },
@@ -260,7 +260,7 @@ TEST_CASE("of several scalings within sectors the one that leaves the jumps wher
 }
 
 TEST_CASE("a translation with a rate is no scaling", "[planar][symmetry]") {
-  // u' = exp(u): u -> u + s, t -> exp(-s) t
+  // The only symmetry of u' = exp(u), v' = exp(v) is u -> u + s, v -> v + s, t -> exp(-s) t.
   const PlanarSymmetries found =
       find_symmetries([](const Vector2d& x) { return Vector2d(std::exp(x[0]), std::exp(x[1])); }, {2, 1});
   REQUIRE(found.generators.size() == 1);

@@ -87,7 +87,7 @@ TEST_CASE("canonical coordinates there and back, and the group moves p alone", "
 }
 
 TEST_CASE("the separated equation is dv/du in other coordinates", "[similarity][route]") {
-  // q = v/u, p = ln v: dp/dq = 1/(q (1 - q/w)) with w = dv/du.
+  // In q = v/u, p = ln v the slope is dp/dq = 1/(q (1 - q/w)), where w = dv/du.
   WorstCase slope("dp/dq");
   for (const Law& law : paper_laws()) {
     for (double mu : {0.05, 0.9}) {
