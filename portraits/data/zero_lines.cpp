@@ -47,10 +47,10 @@ std::optional<Vector2d> touch_between(const reduction::FactorPiece& piece, Vecto
   if (!(largest < INFINITY && sizes[0] > sizes[1] && sizes[2] < sizes[3])) return std::nullopt;
   constexpr int bits = 26;
   const auto place = [&](double s) { return Vector2d(from + s * (to - from)); };
-  const auto [s, least] =
+  const auto [nearest, least] =
       boost::math::tools::brent_find_minima([&](double s) { return std::abs(piece.value(place(s))); }, 0.0, 1.0, bits);
   constexpr double rounding = 1e-8;
-  return least <= rounding * largest ? std::optional(place(s)) : std::nullopt;
+  return least <= rounding * largest ? std::optional(place(nearest)) : std::nullopt;
 }
 
 }  // namespace
