@@ -299,7 +299,7 @@ class PlanarTracer {
   double highest_ = -infinity, lowest_ = infinity;  ///< visible range of p
   std::vector<Course> courses_;
   double growth_ = 0;      ///< change of p in a counter-clockwise turn
-  double sense_ = 1;       ///< direction of the motion
+  double sense_ = 1;       ///< 1: motions turn counter-clockwise, and q grows in time; -1: clockwise
   std::vector<Way> ways_;  ///< forwards and backwards in time; only without a scaling
 };
 

@@ -88,7 +88,7 @@ Figure patch_drawing(const AskedSize& size) {
   const auto polar = [&](double r, double theta) {
     return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)};
   };
-  // Light hatching shows that the patch is a face.
+  // Light hatching shows that the patch is the area within the circle, not the circle alone.
   for (int i = -18; i <= 18; ++i) {
     const double x = i / 18.5;
     const double half = std::sqrt(1 - x * x);

@@ -63,7 +63,7 @@ struct Sample {
   double z, value, rounding;
 };
 
-/// Returns the power through values at three distances. The two slopes of ln |value| between them must be equal.
+/// Returns the power of z through three samples. The two slopes of ln |value| against ln z must be equal.
 std::optional<LeadingPower> power_through(const std::array<Sample, 3>& samples, double allowed) {
   if (std::ranges::all_of(samples, [](const Sample& at) { return at.value == 0; })) return LeadingPower{infinity, 0};
   const auto clear = [=](const Sample& at) { return std::abs(at.value) * allowed > at.rounding; };

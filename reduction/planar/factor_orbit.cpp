@@ -87,7 +87,7 @@ Vector2d FactorMotion::at(double time) const {
   return in_panels(time);
 }
 
-/// Follows an orbit from part to part and from box to box.
+/// Follows an orbit from part to part, and from one box, in which V is fitted, to the next.
 class Follower {
   using Samples = LegendreSeries::Samples;
   using Panel = FactorMotion::Panel;

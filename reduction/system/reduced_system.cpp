@@ -56,7 +56,7 @@ ReducedSystem::ReducedSystem(const Law& law, double patch_ratio, Inertia inertia
       mu_(positive("mu", patch_ratio)),
       inertia_{positive("chi", inertia.chi), positive("gamma", inertia.gamma)},
       drive_(allowed_drive(drive)),
-      // If r is smaller than this, only the time depends on r, and pivoting_limit computes it from mu.
+      // If r is below the smallest normal double, only the time depends on r; pivoting_limit computes the time from mu.
       r_(std::max(inertia.gamma * patch_ratio * patch_ratio / inertia.chi, std::numeric_limits<double>::min())),
       scaled_time_rate_(2 * inertia.chi / (3 * pi)) {}
 

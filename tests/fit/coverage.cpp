@@ -75,7 +75,7 @@ TEST_CASE("of a ball with rolling friction the intervals hold the truth as often
                                 << held[place] << " of " << trials_with_rolling_friction << ", bias " << bias[place]);
       CHECK(held[place] >=
             (0.95 - 3 * std::sqrt(0.95 * 0.05 / trials_with_rolling_friction)) * trials_with_rolling_friction);
-      // The second film begins without rolling, the smallest possible value. Therefore its estimates have a mean error.
+      // The second film starts without rolling. A fit allows no rolling below 0, so its estimates are biased.
       if (seen.size() == 2) CHECK(std::abs(bias[place]) < 3 / std::sqrt(trials_with_rolling_friction) + 0.1);
     }
   }

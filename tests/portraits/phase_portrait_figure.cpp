@@ -672,7 +672,7 @@ TEST_CASE("The blown-up origin is a circle of its own, with a node and a saddle"
   REQUIRE(stable->points.size() == 2);
   CHECK(std::abs(stable->points[0].x) == Approx(hole));
   CHECK(std::ranges::find(panel.marks, "saddle", &portraits::Marks::legend)->points.size() == 3);
-  // On both circles the motion turns towards v = 0.
+  // Inner and outer half-circle are the stop and infinity. On both the motion turns towards v = 0.
   const auto& turning = panel.arrows.back().arrows;
   CHECK(turning.size() == 4);
   for (const auto& arrow : turning) CHECK(arrow.direction.y < 0);

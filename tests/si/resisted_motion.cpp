@@ -64,7 +64,7 @@ TEST_CASE("a pool ball with spin creeps, and turns no more before it rests", "[r
 }
 
 TEST_CASE("without steps and in steps: one motion", "[route]") {
-  // Starts: slow spin; fast spin; a rolling ball; topspin slower than rolling; a ball that resistance holds at first.
+  // Starts: slow spin (3 cases); fast spin; resistance holds the ball at first; topspin slower than rolling; rolling.
   const double R = pool(SlipAndSpin{1, 0}).ball.radius;
   const std::vector<std::pair<Start, double>> cases{{SlipAndSpin{1, 0}, 0.01},
                                                     {SlipAndSpin{1, 30}, 0.01},
@@ -94,8 +94,8 @@ TEST_CASE("without steps and in steps: one motion", "[route]") {
   }
 }
 
-// Reference for the rest: an integration in Python that shares no code with ours. While the ball rolls slowly, its
-// variable is ln|W|.
+// Reference for the rest: an integration in Python that shares no code with ours. It uses the variable ln|W| while the
+// ball rolls slowly; W = R (omega_y, -omega_x) is the rolling velocity.
 TEST_CASE("a ball that slides across its roll: rest and stop to the accuracy of the steps", "[reference][route]") {
   struct Row {
     Velocities start;

@@ -13,7 +13,7 @@ class LoadHistory;
 
 namespace contensou::answers {
 
-/// Returns the ball of an answer in SI units: its name and values, and its patch radius under the law with the source.
+/// Returns the ball of an answer in SI units: name, values, patch radius under the law, and the source of this radius.
 Json members_of_ball(const si::Experiment& experiment, const reduction::Law& law);
 
 /// Returns {t, x, y}.

@@ -30,7 +30,7 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
 /// Returns every name that the field `end` can contain. The field is null for an orbit with an end that has no name.
 std::vector<std::string_view> named_ends();
 
-/// Returns the fields of these answers.
+/// Returns the fields of the answer for the equations of motion (2.6).
 std::vector<FieldText> reduce_fields();
 
 /// Fields of the answer for another system.

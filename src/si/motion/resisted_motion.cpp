@@ -450,7 +450,7 @@ class Integrated final : public Resisted {
     // A held ball creeps so slowly that its time of rest depends on the last digits of its slip.
     constexpr double tolerance = 1e-13, slip_tolerance = 1e-15;
     constexpr double nothing = 1e-9;  // share of the speeds at the start
-    constexpr double soon = 1e-6;     // share of the time in which friction ends the speeds
+    constexpr double soon = 1e-6;     // share of size/(f g), the time in which friction would end the speeds
     constexpr double slow = 3e-4;     // share of the rolling speed
     constexpr long step_limit = 2'000'000;
     Step now{0, progress_of(start)};

@@ -70,7 +70,7 @@ TEST_CASE("of a draw a fit with rolling friction says that it is none of its mot
 TEST_CASE("a mark that turns more than half a turn between two pictures is followed, and that is said", "[cli]") {
   std::string instants;
   for (int i = 0; i <= 40; ++i) instants += fmt::format("{}{}", i == 0 ? "" : ",", i / 60.0);
-  const std::string start = " --ball gel --slip 0.5 --spin 250 ";  // the limit is 188 rad/s
+  const std::string start = " --ball gel --slip 0.5 --spin 250 ";  // half a turn a picture is 60 pi = 188 rad/s
   const auto roll = json_of("roll --format json --samples 4001 --equidistant --until 0.6666666666666667" + start);
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;

@@ -99,7 +99,7 @@ TEST_CASE("a law that was copied or moved from is still a law", "[friction_law]"
 
 TEST_CASE("a law whose limits are not those of friction is rejected", "[friction_law][domain]") {
   CHECK_NOTHROW(Law(from_ratio(root_force, root_moment)));
-  // Coulomb friction is as large at the slowest sliding as at any other speed.
+  // Here the force has its full size at the slowest sliding: it does not tend to 0 with k, as it does over a patch.
   CHECK_THROWS_WITH(Law(from_ratio([](double k) { return k > 0 ? 1.0 : 0.0; }, root_moment)),
                     Contains("user's law") && Contains("2^-60"));
   // Phi is proportional to sqrt(k) or k^2 near 0. Therefore Phi'(0) is infinite, or 0.

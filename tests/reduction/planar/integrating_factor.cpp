@@ -290,7 +290,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
     const double a = std::exp(-t) / 2, b = a * a / 8 - (1 + 1. / 32) * std::exp(-10 * t);
     CHECK((to_node.at(t) - Vector2d(1 + a, 2 + b)).norm() < 1e-13);
   }
-  // Orbits on the stable line of a saddle: the line is an axis, then a parabola.
+  // Orbits on the stable manifold of a saddle: this curve is an axis (lotka), then a parabola (saddle).
   CHECK(ends(lotka, {0, 0.7}, PlanarEnd::equilibrium, infinity).at(10) ==
         Vector2d(0, orbit(lotka, {0, 0.7}).at(10)[1]));
   const Formulas saddle = [](Dual u, Dual v) { return std::array{-u, u * u + 2 * v}; };

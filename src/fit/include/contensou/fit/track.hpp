@@ -27,7 +27,7 @@ const ObservableKind& kind_of(Observable observable);
 struct Series {
   Observable observable;
   Eigen::ArrayXd value;  ///< in SI units; NaN for a missing value. An angle may be known only up to whole turns
-  Eigen::ArrayXd sd;     ///< standard deviations, > 0, of the same size; if empty, unknown and equal for all values
+  Eigen::ArrayXd sd;     ///< standard deviations of the values, > 0; if empty, they are unknown and all equal
 };
 
 /// A number and its standard deviation.
