@@ -29,7 +29,7 @@ namespace contensou::reduction {
 
 namespace {
 
-using Place = SlidingDerivatives::Place;
+using PlaceInK = SlidingDerivatives::Place;
 
 /// The Chebyshev points of an interval of r.
 class PointsOfR {
@@ -94,7 +94,7 @@ class PointsOfR {
   std::vector<Point> points_;
 };
 
-/// One function of k (Place) at one r, on each curve of the system with this r.
+/// One function of k (PlaceInK) at one r, on each curve of the system with this r.
 template <class Curve>
 class CurvesAtR {
  public:
@@ -120,7 +120,7 @@ class CurvesAtR {
 };
 
 /// N functions of k and r. `Kind` makes the functions at one r and judges their errors:
-///   AtR              type of the functions at one r: (const Place&) -> std::array<double, N>
+///   AtR              type of the functions at one r: (const PlaceInK&) -> std::array<double, N>
 ///   at_r(r)          makes the functions at r
 ///   place(k)         returns a place
 ///   allowed(place, r, values, errors)  returns true if these errors of the functions are small enough
@@ -139,7 +139,7 @@ class FunctionsOfR {
   const Kind& kind() const { return kind_; }
 
   /// Returns the values of the functions; empty if an error is not allowed.
-  std::optional<Values> operator()(double r, const Place& place) const {
+  std::optional<Values> operator()(double r, const PlaceInK& place) const {
     const auto above = std::ranges::upper_bound(intervals_, r, {}, [](const auto& each) { return each->low; });
     if (above == intervals_.begin() || r > intervals_.back()->high) return {};
     const Interval* interval = std::prev(above)->get();
@@ -170,7 +170,7 @@ class FunctionsOfR {
   };
 
   static auto interpolated(const PointsOfR& points, const std::vector<typename Kind::AtR>& at, double r,
-                           const Place& place) {
+                           const PlaceInK& place) {
     return points.at<count>(r, [&](std::size_t j) { return at[j](place); });
   }
 
@@ -185,7 +185,7 @@ class FunctionsOfR {
       const auto exact = kind_.at_r(r);
       bool told = false, silent = false;
       for (double ln_k = -12; ln_k < 44; ln_k += std::abs(ln_k) < 6 ? 0.3 : 2) {
-        const Place place = kind_.place(std::exp(ln_k));
+        const PlaceInK place = kind_.place(std::exp(ln_k));
         auto found = interpolated(interval.points, made.at, r, place);
         const bool tells = !kind_.allowed(place, r, found.values, found.errors);
         const Values wanted = exact(place);
@@ -230,7 +230,7 @@ struct StopTimes {
     CurvesAtR<RegularSolution> curves;
     double drive, factor;
 
-    Values operator()(const Place& place) const {
+    Values operator()(const PlaceInK& place) const {
       if (place.ln_k > max_ln_k) return {factor / (1 - drive)};
       const auto& [chart, m] = curves.through(place.ln_k);
       const bool is_y = drive == 0 || reaches_rest(chart, drive);
@@ -241,9 +241,9 @@ struct StopTimes {
     return {{system.law, r, system.drive, sliding_solution}, system.drive, system.drive > 0 ? r : 1};
   }
 
-  static Place place(double k) { return {k, std::log(k), {}, 0}; }
+  static PlaceInK place(double k) { return {k, std::log(k), {}, 0}; }
 
-  bool allowed(const Place& place, double r, const Values& values, const Values& errors) const {
+  bool allowed(const PlaceInK& place, double r, const Values& values, const Values& errors) const {
     const double speed = system.drive > 0 ? (1 + place.k) / r : place.k;
     const double share = (system.drive > 0 ? 8 : 6) * eps / (1 - system.drive);
     return errors[0] * speed <= share * (system.pivoting(r) + values[0] * speed);
@@ -263,7 +263,7 @@ struct Derivatives {
     CurvesAtR<SlidingDerivatives> curves;
     Values factors;
 
-    Values operator()(const Place& place) const {
+    Values operator()(const PlaceInK& place) const {
       const SlidingDerivatives::Values by = curves.through(place.ln_k).curve.at(place, {});
       return {factors[0] * by.by_w, factors[1] * by.by_v, factors[2] * by.by_r, factors[3] * by.by_drive};
     }
@@ -276,10 +276,10 @@ struct Derivatives {
     return {{system.law, r, system.drive, solved}, factors(r)};
   }
 
-  Place place(double k) const { return Place::at(system.law, k); }
+  PlaceInK place(double k) const { return PlaceInK::at(system.law, k); }
 
   /// Returns true if by_w and by_v follow from m with enough digits.
-  bool by_m(const Place& place, double r) const {
+  bool by_m(const PlaceInK& place, double r) const {
     return system.drive == 0 && place.k <= SlidingDerivatives::fast_slide &&
            SlidingDerivatives::is_clear(place.friction.force, r * place.k * place.friction.moment);
   }
@@ -289,7 +289,7 @@ struct Derivatives {
     return {values[0] / by[0], values[1] / by[1], values[2] / by[2], values[3] / by[3]};
   }
 
-  bool allowed(const Place& place, double r, const Values& values, const Values& errors) const {
+  bool allowed(const PlaceInK& place, double r, const Values& values, const Values& errors) const {
     const auto value = unscaled(r, values), error = unscaled(r, errors);
     const double k = place.k, time = value.by_w + k * value.by_v;
     // If a law has slopes by differences, they limit the error wherever by_w and by_v do not follow from m.
@@ -380,7 +380,7 @@ struct StopTimesOfMu::Tables {
     SlidingDerivatives::Values by{};
     if (!on_axis(start)) {
       const double k = start.v / (mu * std::abs(start.u)), x = r(mu);
-      const Place place = Place::at(unit.law(), k);
+      const PlaceInK place = PlaceInK::at(unit.law(), k);
       const auto found = derivatives(x, place);
       if (!found) return {};
       by = derivatives.kind().unscaled(x, *found);
