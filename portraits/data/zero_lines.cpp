@@ -49,7 +49,7 @@ std::optional<Vector2d> touch_between(const reduction::FactorPiece& piece, Vecto
   const auto place = [&](double s) { return Vector2d(from + s * (to - from)); };
   const auto [nearest, least] =
       boost::math::tools::brent_find_minima([&](double s) { return std::abs(piece.value(place(s))); }, 0.0, 1.0, bits);
-  constexpr double rounding = 1e-8;
+  constexpr double rounding = 1e-6;  // also of a V that was fitted to differences
   return least <= rounding * largest ? std::optional(place(nearest)) : std::nullopt;
 }
 
