@@ -15,12 +15,12 @@ struct LogState {
   double beta;  ///< integral of ds/((16 w + 15 pi v)(8 w + 3 pi v))
 };
 
-/// The exact limit of the end of a motion, at which either pivoting alone or sliding alone determines the friction. For
-/// k -> 0, w falls at the rate r Psi(0), and v is a power of w by the linearised law. For k -> infinity, v falls at the
-/// rate 1 - rho, and w is a power of v.
+/// The tail of a motion, in which either pivoting alone or sliding alone determines the friction. Letters as in
+/// ReducedSystem, k = v/w. For k -> 0, w falls at the rate r Psi(0) in s, and v is a power of w by the linearised law.
+/// For k -> infinity, v falls at the rate 1 - rho, and w is a power of v.
 class AsymptoticTail {
  public:
-  /// Returns the limit that holds at this state with an error below 1e-17 of the time s; empty if neither limit holds.
+  /// Returns the tail from this state on, with an error below 1e-17 of the time s; empty if there is no such tail.
   static std::optional<AsymptoticTail> at(const ReducedSystem& system, const LogState& state);
 
   /// Returns the scaled time from the start to the stop.

@@ -8,15 +8,15 @@
 
 namespace contensou::reduction {
 
-/// The right sides of the equations of motion (R1), multiplied by the larger of w and v, so that no divisor vanishes.
+/// The right sides of the equations of motion, README (R1), times the larger of w and v, so that no divisor vanishes.
 /// Only one division, by `larger`, remains:
 ///   -d ln w/ds = r of_spin/larger,   -d ln v/ds = of_slip/larger
 struct Braking {
   double larger, of_spin, of_slip;
-  double weight;  ///< dtau/dbeta in units in which the speeds are w and v
+  double weight;  ///< dtau/dbeta of (2.8) at these speeds w and v
 };
 
-/// Returns the right sides at scaled speeds. If the speeds are NaN, all are NaN, and the run ends as not_finite.
+/// Returns the right sides at scaled speeds. If v/w is NaN, all numbers are NaN, and the stepper ends as not_finite.
 inline Braking braking(const ReducedSystem& system, double ln_w, double ln_v) {
   const double w = std::exp(ln_w), v = std::exp(ln_v), k = std::exp(ln_v - ln_w);
   if (std::isnan(k)) return {k, k, k, k};

@@ -1,5 +1,5 @@
 // Equations in scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W. W is the
-// weight of beta, dtau/dbeta.
+// weight (16 w + 15 pi v)(8 w + 3 pi v) of (2.8).
 #include "contensou/reduction/direct_motion.hpp"
 
 #include <algorithm>

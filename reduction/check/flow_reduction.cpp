@@ -33,7 +33,7 @@ struct FlowMotion final : PlanarOrbit::Motion {
   Vector2d at_end() const override { return {0, 0}; }
 
   Orbit orbit;
-  double side;  ///< sign of v
+  double side;  ///< 1 or -1, the sign of v
 };
 
 /// Returns the exponent of the power law by which D (Balance) vanishes beside an axis or a ray at which dD/dk = 0.

@@ -11,7 +11,7 @@ namespace contensou::reduction {
 /// @param k  v/(mu |u|), 0 < k <= 1
 /// @throws std::domain_error  if r or k is outside its range
 ///
-/// Accuracy  4 eps (|ln w| + r). The formula for the roots keeps its digits as r -> 0.
+/// Accuracy  4 eps (|ln w| + r). The zeros of Phi - r k Psi in the formula keep their digits as r -> 0.
 double hertz_inner_ln_w(double r, double k);
 
 }  // namespace contensou::reduction

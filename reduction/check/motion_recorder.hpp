@@ -7,8 +7,8 @@
 
 namespace contensou::reduction {
 
-/// The common part of both steppers: units, the start in logarithms, the times that are still to be reported, and the
-/// Motion, to which states are added. It contains no equation of motion.
+/// The common part of integrate_directly and integrate_regularised: units, the start in logarithms, the times that are
+/// still to be reported, and the Motion, to which states are added. The class contains no equation of motion.
 class MotionRecorder {
  public:
   /// @param caller  function name for error messages

@@ -24,7 +24,7 @@ bool differ(double a, double b) { return !(std::abs(a - b) <= noise * std::max(s
 void Law::Function::read_limits() {
   pivoting_moment = resistance({0, 1}).moment;
   const double pure_sliding = resistance({1, 0}).force;
-  // Two slow slips are needed: Phi/k stays the same for a slope, but not for a jump (Phi(0+) = 1) or a square root.
+  // Two slow slips are needed: their Phi/k is equal if Phi ~ k, but not if Phi jumps (Phi(0+) = 1) or is a square root.
   constexpr double slow = 0x1p-60;
   constexpr double slower = 0x1p-80;
   force_slope = resistance({slow, 1}).force / slow;

@@ -1,5 +1,5 @@
 // Notation and closed forms of V. F. Zhuravlev, 1998 (Zh98), section 1:
-//   k = sliding/pivoting,  Phi = F/(N f),  Psi = M/(N f eps),  theta* = asin(1/k)
+//   k = sliding/pivoting,  Phi = F/(N f),  Psi = M/(N f eps),  theta* = asin(1/k),  eps: patch radius
 //
 //   k <= 1:  Phi = (3 pi/32) k (4 - k^2)
 //            Psi = (3 pi/128) (8 - 8 k^2 + 3 k^4)

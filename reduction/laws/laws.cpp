@@ -47,7 +47,7 @@ const NamedLaw* named(std::string_view name) {
   return found == laws_with_meaning.end() ? nullptr : found;
 }
 
-/// Returns the law of a patch of radius eps with a uniform pressure outside the radius eta eps and none inside.
+/// Returns the law of a patch whose pressure is uniform outside eta times the patch radius, and 0 inside.
 Law annulus(double eta) {
   const Eigen::ArrayXd rho = (Eigen::ArrayXd(4) << 0, eta, eta, 1).finished();
   const Eigen::ArrayXd pressure = (Eigen::ArrayXd(4) << 0, 0, 1, 1).finished();

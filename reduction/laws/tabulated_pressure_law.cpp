@@ -30,8 +30,8 @@ namespace {
 
 /// Several functions of y in [0, 1] that are smooth except at y = 0, stored in one table of polynomials.
 ///
-/// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of its distance from y = 0. The last
-/// panel begins at y = 0. Terms like y ln y are below the last bit there.
+/// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of its distance from y = 0. One more
+/// panel, the first, begins at y = 0. Terms like y ln y are below the last bit there.
 template <int functions>
 class FunctionTable {
  public:
@@ -108,7 +108,7 @@ const FunctionTable<2>& ring_functions() {
 /// The integrals of (R34) over rings whose radii are close to k; u = s/k^2 - 1.
 class NearRings {
  public:
-  /// Integrals over u, from 0, of Phi and of a Psi/k of a ring; and (again) the integrals of these integrals over u.
+  /// Integrals over u, from 0, of Phi and of (a/k) Psi of a ring; and (again) the integrals of these integrals over u.
   struct Integrals {
     double force, force_again, moment, moment_again;
   };

@@ -33,7 +33,7 @@ struct Flow::Solved {
     return terminal_.made([this] { return terminal_ratios(system.law(), system.r(), system.drive()); });
   }
 
-  /// Returns the derivatives of m along the curve that contains this k.
+  /// Returns the derivatives of the scaled stop time along the curve that contains this k.
   const SlidingDerivatives& derivatives(double ln_k) const {
     const auto& all = derivatives_.made([this] {
       std::vector<SlidingDerivatives> made;

@@ -38,8 +38,8 @@ double log_ratio(double v, double mu, double u, double v_scaled, double w_scaled
 double quotient(double a, double b) { return a == 0 ? 0 : a / b; }
 
 /// Returns the root of an increasing function of xi in [low, high] by Newton's method, with bisection if a step leaves
-/// the interval. The function changes by a factor over a unit of xi. The error is the square of the last step, so after
-/// a small_step it is negligible.
+/// the interval. The function's slope changes by a moderate factor over a unit of xi. The error is then about the
+/// square of the last step: negligible after a small_step.
 template <class Function>
 double increasing_root(Function value_and_slope, double guess, double low, double high) {
   double x = std::clamp(guess, low, high);
@@ -419,7 +419,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
   for (std::size_t i = 1; i < panels.size(); ++i) {
     const double left = panels[i - 1], width = panels[i] - left;
     if (width == 0) continue;
-    // Next to a kink the integrand has roots of the distance; 3 s^2 - 2 s^3 in place of s turns them to whole powers.
+    // Next to a kink the integrand has square roots of the distance; 3 s^2 - 2 s^3 in place of s makes them smooth.
     const bool bends = std::ranges::any_of(kinks, [&](double kink) { return kink == left || kink == panels[i]; });
     const auto along = [&](double s) {
       return bends ? integrand(left + width * s * s * (3 - 2 * s)) * 6 * s * (1 - s) : integrand(left + width * s);

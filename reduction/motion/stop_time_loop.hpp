@@ -21,8 +21,8 @@ struct StopTimePanels {
   /// Number of used panels of a branch, those with y <= 1/3.
   static constexpr std::size_t used = (std::size_t{octaves - 3} << cut_bits) + 6;
   static constexpr std::size_t branches = 4;
-  static constexpr std::size_t near_one = per_branch;       ///< 1/2 < v_mu/|u0| < 2
-  static constexpr std::size_t above_one = 2 * per_branch;  ///< v_mu/|u0| > 1
+  static constexpr std::size_t near_one = per_branch;       ///< added to the number of a panel if 1/2 < v_mu/|u0| < 2
+  static constexpr std::size_t above_one = 2 * per_branch;  ///< added if v_mu/|u0| > 1
 
   /// Coefficients of the powers of the distance y + lowest - (left edge of the panel).
   struct alignas(64) Panel {

@@ -55,7 +55,7 @@ Samples slope_by_factor(const Samples& rate, const Samples& source) {
 
 /// Returns z' at the points for d z' + h z = g, z(-1) = 0.
 Samples slope_by_collocation(const Samples& advection, const Samples& rate, const Samples& source) {
-  // z is the integral A z' of z', so (d + h A) z' = g with the matrix A. `unit` scales the rows, also those with d = 0.
+  // z = A z' with A = integration(), so (d + h A) z' = g. `unit` scales the rows, also those with d = 0.
   const Samples unit = advection + rate.abs() * (LegendreSeries::points() + 1);
   Matrix system = (rate / unit).matrix().asDiagonal() * integration();
   system.diagonal().array() += advection / unit;

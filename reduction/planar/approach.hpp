@@ -74,7 +74,7 @@ class Approach {
   void find_slopes(const SectionField& field, double length, double noise);
 
   Eigen::Vector2d n_ = Eigen::Vector2d::Zero();
-  double side_ = 1;
+  double side_ = 1;  ///< 1: the side counter-clockwise of the direction; -1: clockwise of it
   double error_ = 0;
   bool exists_ = false, decided_ = false;
   LeadingPower angular_, radial_;

@@ -18,7 +18,7 @@ struct Slope {
 };
 
 /// Returns df/dx_i by central differences over halved steps, extrapolated to 0 (C. Ridders, Adv. Eng. Softw. 4 (1982)
-/// 75). The result is the table entry that differs least from its neighbours; empty if there is no value.
+/// 75). The result is the table entry that differs least from its neighbours; empty if the field has no value.
 ///
 /// @param field  function of a point that returns an std::optional<Eigen::Vector2d>
 template <class Field>

@@ -122,7 +122,7 @@ void Scan::sample() {
   });
 }
 
-/// Returns the direction between three samples at which a function of the rates is least. Without rates it is infinite.
+/// Returns the direction between three samples at which a function of the rates is least (infinite without rates).
 Vector2d Scan::least(const Probe& before, const Probe& here, const Probe& after,
                      const std::function<double(const Rates&)>& size) const {
   const auto function = [&](double offset) {

@@ -19,7 +19,7 @@ double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 struct Direction {
   Eigen::Vector2d n;
   Approach before, after;                    ///< the side clockwise and the side counter-clockwise of the direction
-  std::optional<SectionField::Rates> rates;  ///< rates along the direction
+  std::optional<SectionField::Rates> rates;  ///< rates at the direction itself; empty if the field has no value there
 };
 
 /// The directions of a section (SectionField), counter-clockwise along the closed curve of the section.

@@ -1,4 +1,4 @@
-// V and H as formulas. The functions of V's form have names. The null vectors of V's equation (R64) in these functions
+// V and H as formulas. The functions of V's form have names. The null vectors of README (R64) in these functions
 // are brought to row echelon form. The entries are rational if V has rational coefficients. They are rounded to
 // fractions, and the misfit (R66) is computed with the fractions.
 #include "planar/factor_formula.hpp"

@@ -13,7 +13,7 @@ namespace contensou::reduction {
 /// coefficients of monomials in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of
 /// the field's own basis.
 ///
-/// @param field  field for which V has the form
+/// @param field  field whose V is such a sum
 FactorFormula recognised(const SmoothField& field, const Eigen::Vector2d& start);
 
 }  // namespace contensou::reduction

@@ -9,7 +9,7 @@
 namespace contensou::reduction {
 
 /// Follows the orbit through the start, a level line of the first integral H, to its end.
-/// @param fitted  field with the same orbits, for which V has its form
+/// @param fitted  field in which V was fitted: `field`, or `field` times the denominator of `field`
 /// @param factor  inverse integrating factor in a box about `start`
 std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
                                                   const InverseFactor& factor, const Eigen::Vector2d& start,

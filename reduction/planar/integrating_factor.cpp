@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Returns false if V fails in wider boxes. In a small box every smooth V is close to a polynomial: it proves no form.
+/// Returns false if V fails in wider boxes. In a small box every smooth V is near a polynomial: a fit proves no form.
 bool holds_widely(const SmoothField& field, const FactorFit& fit) {
   const bool of_basis = fit.factor.form() == FactorForm::basis;
   return std::ranges::all_of(std::array{4., of_basis ? 2. : 64.}, [&](double factor) {

@@ -34,7 +34,7 @@ struct Box {
   Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
 };
 
-/// Returns the factor of a row of V's equation (R64): 1/(|F|/radius + |G|/radius + |div f|), or 0 if this is infinite.
+/// Returns the weight w of README (R66) for f = (F, G): 1/(|F|/radius + |G|/radius + |div f|), or 0 if it is infinite.
 double weight(const Box& box, const Jet& jet);
 
 /// Returns the box about x in which V is fitted.

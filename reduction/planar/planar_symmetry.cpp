@@ -214,8 +214,8 @@ bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vect
   });
 }
 
-/// The residual: the largest |f(phi x) - exp(s (A - c)) f(x)|/|f| over the points x, with the finite transformation phi
-/// for s = ln 2. `difference`: this difference divided by s, in the form of a right side of the determining equations.
+/// `difference`: exp(s (c - A)) f(phi x) - f(x), divided by s, at all points x, with the finite transformation phi for
+/// s = ln 2; a right side of the determining equations. `residual`: the largest |s `difference`|/|f(x)| of one point.
 struct Finite {
   double residual = 0;
   Eigen::VectorXd difference;

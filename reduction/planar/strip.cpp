@@ -80,7 +80,7 @@ bool Strip::joins_ray() const {
   return !closed() && to_->ray() && to_->radial().order == 0 && to_->angular().order < 1;
 }
 
-/// Returns M, the time left divided by exp(c p), at the first edge (README (R63)). Below it M is a power of exp(xi).
+/// Returns M, time left divided by exp(c p), at the first edge (README (R63)). Below this edge M is a power of exp(xi).
 double Strip::first_time() {
   if (!to_->decided()) return 0;
   const double c = field_->time_degree(), a = to_->angular().order, b = to_->radial().order;

@@ -13,13 +13,13 @@
 
 namespace contensou::reduction {
 
-/// Thrown if T has the other sign in a direction within a sector, or if T within a turn is 0 within its errors.
+/// Thrown if T of README (R42) changes its sign within a sector, or if within a turn T is 0 up to its errors.
 struct MissedRay {
   Eigen::Vector2d n;
-  bool crossed;  ///< true: T has the other sign; false: T is 0 within its errors
+  bool crossed;  ///< true: T has the other sign at n; false: T is 0 up to its errors
 };
 
-/// The limit of p at an end of a sector, or its being unknown.
+/// The end of an orbit at an end of a sector: the centre (p -> -infinity), infinity, a point (finite p), or not known.
 enum class Limit { centre, infinity, point, undecided };
 
 /// The orbits of one sector between two dividing directions, or of the whole plane if there are none: copies of one
@@ -66,7 +66,7 @@ class Strip {
   /// Returns true if orbits come to a ray in finite time and then continue along the ray.
   bool joins_ray() const;
 
-  /// Returns the largest panel edge below xi, or -infinity if there is none. Between the edge and xi, s, R are smooth.
+  /// Returns the largest panel edge below xi; -infinity if there is none. Between the edge and xi, s and R are smooth.
   double smooth_from(double xi) const;
 
   /// Returns the rate s(xi) at which xi falls: d sigma = -d xi/s(xi).
@@ -93,7 +93,7 @@ class Strip {
 
   const SectionField* field_;
   std::optional<Approach> to_, from_;
-  double sense_;
+  double sense_;  ///< 1: xi grows counter-clockwise; -1: clockwise
   double length_;
   double tolerance_;
   bool timed_ = false;

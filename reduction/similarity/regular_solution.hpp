@@ -12,7 +12,7 @@
 
 namespace contensou::reduction {
 
-/// Range of ln k. Outside, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
+/// Range of ln k. Outside it, one term of each expansion is exact to the last bit: exp(-40) = 4e-18, exp(44) = 1e19.
 inline constexpr double min_ln_k = -40;
 inline constexpr double max_ln_k = 44;
 
@@ -69,7 +69,7 @@ class RegularSolution {
   /// Adds the panels from left to right. Panels are halved until their series converge.
   void march(const std::function<Terms(double k)>& equation, double left, double right, int depth);
 
-  double direction_;
+  double direction_;  ///< 1: z = ln k; -1: z = -ln k
   double size_;
   double tolerance_;  ///< allowed error of a panel, relative
   double begin_;
@@ -125,7 +125,7 @@ class BetaSolution {
 
  private:
   RegularSolution b_;
-  double sign_;
+  double sign_;      ///< 1: z = ln k; -1: z = -ln k
   double nearest_;   ///< edge nearest to the stop, as a value of z = +- ln k
   double at_stop_;   ///< b in the limit of the stop
   double rate_ = 0;  ///< d ln(b - at_stop)/dz beyond nearest_

@@ -9,7 +9,7 @@
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define CONTENSOU_HOST_DEVICE __host__ __device__
 #elif defined(__GNUC__)
-#define CONTENSOU_HOST_DEVICE [[gnu::always_inline]] inline  // otherwise g++ -O2 calls each group of a polynomial
+#define CONTENSOU_HOST_DEVICE [[gnu::always_inline]] inline  // else g++ -O2 makes function calls in a polynomial
 #else
 #define CONTENSOU_HOST_DEVICE inline
 #endif
@@ -90,7 +90,7 @@ struct Uniform {
   template <class T>
   CONTENSOU_HOST_DEVICE Friction<T> operator()(const Slip<T>& at) const {
     const T y = at.y;
-    T g = 0, h = 0, c = 0;  // values for k > 1
+    T g = 0, h = 0, c = 0;  // for k = p/r > 1 the result is {g, h, c r, c}
     if (y >= static_cast<T>(0.5)) {
       const T x = (y - static_cast<T>(0.70710678118654752)) / (y + static_cast<T>(0.70710678118654752)), x2 = x * x;
       g = polynomial(x, x2, 0.96190659426731, 0.19187552486001952, 0.149084065720948, 0.1312914117695403,

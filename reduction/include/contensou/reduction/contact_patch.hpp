@@ -7,15 +7,15 @@
 namespace contensou::reduction {
 
 /// Coulomb friction of a circular patch by its definition: an integral of the local slip over the disc, equations (1.1)
-/// and (1.2) of V. F. Zhuravlev, 1998 (Zh98). It is slow and shares no formula with any law, so tests compare the laws
-/// with it.
+/// and (1.2) of V. F. Zhuravlev, 1998 (Zh98). The integration is slow and shares no formula with any law, so tests
+/// compare the laws with this class.
 ///
-/// The unit of length is the patch radius eps. The pressure may have any unit, because it is divided by the load.
+/// The unit of length is the radius of the patch. The pressure may have any unit, because it is divided by the load.
 /// Accuracy  1e-12 of the largest value (1 for Phi, Psi(0) for Psi), for pressures that are smooth inside the disc and
 ///           a power of 1 - rho^2 at its edge, with an exponent above -1; rho is the distance from the centre.
 class ContactPatch {
  public:
-  /// @param pressure  pressure as a function of 1 - rho^2, >= 0; the argument 1 - rho^2 keeps its digits at the edge
+  /// @param pressure  pressure, >= 0, as a function of 1 - rho^2; this argument keeps its digits at the edge
   /// @throws std::domain_error  if the load, the integral of the pressure over the disc, is not positive and finite
   explicit ContactPatch(std::function<double(double)> pressure);
 
@@ -31,7 +31,7 @@ class ContactPatch {
 
   /// Returns Q_n of (1.2) divided by the load: the integral of pressure times q^n along a chord, from q_- to q_+.
   /// @param n      exponent, >= 0
-  /// @param theta  angle of the chord with the line through both centres; 0 is returned if the chord misses the patch
+  /// @param theta  angle of chord and line through the centres of velocity and patch; returns 0 if the chord misses
   double chord_moment(int n, double theta, double k) const;
 
  private:

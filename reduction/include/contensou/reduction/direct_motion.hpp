@@ -9,8 +9,8 @@ namespace contensou::reduction {
 ///
 /// An explicit stepper in (u, v) would step past the stop into v < 0 and would need about 1/mu^2 steps. Logarithms
 /// cannot pass the stop. Steps end at the law's kinks and at the times to report. Near the stop, steps shrink like the
-/// time left. Below k = v/(mu |u|) = 1e-17, or if the time left is negligible, the exact limit replaces the remaining
-/// steps. The exact limit replaces all steps on an axis, and if pivoting takes less than 1e-18 of the time.
+/// time left. Below k = v/(mu |u|) = 1e-17, or if the time left is negligible, one exact formula (the tail) replaces
+/// the remaining steps. The tail replaces all steps on an axis, and if pivoting takes less than 1e-18 of the time.
 ///
 /// @param times  times tau to report, >= 0, increasing; if empty, the result contains every step, the tail and the stop
 /// @throws std::domain_error  if start is not a state, or if times are negative or decrease

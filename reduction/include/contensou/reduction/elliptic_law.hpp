@@ -8,13 +8,13 @@
 
 namespace contensou::reduction {
 
-/// Friction whose force Phi and moment Psi lie on an ellipse, Phi^2 + (Psi/C)^2 = 1. The velocity is normal to the
-/// ellipse. It is the limit surface of pushing and grasping, and the elliptic friction cone of physics engines.
+/// Friction whose force Phi and moment Psi lie on an ellipse, Phi^2 + (Psi/C)^2 = 1. The velocity (v, w) is normal to
+/// this ellipse. Robotics calls the ellipse a limit surface, physics engines call it an elliptic friction cone.
 ///
 /// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe and M. R. Cutkosky, "Practical
 ///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557,
 ///           doi:10.1177/027836499601500603.
-/// Every orbit is a power, v ~ w^(1/(r C^2)), w = mu |u|, r of ReducedSystem. The stop time is one integral (R35).
+/// Orbits are powers, v ~ w^(1/(r C^2)), w = mu |u|, r of ReducedSystem; the stop time is one integral, README (R35).
 /// Accuracy  2 eps relative for every k (eps: the rounding of a double).
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
 class EllipticLaw {
@@ -24,7 +24,7 @@ class EllipticLaw {
   static constexpr double hertz_moment = 3 * std::numbers::pi / 16;
   static constexpr double min_moment = 1e-3;
 
-  /// @param moment  C = Psi(0), the moment of pure pivoting in units of f N eps, from min_moment to 1 (a thin ring)
+  /// @param moment  C = Psi(0), moment of pure pivoting over f N (patch radius), from min_moment to 1 (a thin ring)
   /// @throws std::domain_error  for any other moment
   explicit EllipticLaw(double moment = hertz_moment);
 
@@ -33,7 +33,7 @@ class EllipticLaw {
 
   double moment() const { return moment_; }
 
-  /// Returns an empty list: both functions are smooth.
+  /// Returns an empty list: Phi and Psi are smooth.
   static std::vector<double> kinks() { return {}; }
 
   /// Returns force and moment. Throws as require_slip.

@@ -19,7 +19,7 @@ struct Reversor {
 
 /// Finds the reversors among (u, -v), (-u, v), (v, u), (-v, -u) and (-u, -v).
 ///
-/// The identity is tested up to rounding, at points x whose coordinates are about as large as those of `around`.
+/// f(R x) = -R f(x) is tested up to rounding, at points x whose coordinates are about as large as those of `around`.
 /// @param around  not 0
 std::vector<Reversor> find_reversors(const SmoothField& field, const Eigen::Vector2d& around);
 

@@ -32,11 +32,11 @@ class StopTimeTable;
 ///     flow.stop_times(u0, v0, tau);        // for arrays
 ///
 /// Pure sliding (u = 0), pure pivoting (v = 0), invariant rays and rest are ordinary initial states. A Flow never
-/// changes. Copies share the solution: they are cheap, and threads may share one.
+/// changes. Copies share the solution and are cheap. Threads may share one Flow.
 ///
 /// Accuracy  StopTime::accuracy: 1e-15 in closed form for mu <= 1; by quadrature 3e-15 for a smooth law.
 /// Cost      0.2 ms for a law without closed form; the table of stop_times 10 ms, once.
-/// Source    Zh98 (Prikl. Mat. Mekh. 62) for the model; reduction/README.md for all formulas.
+/// Source    Zh98 (Prikl. Mat. Mekh. 62) for the model; reduction/README.md (here README) for all formulas.
 class Flow {
  public:
   /// Solves the system by the law's closed form if there is one, else by quadrature.
@@ -96,7 +96,7 @@ class Flow {
 
   /// Computes the stop times of starts (u0[i], v0[i]).
   /// Fewer starts than many_starts are computed one by one. For more starts, stop_times makes a table of polynomials
-  /// once and tests each polynomial against the solution (reduction/numerics.md, Table). A rejected start becomes NaN.
+  /// once and tests each polynomial against the solution (numerics.md, Table). For a start that is no state tau is NaN.
   ///
   /// @param u0, v0   speeds of the starts, of any size; u0 of either sign, v0 >= 0
   /// @param tau      stop times, one for each start; tau may be the array u0 or v0 itself, but must not overlap them in

@@ -20,7 +20,7 @@ namespace contensou::reduction {
 /// force F = f N Phi(k) against the sliding and a moment M = f N eps Psi(k) against the pivoting, with k = v/w, the
 /// load N, the coefficient of friction f and the patch radius eps.
 ///
-/// The library requires five properties of every law. Law's constructor tests three at about 40 slips to 1e-6:
+/// The library requires five properties of a law. Law's constructor tests the first three at about 40 slips to 1e-6:
 ///   - degree 0: Phi and Psi depend on the ratio k = sliding/pivoting alone;
 ///   - Phi > 0 and Psi > 0 for k > 0, Psi(0) > 0;
 ///   - Phi(k) = Phi'(0) k + o(k) with Phi'(0) > 0, and 1 - Psi/Psi(0) = O(k), for k -> 0; k Psi has a limit and

@@ -6,10 +6,10 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch under Hertz's pressure that slides and pivots at once, integrated exactly.
+/// Exact Coulomb friction of a circular patch that slides and pivots, under Hertz's pressure; k = sliding/pivoting.
 ///
 /// Source    V. F. Zhuravlev, 1998 (Zh98): the closed forms (1.3) of the force and (1.5) of the moment, for k < 1.25,
-///           with atan2 for the angle just above k = 1. For larger k, the 2F1 series in 1/k^2: the printed (1.5) loses
+///           with the angle asin(1/k) by atan2. For larger k, the 2F1 series in 1/k^2: the printed (1.5) loses
 ///           all digits by k = 1e4, because its terms cancel to 1/k^4 of their size.
 /// Accuracy  4 eps relative for every k (tests/reference/laws.csv).
 /// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.

@@ -26,7 +26,7 @@ struct InstantGradient {
 /// @throws std::domain_error  if start is not a state or lies on an axis; if tau is negative, as Orbit::instant
 ///
 /// Accuracy  u by_u and v by_v: 1e-13 of the largest part of the same kind, times the ratio of the larger term of
-///           D = Phi - r k Psi to D. On and next to an invariant ray 1e-9 (smooth law): the mean of both sides is used.
+///           D = Phi - r k Psi to D. On and next to an invariant ray 1e-9 (smooth law): mean of the ray's two sides.
 InstantGradient instant_gradient(const Flow& flow, State start, double tau);
 
 }  // namespace contensou::reduction

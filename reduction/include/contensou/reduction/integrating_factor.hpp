@@ -17,7 +17,7 @@ namespace contensou::reduction {
 /// The functions whose sums are tried for the inverse integrating factor V, a solution of f . grad V = V div f.
 struct Basis {
   std::vector<std::string> names;
-  /// Returns the values of all functions at x. Row i belongs to names[i]; its columns are the value, d/du and d/dv.
+  /// Returns the values of all functions at x. Row i belongs to names[i]; the columns are value, d/du and d/dv.
   std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> values = {};
   static constexpr int most = 45;
 };
@@ -29,14 +29,14 @@ struct SmoothField {
   std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
   /// The denominator D with its derivatives by u and v, if f is a quotient N/D. V D can have a form even if V has none.
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
-  /// If it is not empty, V is sought only among sums of these functions.
+  /// If the basis is not empty, V is sought only among sums of these functions.
   Basis basis = {};
 };
 
-/// A form of V that was tried, and the error of the best V of this form in the equation (R64), f . grad V = V div f.
+/// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
 struct TriedForm {
   std::string_view form;
-  double singular_value;  ///< smallest singular value: mean square of the misfit (R66) over the points of the fit
+  double singular_value;  ///< smallest singular value: root mean square of the misfit (R66) over the points of the fit
   double gap;             ///< smallest singular value that does not count as 0, divided by the largest that does
   double residual;        ///< largest misfit (R66) at points that the fit did not use
   bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
@@ -57,7 +57,7 @@ struct FactorFormula {
 /// Accuracy  relative 1e-12 of states and times, unless the motion amplifies rounding.
 class FactorReduction {
  public:
-  /// Searches for V in a box of 30 % about the start, or about (1.25 u, 0.8 v) if the start (u, v) is an equilibrium.
+  /// Searches for V in a box, +-30 % about the start or, if the start (u, v) is an equilibrium, about (1.25 u, 0.8 v).
   /// The forms are tried in turn; the search ends at the first form that satisfies the equation. If the field f has a
   /// denominator D and no form fits V, the forms are tried for V D, an inverse integrating factor of D f.
   /// @throws std::domain_error  unless the start is finite and the field has a value there
@@ -78,7 +78,7 @@ class FactorReduction {
   FactorFormula formula() const;
 
   /// Returns the solved system. V is 1 at the start unless V vanishes there. V has values in the box of the start; V of
-  /// an affine generator has values everywhere. H has values in this box up to the nearest curve V = 0. Orbits continue
+  /// form "affine" or "basis" everywhere. H has values in this box up to the nearest curve V = 0. Orbits continue
   /// beyond the box, because V is fitted anew there.
   /// @throws std::domain_error  if no V was found
   PlanarReduction reduction() const;

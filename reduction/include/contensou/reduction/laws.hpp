@@ -14,7 +14,7 @@ const std::vector<Law>& paper_laws();
 /// Returns the names of all named laws; the two laws of the paper come first.
 std::vector<std::string_view> names_of_laws();
 
-/// Returns all named laws, in the order of names_of_laws. It computes the tables of some laws; find_law makes one law.
+/// Returns all named laws, in the order of names_of_laws. The call makes all tables of laws; find_law makes one law.
 const std::vector<Law>& named_laws();
 
 /// Returns a description of the law with that name, in a few words; empty if there is none.

@@ -20,7 +20,7 @@ class Flow;
 /// The motion is the similarity curve of the system, scaled to pass through the start. There are no time steps: the
 /// state at a time follows from one root of the formula for the time, README (R4), (R5). Slip length and angle follow
 /// from (R13), (R38), (R50); the regularised time beta (ReducedSystem::regularising_weight) from (R7). The axes (u0 = 0
-/// or v0 = 0), the invariant ray and rest are ordinary starts. Times and speeds have the unit of the start's speeds;
+/// or v0 = 0), invariant rays and rest are ordinary starts. Times and speeds have the unit of the start's speeds;
 /// lengths have the unit of a speed squared.
 ///
 /// Accuracy  u and ln v 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference); beta
@@ -72,7 +72,7 @@ class Orbit {
   /// @throws std::domain_error  on an axis, or if ln_k is not between start_log_ratio() and ln k at the stop
   OrbitPoint at_log_ratio(double ln_k) const;
 
-  /// Returns speeds, slip length and angle at the time tau, by one root. It does not compute beta, the most costly part
+  /// Returns speeds, slip length and angle at the time tau, by one root. The call leaves out beta, the most costly part
   /// of at_time.
   /// Beyond the stop the speeds are 0.
   /// @throws std::domain_error  as at_time

@@ -9,7 +9,7 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) for the orbit, (R9) for the time (the end of the solution that V. F. Zhuravlev, 1998, began),
+/// Source    README (R8) for the orbit, (R9) for the time (it completes the solution begun by V. F. Zhuravlev, 1998),
 ///           (R27) to (R30) for the numerics, (R11) for the regularised time, (R14) for slip and angle.
 /// Accuracy  sliding_coefficient, slip_length_coefficient, angle_coefficient and beta_coefficient about 5 eps relative;
 ///           ln_w eps (|ln w| + r) absolute.

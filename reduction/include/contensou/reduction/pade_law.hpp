@@ -7,7 +7,7 @@
 namespace contensou::reduction {
 
 /// The rational approximation to HertzLaw in V. F. Zhuravlev, 1998 (Zh98): Phi = 3 pi k/(8 + 3 pi k), Psi = 3 pi/(16 +
-/// 15 pi k).
+/// 15 pi k), k = sliding/pivoting.
 ///
 /// The approximation has the Phi(0), Phi'(0), Phi(infinity), Psi(0) and lim k Psi of the exact law. The slope of Psi at
 /// k = 0 is -1.735 instead of 0, and the slope of Phi in 1/k at infinity is -0.849 instead of 0. In between, the

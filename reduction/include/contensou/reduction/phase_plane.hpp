@@ -64,8 +64,8 @@ struct PhasePlane {
 /// Finds the singular points and the linear part of the field at each (README (R15) to (R17)).
 ///
 /// Accuracy  eigenvalues on the axes 1e-14 relative; on a ray 1e-11, and 1e-6 for a ray at k* within 1e-3 of 1, where
-///           many laws have a kink. The error of the ray's k is a lower limit. An r within TerminalRatios::tolerance of
-///           r_low or r_high counts as r_low or r_high.
+///           many laws have a kink; never below the error of the ray's k. An r within TerminalRatios::tolerance of
+///           r_low (TerminalRatios::low) or r_high (TerminalRatios::high) counts as this value.
 PhasePlane phase_plane(const Flow& flow);
 
 }  // namespace contensou::reduction

@@ -97,7 +97,7 @@ struct FactorPiece {
 class PlanarReduction {
  public:
   /// @param scaling  scaling of the field
-  /// @param around   point other than the centre at which the field has a value and is not tiny
+  /// @param around   point at which the field has a value and is not tiny; not the centre
   /// @param noise    relative error of the field's values (PlanarSymmetries::residual)
   /// @throws std::domain_error  unless all eigenvalues of A have positive real parts; for a field without values
   /// @throws UndecidedRays      if T comes near to 0 and its values do not show whether it vanishes there
@@ -156,8 +156,8 @@ class PlanarReduction {
   /// @throws std::domain_error  if x is not finite, or the field has no value there
   PlanarEnd end(const Eigen::Vector2d& x) const;
 
-  /// Returns the time until the end: 0 at the centre; infinity if the motion never ends. For a motion to a border it is
-  /// infinity if a scaling solves the system. If V alone does, it is the time at the border, or NaN if undecided.
+  /// Returns the time until the end: 0 at the centre; infinity if the motion never ends. For a motion to a border the
+  /// result is infinity if a scaling solves the system; if V alone does, the time at the border, or NaN if undecided.
   double end_time(const Eigen::Vector2d& x) const;
 
   /// Returns an estimate of the relative error of end_time(x): eight times the difference from a second solution, by
@@ -168,7 +168,7 @@ class PlanarReduction {
 
   /// Returns a number that is constant along an orbit. If V alone solves the system it is H, dH = (F dv - G du)/V for f
   /// = (F, G), with H = 0 at the start of the search. For a scaling it is p - L(q), where p = L(q) is one orbit of the
-  /// sector. It differs between orbits of a sector, and exp(s X) adds s to it. A turn about a centre without rays
+  /// sector. This number differs between orbits of a sector; exp(s X) adds s to it. A turn about a centre without rays
   /// subtracts ln PlanarTurn::factor.
   /// @throws std::domain_error  as end; on a ray and at V = 0, where the first integral has no value
   double first_integral(const Eigen::Vector2d& x) const;

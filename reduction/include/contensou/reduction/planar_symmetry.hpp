@@ -33,7 +33,7 @@ struct Generator {
   Eigen::Vector2d centre() const;
 };
 
-/// The generators of the form above that a field admits. Every x' = f(x) also admits d/dt.
+/// The generators (Generator) that a field admits. Every x' = f(x) also admits d/dt.
 struct PlanarSymmetries {
   enum class Verdict {
     found,
@@ -63,7 +63,7 @@ struct PlanarSymmetries {
   /// largest entry is 1 or -1, and the trace of A is positive.
   std::optional<Generator> scaling = {};
 
-  /// Largest error |f(exp(s A) x) - exp(s (A - c)) f(x)|/|f| of the scaling; x is relative to the centre and s = ln 2.
+  /// Largest |exp(s (c - A)) f(exp(s A) x) - f(x)|/|f(x)| of the scaling; x is relative to the centre and s = ln 2.
   double residual = infinity;
 
   int points = 0;  ///< number of points at which the equations were sampled
@@ -72,7 +72,7 @@ struct PlanarSymmetries {
 /// Finds the generators by a singular value decomposition of the determining equations at up to 96 points.
 ///
 /// Derivatives are extrapolated differences (Ridders) with an estimate of their error. Differences never cross the axes
-/// u = 0 and v = 0, at which dry friction is not smooth. Points next to another kink are left out.
+/// u = 0 and v = 0, at which dry friction is not smooth. Points next to other kinks are left out.
 ///
 /// @param around  point whose |u| and |v| set the scale. Sample points lie at 1/3 to 3 times its distance from
 ///                the origin, in evenly spaced directions, denser towards the axes

@@ -7,7 +7,7 @@
 
 namespace contensou::reduction {
 
-/// Coulomb friction of a circular patch whose pressure is proportional to (1 - rho^2)^p, rho = (radius of a point)/eps.
+/// Coulomb friction of a circular patch; at rho patch radii from its centre the pressure is const (1 - rho^2)^p.
 ///
 /// p = 1/2 is Hertz's pressure (HertzLaw), p = 0 a uniform disc, p = -1/2 a flat rigid punch, p = 1 a paraboloid (a
 /// soft foundation). The limit p -> -1 is a thin ring (README (R32)).

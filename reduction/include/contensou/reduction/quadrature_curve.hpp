@@ -23,7 +23,7 @@ namespace contensou::reduction {
 class QuadratureCurve final : public SimilarityCurve {
  public:
   /// @param r         gamma mu^2/chi
-  /// @param chart     chart between two neighbours among 0, the invariant rays and infinity, from the limit of k on
+  /// @param chart     chart from the limit of k at the stop to its neighbour among 0, the invariant rays and infinity
   ///                  (terminal_ratios). The default chart is right for r up to Phi'(0)/Psi(0), so for every ball
   ///                  under the exact law and the Pade law
   /// @param drive     rho of ReducedSystem

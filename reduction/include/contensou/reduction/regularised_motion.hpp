@@ -10,8 +10,8 @@ namespace contensou::reduction {
 ///
 /// In (u, v) the equations are as stiff as (2.6), the equations in time; in logarithms they are not. Steps end at k =
 /// 1, where the exact law has only two derivatives. The stop lies at beta = infinity. Below k = 1e-17, or if the time
-/// left is negligible, the exact limit replaces the remaining steps. The exact limit also replaces all steps on an
-/// axis, and if pivoting takes less than 1e-18 of the time.
+/// left is negligible, one exact formula (the tail) replaces the remaining steps. The tail also replaces all steps on
+/// an axis, and if pivoting takes less than 1e-18 of the time.
 ///
 /// @param times  times tau to report, >= 0, increasing; if empty, the result contains every step, the tail and the stop
 /// @throws std::domain_error  if start is not a state, or if times are negative or decrease

@@ -4,7 +4,7 @@
 
 namespace contensou::reduction {
 
-/// A curve in the plane of w and v. All motions whose k = v/w tends to one limit from one side are scaled copies of it.
+/// A curve in the plane of w and v. Its scaled copies are all motions whose k = v/w tends to one limit from one side.
 /// Its functions depend on xi, a coordinate of k (TerminalChart). If k -> 0 at the stop, as for balls under the exact
 /// law and the Pade law, xi is ln k.
 ///
@@ -49,7 +49,7 @@ class SimilarityCurve {
 
   const TerminalChart& chart() const { return chart_; }
 
-  /// Returns an xi. Below it ln w is linear and the other functions are constant, to the last bit.
+  /// Returns an xi below which, to the last bit, ln w is linear and the other functions are constant.
   virtual double linear_below() const = 0;
 
   SimilarityCurve(const SimilarityCurve&) = delete;

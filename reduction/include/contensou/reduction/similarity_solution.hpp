@@ -32,7 +32,7 @@ class SimilaritySolution {
 
   explicit operator bool() const { return !curves_.empty(); }
 
-  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray it is a curve beside the ray.
+  /// Returns the curve of the motions with this k; ln_k may be infinite. For a ray the result is a curve beside it.
   /// @throws std::domain_error  if no curve covers this k
   const Curve& through(double ln_k) const;
 

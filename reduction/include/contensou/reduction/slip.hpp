@@ -21,13 +21,13 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<doub
 /// (sliding = 0) are ordinary values.
 struct Slip {
   double sliding;   ///< speed v of the patch centre
-  double pivoting;  ///< rim speed w = eps |omega_z| = mu |u| of the rotation about the normal
+  double pivoting;  ///< rim speed w = (patch radius) |omega_z| = mu |u| of the rotation about the normal
 };
 
 /// Force and moment of friction in dimensionless form, the result of a law.
 struct Resistance {
   double force;   ///< Phi = F/(N f), opposes sliding
-  double moment;  ///< Psi = M/(N f eps), opposes pivoting
+  double moment;  ///< Psi = M/(N f (patch radius)), opposes pivoting
 };
 
 /// Returns a slip with the ratio k = sliding/pivoting, whose larger speed is 1.

@@ -91,7 +91,7 @@ class SmallMuMotion {
   double pivoting_;       ///< P of README (R18), the stop time of pure pivoting
   double sliding_;        ///< S of README (R18), the stop time of pure sliding
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
-  double unit_rate_ = 0;  ///< d(s/w0)/dtau, with the scaled time s and w at the start w0
+  double unit_rate_ = 0;  ///< d(s/w0)/dtau; s is the scaled time, w0 = mu |u0|
   double ln_k0_ = 0;
 };
 

@@ -12,7 +12,7 @@
 namespace contensou::reduction {
 
 /// Coulomb friction of a circular patch whose pressure is given as a table. Between two rows the pressure is linear in
-/// rho^2, rho = (distance from the centre)/eps. Two rows with the same rho are a step of the pressure.
+/// rho^2, rho = (distance from the centre)/(patch radius). Two rows with the same rho are a step of the pressure.
 ///
 /// Source    README (R32) to (R34): a sum over thin rings, weighted by the pressure.
 /// Accuracy  12 eps for every table, however steep, and every k for which Phi and Psi do not underflow. A table of n
@@ -23,7 +23,7 @@ class TabulatedPressureLaw {
   static constexpr SlidingBounds sliding_bounds{0, 1};
 
   /// @param name      name for messages and tables
-  /// @param rho       distance from the centre divided by eps: from 0 to 1, not decreasing; a step has two rows
+  /// @param rho       distance from the centre in patch radii: from 0 to 1, not decreasing; a step has two rows
   /// @param pressure  pressure at each rho, in any unit: finite, >= 0, not all 0
   /// @throws std::domain_error   if a row breaks these rules; the message contains its number, counted from 1
   /// @throws std::runtime_error  if the loaded part of the table is too small to have an effect at any k of the library

@@ -18,7 +18,7 @@ class TerminalChart {
 
   /// Makes the chart with the farthest k_far on this side of k*: infinity above k*, 0 below k*.
   /// @param ln_k_star  ln of the terminal ratio: -infinity is only reached from above, +infinity only from below
-  /// @throws std::domain_error  if ln_k_star is not a number, or at infinity on the other side
+  /// @throws std::domain_error  if ln_k_star is not a number; +infinity with Side::above, -infinity with Side::below
   TerminalChart(Side side, double ln_k_star);
 
   /// Makes the chart from k_far, above or below k*, to k*.
@@ -55,7 +55,7 @@ class TerminalChart {
  private:
   TerminalChart(double sign, double end, double far);
 
-  double sign_;  ///< sign of d ln k/d xi
+  double sign_;  ///< 1 or -1, the sign of d ln k/d xi
   double end_;   ///< sign_ ln k*; exp(xi) = (exp(y) - exp(end_))/(1 - exp(y - far_)) on both sides, y = sign_ ln k
   double far_;   ///< sign_ ln k_far
 };

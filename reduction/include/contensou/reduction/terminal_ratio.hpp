@@ -27,7 +27,7 @@ constexpr std::string_view meaning(TerminalRegime regime) {
 struct TerminalRatio {
   TerminalRegime regime;
   double k;     ///< 0, the k of a ray, or infinity
-  double from;  ///< every start with from < k < to has the limit k; from, to are invariant, except 0 with a drive
+  double from;  ///< starts with a ratio in (from, to) have this limit; both are invariant, except 0 with a drive
   double to;
 };
 
@@ -59,7 +59,7 @@ struct TerminalRatios {
   TerminalRatio end_of(double k) const;
 
   /// If the relative difference of Phi/(k Psi) and r is at most this number, it counts as 0. Two rays count as one if
-  /// the difference stays that small between them. A ray is left out if it stays that small up to an axis.
+  /// the difference stays that small between them. A ray is left out if the difference stays so up to an axis.
   static constexpr double tolerance = 512 * std::numeric_limits<double>::epsilon();
 };
 
@@ -74,7 +74,7 @@ struct TerminalRatios {
 ///
 /// Accuracy  as InvariantRay::accuracy: 2e-15 if Phi/(k Psi) is steep.
 /// Cost      700 calls of the law, at distances of 1/16 in ln k. Two rays between neighbouring calls are found if
-///           Phi/(k Psi) has no more than one extremum there.
+///           Phi/(k Psi) has no more than one extremum between these calls.
 TerminalRatios terminal_ratios(const Law& law, double r, double drive = 0);
 
 /// Returns the smallest ln k under a drive. A motion from v = 0 has this k just after it has begun to creep.
