@@ -101,7 +101,7 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
   const Figure figure = limit_surface_figure({reduction::HertzLaw{}, reduction::PadeLaw{}});
   const Panel& panel = figure.panels.front();
   CHECK(panel.to_scale);
-  REQUIRE(panel.lines.size() == 4);  // two curves, the ellipse and the chord
+  REQUIRE(panel.lines.size() == 4);  // ellipse, chord, and the curves of two laws
   for (const Lines& layer : panel.lines) {
     const Polyline& line = layer.lines.front();
     CHECK(line.front().x == Approx(1));
@@ -110,7 +110,7 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
     CHECK(line.back().y == Approx(1));
     for (const Point& point : line) CHECK(std::hypot(point.x, point.y) < 1.1);
   }
-  // The curve of Coulomb friction lies above the chord, (R6). The curve of the Pade law lies below the chord.
+  // The chord is Phi + Psi/Psi(0) = 1. The curve of Coulomb friction (exact law) lies above it, that of Pade below.
   const auto& hertz = panel.lines[2].lines.front();
   const auto& pade = panel.lines[3].lines.front();
   for (std::size_t i = 1; i + 2 < hertz.size(); ++i) {

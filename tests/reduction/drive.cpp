@@ -314,7 +314,7 @@ TEST_CASE("stop times of motions that ride the ray have the accuracy that they s
   }
 }
 
-// References for k* with 60 digits, from 1 - rho = r k Psi + (1 - Phi) with these doubles as exact values; rho: drive.
+// References for k* with 60 digits, from 1 - drive = r k Psi + (1 - Phi), with the doubles below taken as exact.
 TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[drive][reference]") {
   struct Row {
     const char* law;
@@ -343,7 +343,7 @@ TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[
     const double accuracy = ratios.rays[0].accuracy;
     CHECK(ratios.rays[0].attracts());
     CHECK(std::abs(ratios.rays[0].k / k - 1) <= accuracy);
-    // r K, with K the law's k at infinity times 1 - Phi, is only known up to rounding by eps of 1 - rho.
+    // Far out k Psi is about its limit K. The deficit 1 - Phi is then 1 - drive - r K, with rounding eps (1 - drive).
     CHECK(accuracy <= 16 * eps * (1 + (1 - drive) / law.force_deficit({k, 1})));
   }
 }

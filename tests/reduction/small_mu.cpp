@@ -78,7 +78,7 @@ TEST_CASE("E1 and E2 are of the orders 4 and 6 in mu at any one k0", "[small_mu]
   for (const Law& law : named_laws()) {
     for (double k0 : {0.1, 1.0, 10.0}) {
       CAPTURE(law.name(), k0);
-      // Use only mu below 0.05, because the next order matters above. At 0.0125 E2 is as accurate as the stop time.
+      // The largest mu is 0.05: above it the next order matters. At mu = 0.0125 E2 is as accurate as the stop time.
       CHECK(observed_order(law, "E1", 0.025, {k0}) == Approx(4).margin(0.04));
       CHECK(observed_order(law, "E2", 0.05, {k0}) == Approx(6).margin(0.15));
     }

@@ -141,7 +141,7 @@ TEST_CASE("gradients of any mu are those of its flow", "[stop_times_of_mu][gradi
           }
         }
         worst_of_u = std::max(worst_of_u, std::abs(found.by_u / wanted.by_u - 1));
-        alone += mu < 0.75 && stop_time.solves_alone(mu, start, true) ? 1 : 0;  // above 0.75 the ring has a ray
+        alone += mu < 0.75 && stop_time.solves_alone(mu, start, true) ? 1 : 0;  // for mu > 0.837 the ring has a ray
       }
       CAPTURE(law.name(), drive, where);
       CHECK(worst <= allowed);

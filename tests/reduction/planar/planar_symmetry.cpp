@@ -135,7 +135,7 @@ TEST_CASE("no symmetry: viscous drag beside dry friction", "[planar][symmetry]")
 }
 
 TEST_CASE("a symmetry that is no scaling", "[planar][symmetry]") {
-  // The field x' = 1 + sin y, y' = cos y has a translation along x as its symmetry.
+  // The symmetry of u' = 1.5 + sin 3 v, v' = cos 3 v is a translation along u.
   const PlanarSymmetries found =
       symmetries([](const Vector2d& x) { return Vector2d(1.5 + std::sin(3 * x[1]), std::cos(3 * x[1])); });
   CAPTURE(found.singular_values, found.level);
