@@ -91,7 +91,7 @@ TEST_CASE("Fig. 2 draws force and moment of each law from the law itself", "[tab
   check(lines[2].lines[0], reduction::HertzLaw{}, &reduction::Resistance::moment);
   check(lines[3].lines[0], reduction::PadeLaw{}, &reduction::Resistance::force);
   check(lines[4].lines[0], reduction::PadeLaw{}, &reduction::Resistance::moment);
-  // The curves are those of the paper: F starts at 0 with the slope 3 pi/8, and M starts at the value 3 pi/16.
+  // The curves are those of the paper: F starts at 0 with dF/dk = 3 pi/8, and M starts at the value 3 pi/16.
   const auto& force = lines[1].lines[0];
   CHECK(force[1].y / force[1].x == Approx(3 * std::numbers::pi / 8).epsilon(1e-4));
   CHECK(lines[2].lines[0].front().y == Approx(3 * std::numbers::pi / 16).epsilon(1e-15));

@@ -729,7 +729,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
       CHECK(tau.back().y > 0.99);
       CHECK(tau.back().y < 1);
     }
-    // beta is computed by steps of (2.7). Its unit is 1/rate, rate = 2 chi/(3 pi) (128 r Psi(0) w + 45 pi^2 v).
+    // Steps of (2.7) give beta. The axis shows 1 + rate beta, rate = 2 chi/(3 pi) (128 r Psi(0) w + 45 pi^2 v).
     constexpr double pi = std::numbers::pi;
     const State start{1, 3 * mu};
     const auto stepped = reduction::integrate_regularised(flow.system(), start).points;

@@ -98,7 +98,7 @@ TEST_CASE("the ray of creeping: closed for Pade and the ellipse, third order for
     for (double drive : {0.08, 0.04, 0.02}) {
       const double third = 3 * std::numbers::pi / 32 * (1 - 2 * r) * std::pow(drive, 3) / std::pow(delta, 4);
       const double error = std::abs(ray_of(exact, r, drive) - drive / delta - third);
-      if (last > 0) CHECK(error < last / 25);  // the method has order 5
+      if (last > 0) CHECK(error < last / 25);  // the next term is of order 5
       last = error;
     }
   }
@@ -125,7 +125,7 @@ TEST_CASE("one ray below 1 - r K, and none from there on", "[drive][limit]") {
 }
 
 TEST_CASE("closed stop times with a drive", "[drive][formula]") {
-  // Cases: no spin; a start on the ray; every start on an ellipse with r C^2 = 1 (R51).
+  // Cases: no spin; a start on the ray; every start under the elliptic law with r C^2 = 1 (R51).
   for (double drive : {1e-60, 1e-6, 0.05, 0.5, 0.9, 0.999999}) {
     INFO("drive = " << drive);
     for (const Law& law : paper_laws()) {

@@ -148,7 +148,7 @@ TEST_CASE("a formula's rint and && are those of every other build", "[cli]") {
 
 TEST_CASE("formulas: bars, functions, constants and parameters", "[cli]") {
   const auto time_of = [](const std::string& speed) {
-    // on v = 0 at u = 2 the rate u' = -speed is a constant
+    // at the start (2, 1) the field is -speed (1, 2); each formula of `speed` below has the value 5
     return json_of_system("u' = -sign(u)*(" + speed + "); v' = -2*sign(v)*(" + speed + ")",
                           {"--param", "a=3", "--param", "b_1=-2", "--u0", "2", "--v0", "1"})["canonical"]["dp_dq"];
   };
