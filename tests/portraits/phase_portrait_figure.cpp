@@ -923,7 +923,7 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
 }
 
 TEST_CASE("Against time the estimate for small mu is dashed beside each motion, and nears it as mu^2", "[invariant]") {
-  // Returns for each panel the largest difference between the estimate and the motion, until one of them is at rest.
+  // Returns the largest difference between estimate and motion in a panel, up to 0.9 of the stop time.
   const auto difference = [](double mu, std::size_t panel) {
     const auto portrait = portrait_of(mu, {.view = View::time});
     const Figure without = draw(portrait), figure = draw(portrait, {}, {.estimate = true});

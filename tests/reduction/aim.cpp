@@ -169,7 +169,7 @@ TEST_CASE("what the reversed question refuses", "[aim][edge]") {
   CHECK_THROWS_AS(aimed(flow, {1e200, 1, {}}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {1e200, {}, 1}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {{}, 1e300, 1e-300}), TooFarApart);
-  // Spin makes a body go farther in a given time.
+  // Under WavyLaw a body with spin may go farther in a given time than a body without spin.
   using Catch::Matchers::Contains;
   const Flow falls({WavyLaw{}, 1, {1, 2}});
   const Reached spinning = reached(falls, {0.823, 2.38}), straight = reached(falls, {0, 1});

@@ -474,7 +474,7 @@ TEST_CASE("[uncertainty]: what the numbers are known to, and the same again from
   const std::string written = run_file(experiment);
   CHECK(run_file(read(written, "y.toml")) == written);
   CHECK_THAT(written, Contains("[uncertainty.correlation]\n"));
-  // If an option replaces a number of the file, its spread is dropped. An option with an equal value changes nothing.
+  // An option that replaces a number of the file drops the spread of this number, unless the value is equal.
   CHECK(read(known, "x.toml", {{&slip, {2}}}).spreads.numbers.size() == 2);
   CHECK(read(known, "x.toml", {{&slip, {1}}}).spreads.numbers.size() == 3);
   CHECK(read(known, "x.toml", {{&velocity, {1, 0}}, {&angular_velocity, {0, 0, 1}}}).spreads.numbers.size() == 1);

@@ -261,7 +261,7 @@ TEST_CASE("reduce solves systems without a scaling by an inverse integrating fac
     CHECK(reduced["by_steps"]["difference"] < 1e-10);
     CHECK(reduce(system, {"--u0", "1.3", "--v0", "0.7"}).status == 0);
   }
-  // A pendulum at rest at the angle 1 has the period 4 K(sin 1/2).
+  // A pendulum that starts at rest at the angle 1 has the period 4 K(k), k = sin(1/2).
   const Json pendulum = json_of_system("x'' = -sin(x)", {"--u0", "1", "--v0", "0"});
   CHECK(pendulum["period"].get<double>() == Approx(6.6999756643704523).epsilon(1e-12));
   CHECK(pendulum["end"] == "periodic");
