@@ -32,7 +32,7 @@ using State = std::array<double, 2>;
 
 constexpr double tolerance = 1e-12;
 
-/// Below this fraction of its value at the start, |u| falls linearly.
+/// Below this fraction of |u0|, |u| is taken to fall linearly in time.
 constexpr double rest = 1e-8;
 
 /// Returns a speed that is negligible compared with the speeds of a start.
@@ -50,7 +50,7 @@ struct Field {
   }
 };
 
-/// Steps until |u| is small; a step beyond the stop is halved. try_step(tau, x, dt) advances tau and x if it succeeds.
+/// Steps until u is small; halves a step beyond the stop. On success try_step(tau, x, dt) advances tau and x = (u, v).
 template <class Step>
 double halving(double mu, double u0, double v0, Step try_step) {
   double tau = 0;

@@ -226,7 +226,7 @@ int main() {
   measure("build pade", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(PadeLaw{}, 0.1))); });
   measure("build hertz", [] { benchmark::DoNotOptimize(StopTimeTable(ReducedSystem(HertzLaw{}, 0.1))); });
 
-  // Each start has its own mu. The time includes the solution that serves all these mu.
+  // Each start has its own mu. The measured time includes the solution that serves all these mu.
   constexpr std::size_t own = 10'000;
   std::uniform_real_distribution<double> some_mu(0.05, 0.3), some_speed(0.1, 2);
   std::vector<std::pair<double, State>> own_starts;
@@ -258,7 +258,7 @@ int main() {
   for (const char* name : {"exact", "ring"}) measure_own(*find_law(name), 0.1, false);
   for (const char* name : {"exact", "ring"}) measure_own(*find_law(name), 0, true);
 
-  // Small mu.
+  // One start, (1, 1), with several mu.
   const std::vector<double> small{0.3, 0.1, 0.03, 0.01};
   for (double mu : small) {
     for (const auto& [name, method] : methods) {

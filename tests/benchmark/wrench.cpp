@@ -60,7 +60,7 @@ void cell(const Call& call) {
   fmt::print(" {:.0f}, {:.0f} |", nanoseconds<T>(0, call), slowest);
 }
 
-/// Prints the cells for the header: force and moment in double and in float, and with slopes in double.
+/// Prints the cells for the header: force and moment in double and in float, and with their derivatives in double.
 template <class Law>
 void kernel_cells() {
   const auto values = [](const auto& at) {

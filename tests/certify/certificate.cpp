@@ -1,5 +1,5 @@
-// Notation (README (R27) to (R29)): r = gamma mu^2/chi, z = (3 pi/8) k,
-//   G = G(p, q; T), m = end + (begin - end) G;  all of it in balls: a number and a radius that covers every error.
+// Notation, (R27) to (R29) of reduction/numerics.md: r = gamma mu^2/chi, z = (3 pi/8) k,
+//   G = G(p, q; T), m = end + (begin - end) G;  each value is a ball: a number and a radius that covers every error.
 #include "certificate.hpp"
 
 #include <algorithm>

@@ -31,7 +31,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 
 constexpr int points = CONTENSOU_FULL_TESTS ? 100'000 : 10'000;
 
-/// Error that the library promises for the closed form, and, above PadeCurve::max_r, for quadrature.
+/// Error that the library promises: of the closed form, and, if r is above PadeCurve::max_r, of quadrature.
 constexpr double promised_ulp = 4;
 constexpr double promised_beyond = 8;
 
@@ -91,7 +91,7 @@ TEST_CASE("random stop times of the Pade ball against their enclosures", "[certi
     const double distance = random.log_uniform(1e-16, 1e-3) * (i % 2 == 0 ? 1 : -1);
     add(critical, std::sqrt((i % 4 < 2 ? 2.8 : 7.0) * (1 + distance)), random.log_uniform(1e-3, 1e3));
   }
-  // Include r = 2, r = 5 and starts on the ray.
+  // Cases with mu = 1, r = gamma/chi, are r = 2, r = 5, and r = 3 with starts on both sides of the ray.
   Sample bodies("chi, gamma of other bodies");
   for (const Inertia body : {Inertia{1, 2}, Inertia{1, 5}, Inertia{1, 1}, Inertia{2.5, 1.5}, Inertia{1, 3},
                              Inertia{1, 40}, Inertia{3, 1e-9}}) {

@@ -34,7 +34,7 @@ struct Rim {
 
 int main(int count, char** words) {
   if (count < 3) return 2;
-  std::map<std::string, std::vector<double>> numbers;  // numbers of lines "key = 1" and "key = [1, 2]"
+  std::map<std::string, std::vector<double>> numbers;  // values of lines "key = 1" and "key = [1, 2]"
   std::string line, key, body;
   for (std::ifstream file(words[1]); std::getline(file, line);) {
     line = line.substr(0, line.find('#'));

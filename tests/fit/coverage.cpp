@@ -23,7 +23,7 @@ TEST_CASE("intervals of 95 % hold the truth in 95 of 100 films", "[invariant]") 
     check(scores({track_of({pool_ball()}, half_second, slip_and_spin, false), slip_and_spin}));
   }
   SECTION("friction and patch radius hardly told apart") {
-    // Only two of these instants show the slip, which ends after 0.2 s. Errors of both have the correlation -0.99.
+    // Only two of these instants show the slip, which ends after 0.2 s. Errors of f and eps have the correlation -0.99.
     check(scores({track_of({pool_ball()}, ArrayXd::LinSpaced(90, 0, 9), slip_and_spin), slip_and_spin}));
   }
   SECTION("positions and angles") {
@@ -83,8 +83,8 @@ TEST_CASE("of a ball with rolling friction the intervals hold the truth as often
 
 TEST_CASE("of a puck by x and y the intervals hold the truth, and every motion that fits as well is told",
           "[invariant]") {
-  // Another spin and another friction give nearly the same slip. In one film of six, chance makes up for the difference
-  // of their sums of squares.
+  // Another spin and another friction give nearly the same slip. In one film of six, chance makes the
+  // wrong pair fit better than the true pair.
   si::Experiment puck = si::find_ball("puck")->experiment;
   const si::Experiment asked = puck;
   puck.contact.friction = 0.1;
@@ -120,7 +120,7 @@ TEST_CASE("of a puck by x and y the intervals hold the truth, and every motion t
 }
 
 TEST_CASE("where three instants hardly decide friction and patch radius the intervals hold, too", "[invariant]") {
-  // Two of the instants come after the slip. The sum of squares is then no parabola, and errors are not normal.
+  // Two of the instants come after the slip. The sum of squares is no parabola of f and eps; errors are not normal.
   const Scores found = scores({track_of({pool_ball()}, Eigen::Array3d(0, 0.25, 0.5), slip_and_spin), slip_and_spin});
   CHECK(found.friction.covered > 0.93);
   CHECK(found.patch.covered > 0.93);
@@ -152,7 +152,7 @@ TEST_CASE("films that decide little: intervals hold the truth, or are open", "[i
   const auto least = [](int of, double share = 0.95) {
     return CONTENSOU_FULL_TESTS ? share - 2 * std::sqrt(share * (1 - share) / std::max(of, 1)) : 0.66;
   };
-  // Chance selects films with one reported combination. For the angle it is correct in 574 of 620 films, out of 1000.
+  // Chance selects films with one reported combination: for the angle 620 of 1000, and 574 of them have it right.
   constexpr double share_of_only = 0.926;
   constexpr double most = CONTENSOU_FULL_TESTS ? 0.98 : 1;
   constexpr Parameter numbers[]{Parameter::friction, Parameter::patch_radius, Parameter::slip, Parameter::spin};

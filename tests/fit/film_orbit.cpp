@@ -83,7 +83,7 @@ TEST_CASE(
                                      (now.turned - is.turned / tau_per_T) / (u0 * stop)})
               worst = std::max(worst, std::abs(off));
           }
-          // If a ray is close to an axis, D (src/fit/orbit_cells.hpp) has lost all digits next to both.
+          // If a ray is close to an axis, D (src/fit/orbit_cells.hpp) has lost all digits beside the ray and the axis.
           const auto merges = [&](double r) { return std::abs(flow.system().r() / r - 1) < 1e-9; };
           CHECK(worst < (merges(flow.terminal().low) || merges(flow.terminal().high) ? 1e-6 : 1e-9));
         }

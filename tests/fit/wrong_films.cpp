@@ -76,7 +76,7 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
   SECTION("a speed that falls as exp(-2 t): x and y alone do not tell it from a ball whose patch is wide") {
     const Told slowing =
         told("pool", place, films, [&](double t) { return with_errors(1 - std::exp(-2 * t), 1e-3, 0, 1e-3); });
-    // A fast spin gives such a motion in the model, too. Some films determine this spin by one of the combinations.
+    // In the model a fast spin makes v fall like exp(-2 t), too. Some films determine this spin by a combination.
     CHECK(slowing.misfits + slowing.open >= 0.85 * films);
   }
   SECTION("a slip 2/(1 + t) beside a spin that falls as exp(-t/2)") {
@@ -104,7 +104,7 @@ TEST_CASE("films of the ball itself fit, with errors and without", "[invariant]"
 }
 
 TEST_CASE("intervals grow where errors depend on their neighbours", "[invariant]") {
-  // Errors j rows apart have the correlation c^j. The variance of their mean is therefore (1 + c)/(1 - c) times larger.
+  // Errors j rows apart have the correlation c^j. The variance of a mean is therefore (1 + c)/(1 - c) times larger.
   const double c = 0.3;
   const auto spoil = [&](Track& track, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
@@ -137,7 +137,7 @@ TEST_CASE("how errors depend on each other is found from their residuals", "[rou
     CHECK(found.neighbours == Approx(c).margin(0.01));
     CHECK(found.growth == Approx((1 + c) / (1 - c)).epsilon(0.1));
   }
-  // The fit takes only a line from the white noise, so the residuals are nearly the errors themselves.
+  // This fit removes only a constant and a slope from the white noise: residuals are nearly the errors themselves.
   double neighbours = 0, growth = 0;
   constexpr int films = 1000;
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, -1, 1);

@@ -91,7 +91,7 @@ TEST_CASE("Fig. 2 draws force and moment of each law from the law itself", "[tab
   check(lines[2].lines[0], reduction::HertzLaw{}, &reduction::Resistance::moment);
   check(lines[3].lines[0], reduction::PadeLaw{}, &reduction::Resistance::force);
   check(lines[4].lines[0], reduction::PadeLaw{}, &reduction::Resistance::moment);
-  // The curves are those of the paper: F starts at 0 with the slope 3 pi/8, and M starts at the value 3 pi/16.
+  // The curves are those of the paper: F starts at 0 with dF/dk = 3 pi/8, and M starts at the value 3 pi/16.
   const auto& force = lines[1].lines[0];
   CHECK(force[1].y / force[1].x == Approx(3 * std::numbers::pi / 8).epsilon(1e-4));
   CHECK(lines[2].lines[0].front().y == Approx(3 * std::numbers::pi / 16).epsilon(1e-15));
@@ -101,7 +101,7 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
   const Figure figure = limit_surface_figure({reduction::HertzLaw{}, reduction::PadeLaw{}});
   const Panel& panel = figure.panels.front();
   CHECK(panel.to_scale);
-  REQUIRE(panel.lines.size() == 4);  // two curves, the ellipse and the chord
+  REQUIRE(panel.lines.size() == 4);  // ellipse, chord, and the curves of two laws
   for (const Lines& layer : panel.lines) {
     const Polyline& line = layer.lines.front();
     CHECK(line.front().x == Approx(1));
@@ -110,7 +110,7 @@ TEST_CASE("A limit surface goes from the largest moment to the largest force, in
     CHECK(line.back().y == Approx(1));
     for (const Point& point : line) CHECK(std::hypot(point.x, point.y) < 1.1);
   }
-  // The curve of Coulomb friction lies above the chord, (R6). The curve of the Pade law lies below the chord.
+  // The chord is Phi + Psi/Psi(0) = 1. The curve of Coulomb friction (exact law) lies above it, that of Pade below.
   const auto& hertz = panel.lines[2].lines.front();
   const auto& pade = panel.lines[3].lines.front();
   for (std::size_t i = 1; i + 2 < hertz.size(); ++i) {

@@ -82,7 +82,7 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
     if (!portrait.scale.linear()) return;
     const double U = portrait.window.u(), V = portrait.window.v();
-    // The distance across the flow, from the left end of the right half of the border. The midpoint rule integrates it.
+    // Integral of the distance across the flow along the border, from (0, V) to the start of the orbit; midpoint rule.
     const auto across = [&](const PortraitOrbit& orbit) {
       const auto fraction = [&](State at, bool top) {
         const auto rate = system.field(at);

@@ -323,7 +323,7 @@ TEST_CASE("Arrows point the way of the motion, and lie where equal times are lef
     const double step = portrait.isochrones.front().tau_stop;
     const Clock clock(portrait);
     for (const auto& arrow : heads_on_orbits(figure.panels.front())) {
-      if (arrow.at.y > 0.6) continue;  // there the body slides, and hardly any time passes
+      if (arrow.at.y > 0.6) continue;  // at large v the body slides; hardly any time passes
       const double tau = clock(arrow.at);
       CHECK(std::abs(tau / step - std::floor(tau / step) - 0.5) < 0.05);
     }
@@ -347,7 +347,7 @@ TEST_CASE("Isochrones are labelled, inside the panel, and no label touches an or
       CAPTURE(label.text.words());
       CHECK(inside(panel, label.at));
       const auto at = portraits::on_paper(panel, label.at);
-      const double half = 0.004 * static_cast<double>(label.text.words().size());  // half a digit's width for each
+      const double half = 0.004 * static_cast<double>(label.text.words().size());  // half a digit for each letter
       for (const auto& line : orbits) {
         for (std::size_t i = 1; i < line.size(); ++i) {
           if (line[i - 1].y < label.at.y || line[i].y > label.at.y) continue;
@@ -582,7 +582,7 @@ TEST_CASE("Every sector between two invariant half-lines has its orbits in every
       {View::disc, {speeds}},
       {View::pair, {speeds, up}}};
   const reduction::Law uniform = *reduction::find_law("uniform"), octic = contensou::tests::OcticLaw{};
-  // Cases: one ray; two rays; two rays that have met in one, with the direction v = 0 degenerate.
+  // Cases: one ray; two rays; one ray, because the other has met the direction v = 0, which is now degenerate.
   for (const auto& [law, gamma] : {std::pair{uniform, 2.0}, std::pair{octic, 1.995}, std::pair{octic, 2.0}}) {
     const reduction::Flow flow({law, 1, {.chi = 1, .gamma = gamma}});
     const auto sector = [&](double at) {
@@ -708,7 +708,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
     reduction::Inertia body;
     double mu, power_of_u, power_of_v;
   };
-  // Cases by powers of the exact law: v ~ beta^(-14/(5 mu^2)); a ray; r K = 8/5.
+  // Cases: k -> 0, where v ~ beta^(-14/(5 mu^2)), for two mu; a ray; k -> infinity, where u ~ beta^(-r K), r K = 8/5.
   for (const auto& [law, body, mu, power_of_u, power_of_v] :
        {Regime{"exact", {3.5, 2.5}, 1, 1, 2.8}, Regime{"exact", {3.5, 2.5}, 0.05, 1, 1120},
         Regime{"uniform", {1, 2}, 1, 1, 1}, Regime{"exact", {1, 8}, 1, 1.6, 1}}) {
@@ -729,7 +729,7 @@ TEST_CASE("Against beta both speeds fall like powers in the end, and the time go
       CHECK(tau.back().y > 0.99);
       CHECK(tau.back().y < 1);
     }
-    // beta is computed by steps of (2.7). Its unit is 1/rate, rate = 2 chi/(3 pi) (128 r Psi(0) w + 45 pi^2 v).
+    // Steps of (2.7) give beta. The axis shows 1 + rate beta, rate = 2 chi/(3 pi) (128 r Psi(0) w + 45 pi^2 v).
     constexpr double pi = std::numbers::pi;
     const State start{1, 3 * mu};
     const auto stepped = reduction::integrate_regularised(flow.system(), start).points;
@@ -791,7 +791,7 @@ TEST_CASE("The field points along the motion, and its needles lengthen with the 
 
 TEST_CASE("Every panel of every view draws the other law too", "[invariant]") {
   using reduction::PressureLaw;
-  // Orbits of the puck end on a ray under the first law, and along the axis u = 0 under the second law.
+  // Orbits of the puck end on a ray under the uniform law, and along the axis u = 0 under the ring law.
   const reduction::ReducedSystem ball(reduction::HertzLaw{}, 0.3),
       puck(PressureLaw::uniform(), 1, {.chi = 1, .gamma = 2});
   for (const auto& [system, other] : {std::pair<reduction::ReducedSystem, reduction::Law>{ball, reduction::PadeLaw{}},
@@ -923,7 +923,7 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
 }
 
 TEST_CASE("Against time the estimate for small mu is dashed beside each motion, and nears it as mu^2", "[invariant]") {
-  // Returns for each panel the largest difference between the estimate and the motion, until one of them is at rest.
+  // Returns the largest difference between estimate and motion in a panel, up to 0.9 of the stop time.
   const auto difference = [](double mu, std::size_t panel) {
     const auto portrait = portrait_of(mu, {.view = View::time});
     const Figure without = draw(portrait), figure = draw(portrait, {}, {.estimate = true});

@@ -80,7 +80,7 @@ TEST_CASE("isochrones of dry friction of degree -1/2 are circles", "[physics]") 
     for (Eigen::Index i = 0; i < isochrone.u.size(); ++i) {
       const double r = std::hypot(isochrone.u[i], isochrone.v[i]),
                    on_border = std::abs(std::max(std::abs(isochrone.u[i]), std::abs(isochrone.v[i])) - 1);
-      if (on_border < 1e-12) continue;  // there the border cuts the chord
+      if (on_border < 1e-12) continue;  // the border cuts a chord: within the circle
       CHECK(std::pow(r, 1.5) == Approx(1.5 * isochrone.tau_stop).epsilon(1e-11));
     }
   }

@@ -78,7 +78,7 @@ TEST_CASE("a copy in plane and strip is the motion from the start so many times 
         const reduction::Orbit orbit = flow.orbit({factor * start.u, factor * start.v});
         const Polyline &plane = in_plane[i]->lines[0], &strip = in_strip[i]->lines[0];
         REQUIRE(plane.size() == strip.size());
-        for (std::size_t n = 401; n < plane.size(); n += 2) {  // from the start on
+        for (std::size_t n = 401; n < plane.size(); n += 2) {  // point 400 is the start
           const auto at = orbit.at_log_ratio(strip[n].x);
           if (at.v < 1e-200 || std::abs(at.k / std::exp(strip.back().x) - 1) < 1e-3) continue;
           CHECK(strip[n].y == Approx(at.ln_v).epsilon(0).margin(1e-9));
@@ -141,7 +141,7 @@ TEST_CASE("an orbit comes to the stop for any mu and any start", "[limit]") {
 }
 
 TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of them", "[exact]") {
-  // The integrals of the orbits of three fields are u/v^2, u v and r exp(a angle).
+  // First integrals: u/v^2 of the node, u v of the saddle, r exp(a angle) of the focus, r of the centre.
   const auto check = [](const Figure& figure, auto integral, bool inwards) {
     check_shifts(figure);
     const auto lines = by_size(figure.panels[0]);
@@ -170,7 +170,7 @@ TEST_CASE("a node, a saddle, a focus and a centre are reduced as is known of the
 }
 
 TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
-  // For u' = v, v' = -sign(u), |u| + v^2/2 is constant, and X = t d/dt + 2 u d/du + v d/dv.
+  // For u' = v, v' = -sign(u), |u| + v^2/2 is constant. The generator is X/2, X = t d/dt + 2 u d/du + v d/dv.
   const reduction::PlanarField field = [](const Vector2d& x) {
     return Vector2d(x[1], x[0] > 0 ? -1 : x[0] < 0 ? 1 : 0);
   };

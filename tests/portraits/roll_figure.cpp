@@ -76,7 +76,7 @@ TEST_CASE("a path is to scale; a flat one is stretched a round number of times, 
       picture.size.width_mm = width;
       const Figure figure = roll_figure(picture);
       CAPTURE(push, figure.size.width_mm);
-      const std::string name = figure.panels[0].x.name.words();  // the axis of a path along y
+      const std::string name = figure.panels[0].x.name.words();  // a path along y stretches x
       const std::size_t note = name.find("(stretched ");
       CHECK((note == name.npos) == (push < 5));
       CHECK(figure.panels[0].to_scale == (push < 5));

@@ -22,7 +22,7 @@ TEST_CASE("stop with a drive: by every route one time, within its bounds", "[cli
   CHECK(tau > free.at("tau_stop").get<double>());
   CHECK_FALSE(free.contains("drive"));
   CHECK(json_of("stop --mu 0.1 --u0 1 --v0 1 --drive 0 --format json") == free);
-  // Without spin the stop time is (3 pi/7) v0/(1 - rho).
+  // Without spin the stop time is (3 pi/7) v0/(1 - drive).
   CHECK(json_of("stop --mu 0.1 --u0 0 --v0 1 --drive 0.05 --format json").at("tau_stop").get<double>() ==
         Approx(3 * M_PI / 7 / 0.95).epsilon(1e-14));
   CHECK_THAT(run_program("stop --mu 0.1 --u0 1 --v0 1 --drive 0.05").out,
@@ -93,7 +93,7 @@ TEST_CASE("sweep, stop --batch and reduce with a drive", "[cli]") {
   REQUIRE(rows.size() == 10);
   CHECK(std::stod(rows[1][3]) == stop("--mu 0.3 --u0 -1 --v0 0"));
   CHECK(std::stod(rows[9][3]) == stop("--mu 0.3 --u0 1 --v0 2"));
-  // Rows with many mu share some flows. The error of this is 8 eps/(1 - drive).
+  // Rows with many mu share some flows. Sharing has an error of 8 eps/(1 - drive).
   const auto many = rows_of(run_program("sweep --mu 0.1:0.3:1001 --u0 1 --v0 1 --drive 0.2").out);
   CHECK(std::stod(many[1][3]) == Approx(stop("--mu 0.1 --u0 1 --v0 1")).epsilon(2.2e-15));
   CHECK(std::stod(many[1001][3]) == Approx(stop("--mu 0.3 --u0 1 --v0 1")).epsilon(2.2e-15));

@@ -249,7 +249,7 @@ class SmallDisk {
   bool there_ = false;
 };
 
-/// Runs the program with a limit of so many bytes for files, and on a disk of this size.
+/// Runs the program with a limit of so many bytes for each file that it writes.
 void try_room(Bench& bench, std::size_t bytes) {
   CAPTURE(bytes);
   bench.refresh(bytes % 2 == 0);

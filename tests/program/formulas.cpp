@@ -54,7 +54,7 @@ double between(Random& random, double from, double to) {
   return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// A function and its slopes in long double. The identities used here differ from those of the library.
+/// A function of one number, and its derivative in long double by other identities than those of the library.
 struct Known {
   std::string name;
   std::function<double(double)> value;
@@ -96,7 +96,7 @@ const std::vector<Known>& known() {
 
 struct Result {
   double value;
-  std::array<long double, 2> slopes{}, scales{};  ///< scales: sums of the sizes of the terms of each slope
+  std::array<long double, 2> slopes{}, scales{};  ///< derivatives by u and v; sums of the sizes of their terms
   std::array<bool, 2> depends{};
   bool moderate = true;  ///< true while no derivative is tiny, huge or missing
 

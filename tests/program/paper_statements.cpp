@@ -143,7 +143,7 @@ TEST_CASE("the printed equations of the plane are the reduced system of the Pade
   }
 }
 
-// If no change of its numbers changed the verdict of a statement, the statement would test nothing.
+// A statement would test nothing if no change of its numbers changed the verdict.
 TEST_CASE("another number, printed or found, changes the verdict of every statement") {
   static Statement::Number right;
   const Statement::Number off = [](double at) { return 1.002 * right(at) + 1e-3; };

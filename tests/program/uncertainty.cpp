@@ -84,7 +84,7 @@ TEST_CASE("--uncertainty says whether the first order does", "[cli]") {
 }
 
 TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
-  // Friction and patch radius that are completely correlated are one number. Its quantiles are quantiles of both.
+  // Friction and radius of the ball, completely correlated, vary with one number z; z gives the quantiles of t_stop.
   const TemporaryDirectory directory;
   const std::string ball = run_program("balls gel").out;
   const auto with = [&](const std::string& correlation) {
@@ -111,7 +111,7 @@ TEST_CASE("--uncertainty fit: the ball's own, correlated", "[cli]") {
             Approx(at(falls ? -z : z, sign)).epsilon(3e-3));
     }
     if (sign < 0) continue;
-    // A spread on the command line replaces the spread of the ball. Its error is independent of all other errors.
+    // A spread on the command line replaces the spread of the ball. Radius and friction then have independent errors.
     const auto named = uncertainty(start + "--uncertainty fit,radius=1mm");
     const auto& shares = named.at("shares");
     CHECK(shares == known.at("shares"));
@@ -137,7 +137,7 @@ TEST_CASE("a run file of fit carries what it is known to", "[cli]") {
     return nlohmann::json::parse(run_program(fit + " --format json").out);
   };
   const auto found = seen("--velocity 0.4,0.3 --angular-velocity 2,-1,80");
-  // The file gives velocities, but the stop time needs slip and spin. Their errors must be those that the fit reports.
+  // The file gives velocities, but the stop time needs slip and spin. The errors of both must be those of the fit.
   const auto known = uncertainty("--ball " + ball + " --uncertainty fit");
   std::string errors;
   for (const std::string name : {"friction", "patch_radius", "slip", "spin"})

@@ -1,4 +1,4 @@
-// Tests the search for the start that has a given result: (R59) and (R60) of reduction/README.md.
+// Tests the search for the start that has a given result: (R59) and (R60) of reduction/numerics.md.
 #include <cmath>
 #include <random>
 #include <string>
@@ -40,7 +40,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or whose Psi grows first. The hypothesis of (R59) excludes both.
+/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or, for {0, 6}, whose Psi grows first. (R59) excludes both.
 struct WavyLaw {
   double force = 6, moment = 0;
 
@@ -169,7 +169,7 @@ TEST_CASE("what the reversed question refuses", "[aim][edge]") {
   CHECK_THROWS_AS(aimed(flow, {1e200, 1, {}}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {1e200, {}, 1}), TooFarApart);
   CHECK_THROWS_AS(aimed(flow, {{}, 1e300, 1e-300}), TooFarApart);
-  // Spin makes a body go farther in a given time.
+  // Under WavyLaw a body with spin may go farther in a given time than a body without spin.
   using Catch::Matchers::Contains;
   const Flow falls({WavyLaw{}, 1, {1, 2}});
   const Reached spinning = reached(falls, {0.823, 2.38}), straight = reached(falls, {0, 1});

@@ -95,7 +95,7 @@ class Questions {
     return PressureLaw(std::uniform_real_distribution<>(-0.95, 25)(random_));
   }
 
-  /// Returns an r of any size, also on and next to the borders of the regimes, and such that the ray is at k = 1.
+  /// Returns an r of any size, also on and next to the borders of the regimes, and with the ray at k = 1.
   double r(const Law& law) {
     const TerminalRatios ratios = terminal_ratios(law, 1);
     const auto [force, moment] = law({1, 1});
@@ -177,7 +177,7 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
           const double ln_k0 = std::log(start.v / system.mu() / std::abs(start.u));
           const bool on_ray = std::ranges::any_of(
               flow.terminal().rays, [&](const InvariantRay& ray) { return std::abs(std::log(ray.k) - ln_k0) < 1e-3; });
-          const double blunt = 1e4 * eps / (1 - system.drive());  // rounding of Phi - rho
+          const double blunt = 1e4 * eps / (1 - system.drive());  // rounding of Phi - drive
           if (!(error <= (on_ray ? 1e-5 : 1e-8) + blunt)) {
             FAIL_CHECK(fmt::format("at half time: u = {}, v = {}, beta = {} instead of {}, {}, {}: {}", half.u, half.v,
                                    half.beta, stepped.points.u[0], stepped.points.v[0], stepped.points.beta[0],

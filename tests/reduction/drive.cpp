@@ -98,7 +98,7 @@ TEST_CASE("the ray of creeping: closed for Pade and the ellipse, third order for
     for (double drive : {0.08, 0.04, 0.02}) {
       const double third = 3 * std::numbers::pi / 32 * (1 - 2 * r) * std::pow(drive, 3) / std::pow(delta, 4);
       const double error = std::abs(ray_of(exact, r, drive) - drive / delta - third);
-      if (last > 0) CHECK(error < last / 25);  // the method has order 5
+      if (last > 0) CHECK(error < last / 25);  // the next term is of order 5
       last = error;
     }
   }
@@ -125,7 +125,7 @@ TEST_CASE("one ray below 1 - r K, and none from there on", "[drive][limit]") {
 }
 
 TEST_CASE("closed stop times with a drive", "[drive][formula]") {
-  // Cases: no spin; a start on the ray; every start on an ellipse with r C^2 = 1 (R51).
+  // Cases: no spin; a start on the ray; every start under the elliptic law with r C^2 = 1 (R51).
   for (double drive : {1e-60, 1e-6, 0.05, 0.5, 0.9, 0.999999}) {
     INFO("drive = " << drive);
     for (const Law& law : paper_laws()) {
@@ -314,7 +314,7 @@ TEST_CASE("stop times of motions that ride the ray have the accuracy that they s
   }
 }
 
-// References for k* with 60 digits, from 1 - rho = r k Psi + (1 - Phi) with these doubles as exact values; rho: drive.
+// References for k* with 60 digits, from 1 - drive = r k Psi + (1 - Phi), with the doubles below taken as exact.
 TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[drive][reference]") {
   struct Row {
     const char* law;
@@ -343,7 +343,7 @@ TEST_CASE("a ray beside its birth at infinity has the digits that it states", "[
     const double accuracy = ratios.rays[0].accuracy;
     CHECK(ratios.rays[0].attracts());
     CHECK(std::abs(ratios.rays[0].k / k - 1) <= accuracy);
-    // r K, with K the law's k at infinity times 1 - Phi, is only known up to rounding by eps of 1 - rho.
+    // Far out k Psi is about its limit K. The deficit 1 - Phi is then 1 - drive - r K, with rounding eps (1 - drive).
     CHECK(accuracy <= 16 * eps * (1 + (1 - drive) / law.force_deficit({k, 1})));
   }
 }

@@ -300,7 +300,7 @@ TEST_CASE("the slip is the integral of v along the orbit", "[orbit][route]") {
     }
   }
   CHECK_WITHIN_EPS(whole, 200);
-  // The middle time has an error of eps of the stop time. For small mu this time is long compared with the slip.
+  // The middle time has an error of eps of the stop time. For small mu the stop time far exceeds the sliding time.
   CHECK_WITHIN_EPS(part, 1e6);
 }
 
@@ -329,7 +329,7 @@ TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]
       }
     }
   }
-  // The end time has an error of eps of the stop time. For small r this time is long compared with this part.
+  // The time at `end` has an error of eps of the stop time. For small r it is a small part of the stop time.
   CHECK_WITHIN_EPS(turned, 1e7);
   CHECK_WITHIN_EPS(slipped, 1e7);
 }

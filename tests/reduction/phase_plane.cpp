@@ -31,7 +31,7 @@ bool has_ray(const PhasePlane& plane) {
                              [](const SingularPoint& point) { return point.direction == InvariantDirection::ray; });
 }
 
-/// Returns d(radial, angular), the desingularised field in the chart of a point, computed from the regularised field.
+/// Returns the rates of (radial, angular): the regularised field, desingularised, in the chart of a point.
 Eigen::Vector2d chart_field(const ReducedSystem& system, const SingularPoint& point, double radial, double angular) {
   const bool at_origin = point.place == SingularPlace::origin;
   const double speed = at_origin ? radial : 1 / radial;
@@ -73,7 +73,7 @@ TEST_CASE("Eigenvalues of the paper's system are those of the blow-up by hand", 
   }
 }
 
-/// Returns true for the ellipse. Under its law k falls everywhere, or grows everywhere, so no ray exists.
+/// Returns true for the elliptic law, under which k falls everywhere or grows everywhere, so that no ray exists.
 bool has_no_ray(const TerminalRatios& limits) { return std::abs(limits.high - limits.low) < 1e-12 * limits.low; }
 
 TEST_CASE("The linear parts are the derivatives of the regularised field in its charts", "[phase_plane][route]") {
@@ -153,7 +153,7 @@ TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit
 }
 
 TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plane][table]") {
-  // D = Phi - r k Psi has D' = Phi' (1 + r k^2) - r Psi. W is (16 + 15 pi)(8 + 3 pi), and the rate is 2 chi/(3 pi).
+  // For D = Phi - r k Psi, dD/dk = Phi' (1 + r k^2) - r Psi. `scale` is 2 chi W/(3 pi), chi = 1, W(k = 1) of (R24).
   const double scale = 2 / (3 * pi) * (16 + 15 * pi) * (8 + 3 * pi);
   const auto angular = [](const char* law, double r) {
     return point_of(phase_plane(ReducedSystem(*find_law(law), 1, {1, r})), InvariantDirection::ray,

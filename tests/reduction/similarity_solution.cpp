@@ -104,7 +104,7 @@ TEST_CASE("a motion is what is left of it, in every regime", "[similarity_soluti
 }
 
 TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
-  // The octic law has two rays. This is the first one, which repels.
+  // The first ray is tested. The octic law has two rays, of which the first repels.
   for (const auto& [law, r] :
        {std::pair{Law(HertzLaw{}), 2.2}, {HertzLaw{}, 2.5}, {HertzLaw{}, 4.0}, {OcticLaw{}, 1.995}}) {
     const ReducedSystem system = puck(law, r);
@@ -124,7 +124,7 @@ TEST_CASE("a start on a ray stays on it", "[similarity_solution][invariant]") {
   }
 }
 
-// Phi/(k Psi) of this law is 2 at k = 0 and has a minimum, 1.9909 at k = 0.144. One ray repels, the other attracts.
+// Phi/(k Psi) of OcticLaw is 2 at k = 0 and has a minimum, 1.9909 at k = 0.144. One ray repels, the other attracts.
 TEST_CASE("a law with several rays has a curve on each side of each", "[similarity_solution]") {
   const Law law = OcticLaw{};
   CHECK(quadrature_solution(law, 1.99, terminal_ratios(law, 1.99)).curves().size() == 1);

@@ -78,7 +78,7 @@ TEST_CASE("E1 and E2 are of the orders 4 and 6 in mu at any one k0", "[small_mu]
   for (const Law& law : named_laws()) {
     for (double k0 : {0.1, 1.0, 10.0}) {
       CAPTURE(law.name(), k0);
-      // Use only mu below 0.05, because the next order matters above. At 0.0125 E2 is as accurate as the stop time.
+      // The largest mu is 0.05: above it the next order matters. At mu = 0.0125 E2 is as accurate as the stop time.
       CHECK(observed_order(law, "E1", 0.025, {k0}) == Approx(4).margin(0.04));
       CHECK(observed_order(law, "E2", 0.05, {k0}) == Approx(6).margin(0.15));
     }
@@ -93,7 +93,7 @@ TEST_CASE("E1 and E2 are of these orders uniformly in k0, less their logarithms"
     double last1 = infinity;
     double last2 = infinity;
     for (double mu : {0.2, 0.1, 0.05, 0.025}) {
-      // Errors are proportional to mu^4 ln^2 mu and mu^6 ln^3 mu; the worst k0 is near 1/mu^2. Factors fall, then stay.
+      // Errors are proportional to mu^4 ln^2 mu and mu^6 ln^3 mu; the worst k0 is near 1/mu^2. The factors fall.
       const double factor1 = worst_error(law, "E1", mu, ratios) / (std::pow(mu, 4) * std::pow(std::log(mu), 2));
       const double factor2 = worst_error(law, "E2", mu, ratios) / (std::pow(mu, 6) * std::pow(-std::log(mu), 3));
       CAPTURE(mu, factor1, factor2);
@@ -201,7 +201,7 @@ TEST_CASE("the motion for small mu is of the orders 4 in u and 2 in ln v at any 
       const MotionErrors whole = motion_errors(system, start), whole_of_half = motion_errors(half, half_start);
       CHECK(std::log2(whole.u / whole_of_half.u) == Approx(4).margin(0.05));
       CHECK(std::log2(whole.ln_v / whole_of_half.ln_v) == Approx(2).margin(0.05));
-      // Times up to three times the sliding time. For k0 = 10 the first error of ln v is small; the next order matters.
+      // Times up to 3 sliding times. For k0 = 10 the leading error of ln v is small, so that the next order matters.
       const MotionErrors layer = motion_errors(system, start, system.sliding_limit(start.v), 60);
       const MotionErrors layer_of_half = motion_errors(half, half_start, half.sliding_limit(half_start.v), 60);
       CHECK(std::log2(layer.u / layer_of_half.u) == Approx(4).margin(0.06));

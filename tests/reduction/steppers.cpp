@@ -44,7 +44,7 @@ struct BrokenLaw {
   }
 };
 
-/// Compares states of a stepper with the orbit. If k tends to 0, errors are relative to the state, else to the start.
+/// Compares states of a stepper with the orbit. For r < 1 errors are relative to the state, else to the start.
 struct States {
   explicit States(const std::string& name) : name_(name) {}
 

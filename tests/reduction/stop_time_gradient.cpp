@@ -1,4 +1,4 @@
-// Tests the derivatives of the stop time: (R10), (R57) and (R58) of reduction/README.md.
+// Tests the derivatives of the stop time: (R10) of reduction/README.md, (R57) and (R58) of numerics.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +66,7 @@ using PreciseLaw = std::array<Precise, 2> (*)(Precise v, Precise w);
 
 constexpr Precise precise_pi = std::numbers::pi_v<Precise>;
 
-/// Integrates (2.6) by 3000 Runge-Kutta steps of order 8 in long double, without any code of the library.
+/// Integrates (2.6) with the drive by 3000 Runge-Kutta steps of order 8 in long double, without code of the library.
 Quantities integrated(PreciseLaw law, const ReducedSystem& system, Precise u, Precise v, Precise tau) {
   const Precise mu = system.mu(), chi = system.inertia().chi, gamma = system.inertia().gamma, rho = system.drive();
   Quantities x{u, v, 0, 0};

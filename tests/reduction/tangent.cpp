@@ -77,7 +77,7 @@ TEST_CASE("slopes at both ends and at k = 1 in closed form", "[laws][limit]") {
       CHECK(tangent_of(law)({ratio, 1}).moment_slope == Approx(ratio * law.force_slope()).epsilon(0).margin(1e-9));
     }
   }
-  // The slope of the exact law has two formulas. They must agree at the place where one replaces the other.
+  // Two formulas give moment_slope of the exact law: they must agree at k = 8, where one replaces the other.
   const double below = tangent_of(HertzLaw{})({std::nextafter(8, 0), 1}).moment_slope;
   CHECK(tangent_of(HertzLaw{})({8, 1}).moment_slope == Approx(below).epsilon(1e-11));
   CHECK(tangent_of(HertzLaw{})({std::nextafter(1, 2), 1}).moment_slope == Approx(3 * pi / 32).epsilon(1e-12));

@@ -88,7 +88,7 @@ TEST_CASE("Phi/(k Psi) need not grow: every ray is found", "[terminal_ratio]") {
   }
 }
 
-// Tests (R40) of reduction/README.md.
+// Tests (R40) of reduction/numerics.md.
 TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just above", "[terminal_ratio][limit]") {
   std::mt19937 random(40);
   std::uniform_real_distribution<double> share(0, 1);
@@ -120,7 +120,7 @@ TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just 
 
 TEST_CASE("a ray that Phi/(k Psi) only touches attracts from one side", "[terminal_ratio][limit]") {
   const Law law = contensou::tests::OcticLaw{};
-  // Find the minimum of r over k by golden section.
+  // Find the minimum of Phi/(k Psi) over k by golden section.
   const auto ratio = [&](double k) { return law({k, 1}).force / (k * law({k, 1}).moment); };
   double low = 0.1, high = 0.2;
   for (int i = 0; i < 80; ++i) {

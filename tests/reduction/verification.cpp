@@ -201,7 +201,7 @@ TEST_CASE("every law passes every check, in every regime", "[verification][route
       all_pass({*find_law(name), std::sqrt(r), {1, 1}}, at_ratios(-1, std::sqrt(r), {1e-3, 0.3, 1, 3, 1e3}));
     }
   }
-  // Starts on both sides of a ray that repels.
+  // Starts on both sides of each ray. For r < 2 there are two rays, of which the first repels.
   for (double r : {1.991, 1.995, 2.0}) {
     all_pass({OcticLaw{}, 1, {1, r}}, at_ratios(1, 1, {1e-3, 0.05, 0.0817, 0.1, 0.2, 3}));
   }

@@ -71,7 +71,7 @@ TEST_CASE("however the load comes and goes, its impulse counts", "[bounce][route
   const Experiment ball = coming("pool", 2.83e-3, {{1, 0.5}, {3, -20, 300}});
   const Impact hard{.normal_speed = 4, .restitution = 0.7};
   const Rebound end = bounce(ball, law, hard);
-  // The load is a triangle with two unequal sides. It lasts 3 ms and has the impulse m (1 + e) v_n.
+  // The load over time is a triangle with two unequal sides; it lasts 3 ms and has the impulse m (1 + e) v_n.
   const double peak = hard.impulse() * ball.ball.mass / 1.5e-3;
   Experiment pressed = ball;
   constexpr double first = 1;

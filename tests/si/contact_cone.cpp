@@ -26,7 +26,7 @@ Experiment gel(double slip, double spin) {
 }
 
 /// Computes the times from the cone and the principle of greatest dissipation alone. A search finds the point of the
-/// cone's border with the greatest power. It acts for two microseconds; then the search is repeated.
+/// cone's border with the greatest power. Its force and moment act for 10 microseconds; then the search is repeated.
 FadeTimes by_search(const Experiment& experiment, Cone cone, double moment_arm) {
   struct Point {
     double force, moment;  // divided by f N and by c N
@@ -85,7 +85,7 @@ namespace {
 
 /// Integrates a disc of radius a in steps, like an engine. The disc stands on four contact points at the distance `arm`
 /// from its middle. Each point carries a quarter of the load.
-/// @param twist  true: one row for the slip and one for the spin, bounded separately; false: friction at each point
+/// @param twist  true: bounded force against the slip, bounded moment against the spin; false: friction at each point
 FadeTimes in_steps(const Experiment& puck, double arm, bool twist) {
   const double f = puck.contact.friction, a = puck.ball.radius, g = puck.environment.gravity;
   constexpr double dt = 1e-4;
@@ -188,7 +188,7 @@ TEST_CASE("slip and spin under a pyramid fade when fade_times says", "[analytic]
     const SlipAndSpin later = speeds_under_pyramid(experiment, arm, 9);
     CHECK((later.slip == 0 && later.spin == 0));
   }
-  // The spin is frozen while k > 1. Later slip and spin fall together.
+  // The spin is frozen while f v > arm omega. Later slip and spin fall together, with f v = arm omega.
   const Experiment fast = gel(1, 100);
   CHECK(speeds_under_pyramid(fast, arm, 0.02).spin == Approx(100).epsilon(1e-15));
   const SlipAndSpin together = speeds_under_pyramid(fast, arm, 0.2);

@@ -19,7 +19,7 @@ using namespace contensou::si;
 
 namespace {
 
-/// Computes the moment divided by the load, in m, from the numbers of an engine, by the formula in its source code.
+/// Computes the moment divided by the load, in m, from an engine's numbers, by the formula in the engine's source code.
 using Limit = std::function<double(const std::vector<double>& typed, double radius)>;
 
 const Limit the_last = [](const std::vector<double>& typed, double /*radius*/) { return typed.back(); };
@@ -36,7 +36,7 @@ const std::map<std::string_view, Limit> limits{
      }},
     {"chrono", the_last},
     {"edyn", the_last},
-    // alpha = 5 u_sp g/(2 R) with u_sp = proportionality R; also alpha = (5/2) M/(m R^2). M is the moment.
+    // The spin deceleration is 5 u_sp g/(2 R) with u_sp = typed[1] R. It is also (5/2) M/(m R^2), M being the moment.
     {"pooltool",
      [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},
     {"box3d", [](const auto& typed, double radius) { return typed[1] * radius; }},

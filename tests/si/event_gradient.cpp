@@ -47,7 +47,7 @@ class Exact {
     du_ = R * change.angular_velocity.z();
   }
 
-  /// Returns t, x, y of the event at which the slip has fallen to a speed.
+  /// Returns the derivatives of t, x, y of the event at which the slip has fallen to a speed.
   Eigen::Vector3d slips(double speed) const {
     const double tau = flow_.orbit(state_).time_of_v(speed);
     const reduction::InstantGradient at = reduction::instant_gradient(flow_, state_, tau);
@@ -59,7 +59,7 @@ class Exact {
     return event(reduction::instant_gradient(flow_, state_, by.tau), by.tau, by.by_v * dv_ + by.by_u * du_);
   }
 
-  /// Return the derivatives of the integrals of slip and R spin until the stop.
+  /// Return the derivatives of two integrals over time until the stop: of the slip, and of R omega_z.
   double slip_length() const { return integral(at_stop().slip_length); }
   double turned() const { return integral(at_stop().turned); }
 

@@ -71,7 +71,7 @@ TEST_CASE("any velocities, if they are numbers and so are those of the rim", "[l
   Experiment experiment = good_shot();
   experiment.start = Velocities{{-1, 2}, {3, -4, 5}};
   CHECK_NOTHROW(require_experiment(experiment));
-  // (2.1): (vx - R omega_y, vy + R omega_x)
+  // The slip velocity (2.1) is (vx - R omega_y, vy + R omega_x).
   CHECK(slip_velocity_at_start(experiment).x() == -1 + 0.03 * 4);
   CHECK(slip_velocity_at_start(experiment).y() == 2 + 0.03 * 3);
   CHECK(spin_at_start(experiment) == 5);

@@ -57,7 +57,7 @@ TEST_CASE("the clock of a load is its impulse", "[table]") {
 TEST_CASE("a puck without spin under a growing load, in closed form", "[table]") {
   const Experiment puck = pressed("puck", {.slip = 1, .spin = 0});
   const Motion motion = Motion::reduced(puck, *reduction::find_law("uniform"), LoadHistory({0, 1}, {2, 4}));
-  const double a = 0.1 / 0.163;  // f divided by the mass
+  const double a = 0.1 / 0.163;  // f/m with m = 0.163 kg
   for (double t : {0.1, 0.4}) {
     const MotionPoint at = motion.at(t);
     CHECK(at.slip == Approx(1 - a * (2 * t + t * t)).epsilon(1e-14));

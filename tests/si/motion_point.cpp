@@ -43,7 +43,7 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(rolling.x() == Approx(R * turning.y()).epsilon(1e-15));
   CHECK(rolling.y() == Approx(-R * turning.x()).epsilon(1e-15));
   CHECK(turning.z() == 0);
-  // The angular momentum about any point of the plane is constant: m R V + J omega; omega is its part across V.
+  // The angular momentum about a point of the plane is constant: m R V_x + J omega_y and m R V_y - J omega_x.
   CHECK(rolling.x() + 0.4 * R * turning.y() == Approx(1 + 0.4 * R * -30).epsilon(1e-15));
   CHECK(rolling.y() - 0.4 * R * turning.x() == Approx(0.5 - 0.4 * R * 20).epsilon(1e-15));
   // A start by velocities and a start by slip and spin give the same motion.
@@ -63,7 +63,7 @@ TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[inv
   const MotionPoint end = motion.at(motion.stop_time());
   CHECK(end.velocity.norm() < 1e-14);
   CHECK(end.angular_velocity == Eigen::Vector3d::Zero());
-  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // the ball slides along its whole path
+  CHECK(end.position.x() == Approx(motion.slip_length()).epsilon(1e-13));  // the puck slides along its whole path
   CHECK(final_motion(puck).velocity == Eigen::Vector2d::Zero());
   const auto [sliding, pivoting] = energy_loss(puck);
   CHECK(sliding == Approx(0.163 * 25 / 2).epsilon(1e-15));

@@ -152,8 +152,8 @@ TEST_CASE("a ball that does not slide the way it rolls is integrated; without re
   }
 }
 
-// Friction slows the ball down at the rate f g. Resistance slows its turning down at the rate chi u_r g - (chi - 1) f
-// g. The difference of both speeds is slip.
+// Friction slows the velocity V down at the rate f g. Resistance slows R omega_y down at the rate chi u_r g - (chi - 1)
+// f g. The slip is V - R omega_y.
 TEST_CASE("rolling friction above f: a ball that rolls slides at once, the whole motion and the uncoupled one",
           "[formula]") {
   const double R = pool(SlipAndSpin{0, 0}).ball.radius, chi = 3.5;

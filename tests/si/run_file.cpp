@@ -152,7 +152,7 @@ TEST_CASE("velocities take the place of a start, one or both", "[table]") {
   CHECK(kept.velocity == Eigen::Vector2d(2, 3));
   CHECK(kept.angular_velocity == Eigen::Vector3d(0, 0, 100));
   CHECK(velocities_of(read(good, "x.toml", {{&angular_velocity, {4, 5, 6}}}).start).velocity == Eigen::Vector2d(1, 0));
-  // If options give both slip and spin, the file needs no [start].
+  // If options give both velocities, the file needs no [start].
   const std::string without = good.substr(0, good.find("[start]"));
   const Given both{{&velocity, {2, 3}}, {&angular_velocity, {4, 5, 6}}};
   CHECK(velocities_of(read(without, "x.toml", both).start).angular_velocity == Eigen::Vector3d(4, 5, 6));
@@ -474,7 +474,7 @@ TEST_CASE("[uncertainty]: what the numbers are known to, and the same again from
   const std::string written = run_file(experiment);
   CHECK(run_file(read(written, "y.toml")) == written);
   CHECK_THAT(written, Contains("[uncertainty.correlation]\n"));
-  // If an option replaces a number of the file, its spread is dropped. An option with an equal value changes nothing.
+  // An option that replaces a number of the file drops the spread of this number, unless the value is equal.
   CHECK(read(known, "x.toml", {{&slip, {2}}}).spreads.numbers.size() == 2);
   CHECK(read(known, "x.toml", {{&slip, {1}}}).spreads.numbers.size() == 3);
   CHECK(read(known, "x.toml", {{&velocity, {1, 0}}, {&angular_velocity, {0, 0, 1}}}).spreads.numbers.size() == 1);

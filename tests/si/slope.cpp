@@ -103,7 +103,7 @@ TEST_CASE("a ball without spin on a slope, in closed form", "[formula][slope]") 
       CHECK(motion.stop_time() == Approx(slides).epsilon(exact));
       const double speed = 1 - (f * std::cos(alpha) + std::sin(alpha)) * g * slides;
       CHECK(motion.at(slides).velocity.x() == Approx(speed).epsilon(10 * exact));
-      // After the slide, the ball rolls uphill until it turns round or rests.
+      // After the slide the ball rolls: uphill (slope > 0) until it turns round or rests, or downhill (slope < 0).
       const double up = (5.0 / 7 * std::sin(alpha) + u_r * std::cos(alpha)) * g;
       const double half = 0.5 * (up > 0 ? speed / up : 1);
       CHECK(motion.at(slides + half).velocity.x() == Approx(speed - up * half).epsilon(10 * exact));
@@ -202,7 +202,7 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
 }
 
 // Reference: Newton's and Euler's equations by SciPy's Radau, with friction and resistance regularised below 1e-7 m/s.
-// The ball rolls across the slope and turns downhill. At some angle rolling needs more than f N, and it slides.
+// The ball rolls across the slope and turns downhill. At some angle rolling needs more than f N; the ball slides.
 TEST_CASE("a ball that rolls down slides when friction no longer holds it", "[reference][slope]") {
   const double R = find_ball("pool")->experiment.ball.radius;
   const Experiment experiment = ball_on(-6, Velocities{{0, 0.5}, {-0.5 / R, 0, 0}}, 0.19);

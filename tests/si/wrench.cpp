@@ -102,7 +102,7 @@ TEST_CASE("the Jacobian of a law with a potential is symmetric and negative semi
     if (law.name() == "pade") continue;
     const PatchFriction friction(law);
     for (const Vector3d& motion : motions()) {
-      const Vector3d arm(1, 1, 1 / patch.radius);  // lengths that give all entries the same unit
+      const Vector3d arm(1, 1, 1 / patch.radius);  // factors that give all entries the same unit
       const Matrix3d jacobian = arm.asDiagonal() * friction(motion, normal_force, patch).jacobian * arm.asDiagonal();
       const double size = jacobian.norm();
       CAPTURE(law.name(), motion.transpose());

@@ -52,7 +52,7 @@ TEST_CASE("reference motions are what both routes give, and have enough digits",
     const double length = speed * start.at("t_stop").get<double>();
     const std::map<std::string, double> scales{{"t", 1e300},  {"x", length},     {"y", length},     {"vx", speed},
                                                {"vy", speed}, {"wx", speed / R}, {"wy", speed / R}, {"wz", speed / R}};
-    // Steps treat a ball as held by resistance if its rolling is below 1e-9 of the speeds.
+    // Steps treat a ball as held by resistance if its rolling speed is below 1e-9 of the speeds.
     const bool resisted = start.at("ball").value("rolling_friction", 0.0) > 0;
     for (const auto& [route, allowed] : {std::pair{"reduced", 1e-12}, {"integrated", resisted ? 1e-9 : 1e-10}}) {
       const auto motion = json_of(fmt::format("roll --format json --route {} {} --at {}", route, ball_of(name), times));

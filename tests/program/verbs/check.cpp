@@ -172,7 +172,7 @@ TEST_CASE("an engine's pyramid is known for what it is", "[cli]") {
 }
 
 TEST_CASE("the log of a rigid body is a motion, too, in any units", "[route]") {
-  // The table is a swerving shot, computed from the equations of motion alone. It has no column of slip.
+  // Returns the log of a motion (swerving balls, a puck) that `roll` computes in steps. The log has no column of slip.
   const auto log_of = [](const std::string& ball, bool lies_flat, double time_unit, double speed, double turning) {
     const auto json = json_of("roll --route integrated --format json --samples 80 " + ball);
     std::string table = lies_flat ? "time [ms],x,y,vx [mm/s],vy [mm/s],wz [rpm]\n"

@@ -36,7 +36,7 @@ TEST_CASE("engine says how far a puck slides and how often it turns, by law and 
     INFO(engine.at("name"));
     if (engine.at("settings").empty() || engine.at("settings")[0].at("cone") != "box") continue;
     box.insert(engine.at("name"));
-    // Force f N and moment f c N act independently: v/(f g), v^2/(2 f g), (a^2/2) omega^2/(2 f g c)/(2 pi).
+    // Force f N and moment f c N act apart: time 0.999 v/(f g), path v^2/(2 f g), turns a^2 omega^2/(8 pi f g c).
     const double pi = std::acos(-1.0), slide = 0.999 * 5 / (0.1 * g), slid = 25 / (0.2 * g);
     close(engine.at("settings")[0], slide, slid, a * a * 1e4 / (4 * 0.1 * g * (2 * a / 3)) / (2 * pi));
     close(engine.at("settings")[1], slide, slid, a * a * 1e4 / (4 * 0.1 * g * a) / (2 * pi));

@@ -197,7 +197,7 @@ TEST_CASE("instants by the regularised time", "[cli]") {
     for (std::size_t column : {0, 1, 2, 3, 4})
       CHECK(std::stod(row[column]) == Approx(std::stod(wanted[column])).epsilon(1e-9));
   }
-  // Starts of a ball: in seconds, on an axis, at rest, and from a file.
+  // Cases: a ball, with t in seconds; a start on an axis; a start at rest; values of beta from a file.
   const auto pool = rows_of(run_program("orbit --ball pool --beta 0,0.1").out);
   CHECK((pool[0].back() == "t" && pool[1].back() == "0" && std::stod(pool[2].back()) > 0));
   const auto axis = rows_of(run_program("orbit --mu 0.3 --law pade --u0 0 --v0 1 --beta 1").out);

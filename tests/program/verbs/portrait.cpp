@@ -120,7 +120,7 @@ TEST_CASE("k of an orbit's last points is 0, or what is left of it", "[cli]") {
 }
 
 TEST_CASE("portrait draws any planar system that has a scaling", "[cli]") {
-  // The twisting controller combines dry friction and a relay. From u = 0 it comes to rest after the time v0 (1/(a + b)
+  // The twisting controller combines dry friction and a relay. From (0, v0) a motion comes to rest after v0 (1/(a + b)
   // + q/(a - b))/(1 - q) with q^2 = (a - b)/(a + b).
   const std::vector<std::string> twisting{
       "portrait", "--system", "u' = v; v' = -a*sign(u) - b*sign(v)", "--param", "a=1", "--param", "b=0.5"};

@@ -104,7 +104,7 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
   }
   const Json weighted = json_of_system("u' = v; v' = -sign(u) - 0.5*sign(v)", {"--u0", "0.5", "--v0", "1"});
   for (const Json& piece : weighted["strip"]) CHECK(piece["q"].size() == piece["tau_left"].size());
-  for (const Json& copy : weighted["copies"]) {  // v and t^2 have the same weight, and u has twice this weight
+  for (const Json& copy : weighted["copies"]) {  // v and t have the same weight, and u has twice this weight
     const double factor = copy["factor"];
     CHECK(copy["u0"].get<double>() == Approx(0.5 * factor).epsilon(1e-13));
     CHECK(copy["v0"].get<double>() == Approx(std::sqrt(factor)).epsilon(1e-13));
@@ -119,11 +119,11 @@ TEST_CASE("reduce: the orbit as a curve of the strip, and the starts of its copi
 }
 
 TEST_CASE("reduce --system: known answers", "[cli]") {
-  // dry friction with the same limit for u and v, and a slope a; r' = -1 if a = 0
+  // dry friction with the same limit for u and v; r' = -1 for r = hypot(u, v)
   const Json friction = json_of_system("u' = -u/hypot(u,v); v' = -v/hypot(u,v)", {"--u0", "3", "--v0", "-4"});
   CHECK(friction["kind"] == "stable star");
   CHECK(friction["tau_stop"].get<double>() == Approx(5).epsilon(1e-13));
-  // On v = 0 the slope alone acts on v: k tends to the ray. From (0, v) the stop takes v/(1 + a).
+  // The same friction on a slope a. On v = 0 the slope alone acts on v. From (0, v) the stop takes v/(1 + a).
   const std::string slope = "u' = -u/hypot(u,v); v' = -v/hypot(u,v) - a";
   const Json down = json_of_system(slope, {"--param", "a=0.25", "--u0", "0", "--v0", "1"});
   CHECK(down["tau_stop"].get<double>() == Approx(1 / 1.25).epsilon(1e-13));
@@ -148,7 +148,7 @@ TEST_CASE("a formula's rint and && are those of every other build", "[cli]") {
 
 TEST_CASE("formulas: bars, functions, constants and parameters", "[cli]") {
   const auto time_of = [](const std::string& speed) {
-    // on v = 0 at u = 2 the rate u' = -speed is a constant
+    // at the start (2, 1) the field is -speed (1, 2); each formula of `speed` below has the value 5
     return json_of_system("u' = -sign(u)*(" + speed + "); v' = -2*sign(v)*(" + speed + ")",
                           {"--param", "a=3", "--param", "b_1=-2", "--u0", "2", "--v0", "1"})["canonical"]["dp_dq"];
   };
@@ -261,7 +261,7 @@ TEST_CASE("reduce solves systems without a scaling by an inverse integrating fac
     CHECK(reduced["by_steps"]["difference"] < 1e-10);
     CHECK(reduce(system, {"--u0", "1.3", "--v0", "0.7"}).status == 0);
   }
-  // A pendulum at rest at the angle 1 has the period 4 K(sin 1/2).
+  // A pendulum that starts at rest at the angle 1 has the period 4 K(k), k = sin(1/2).
   const Json pendulum = json_of_system("x'' = -sin(x)", {"--u0", "1", "--v0", "0"});
   CHECK(pendulum["period"].get<double>() == Approx(6.6999756643704523).epsilon(1e-12));
   CHECK(pendulum["end"] == "periodic");

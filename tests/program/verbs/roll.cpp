@@ -70,11 +70,11 @@ TEST_CASE("a start by velocities, from a run file and from options", "[invariant
   const std::string file = scratch.file("masse.toml");
   write_file(file, general_file);
   CHECK(run_program("roll --ball " + file + " --samples 9").out == run_program(masse + " --samples 9").out);
-  // A single option replaces only its own part of a [start] that has the same form.
+  // --velocity replaces only the velocity of a [start]; the angular velocity, or the spin, stays.
   CHECK(run_program("roll --ball " + file + " --velocity 2,3 --at 0").out ==
         run_program("roll --ball pool --velocity 2,3 --angular-velocity 40,35,-50 --at 0").out);
   CHECK(rows_of(run_program("roll --ball pool --velocity 2,3 --at 0").out)[1][7] == "100");
-  // The other verbs accept this start, too. Their slip is the speed of the contact point.
+  // Other verbs accept a start by velocities, too: their slip is the speed of the contact point.
   const auto stop = json_of("stop --format json --ball " + file);
   const double R = 0.028575;
   CHECK(stop.at("v0").get<double>() == Approx(std::hypot(1 - R * 35, R * 40)).epsilon(1e-15));

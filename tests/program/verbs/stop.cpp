@@ -155,7 +155,7 @@ TEST_CASE("T_stop is a number wherever it fits", "[cli]") {
   CHECK(fast.at("T_stop").get<double>() == Approx(fast.at("tau_stop").get<double>() / 4.71238898038469).epsilon(1e-15));
 }
 
-// r/r_high - 1 = 8.5e-14 counts as 0. The error of this must be in the stated accuracy, which once was 2.4e-15.
+// r/r_high - 1 = 8.5e-14 is taken as 0. The stated accuracy, once 2.4e-15, must contain the error that this causes.
 TEST_CASE("the accuracy next to a border counts what was taken for the border", "[cli]") {
   const json stop = json_of(
       "stop --mu 1 --law elliptic:0.05 --body 3.5,1400.0000000001196 --u0 1.5283057164038434 --v0 0.1665941353948894 "

@@ -30,7 +30,7 @@ struct Asked {
   std::string type;
   Law law;
   std::string table, column;  ///< table in tests/reference; empty for a table of pressures
-  long double steepest = 1;   ///< the largest logarithmic slope of Phi and Psi
+  long double steepest = 1;   ///< largest size of d ln Phi/d ln k and d ln Psi/d ln k
   double curvature = 0;       ///< value of (1 - Psi/Psi(0))/k^2 for k << 1
 };
 

@@ -42,7 +42,7 @@ TEST_CASE("equilibria are found with their types", "[planar]") {
     }
   }
   CHECK(find_equilibria(rabbits, {0.5, 1.5}, {0.8, 1.9}).empty());
-  // u' = 1 has no equilibria, although its Jacobian is singular everywhere.
+  // The field u' = 1, v' = u - v^2 has a singular Jacobian everywhere, but no equilibria.
   CHECK(find_equilibria({[](const Vector2d& x) { return Vector2d(1, x[0] - x[1] * x[1]); }}, {-2, -3}, {6, 3}).empty());
   // This field has no value in a part of the rectangle.
   const std::vector<Equilibrium> half =

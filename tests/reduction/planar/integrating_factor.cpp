@@ -181,7 +181,7 @@ TEST_CASE("The forms of V are found, with V and orbits as known", "[factor]") {
       const Vector2d beside = got + 1e-3 * Vector2d(-f[1], f[0]) / f.norm();
       CHECK(std::abs(plane.first_integral(beside) * plane.factor(got) / f.norm() - 1e-3) < 1e-5);
     }
-    // A later point lies on the same orbit. But V is fitted in other boxes there.
+    // A later point lies on the same orbit. But V is fitted in other boxes around this point.
     const Vector2d later = plane.part_of_orbit(orbit.at(0.7)).at(0.8);
     states.add(0, (later - orbit.at(1.5)).norm(), later.norm(), example.text + ", in two parts");
   }
@@ -349,7 +349,7 @@ TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README
     const FactorReduction reduction(field, start);
     REQUIRE(reduction.form() == "affine");
     const PlanarReduction plane(field.value, *find_symmetries(field.value, start).scaling, start);
-    // For A = 1, x = sqrt(2) exp(p) n and T = n ^ g.
+    // The scaling has the matrix 1: x = sqrt(2) exp(p) n. T, here t, is the part of the field g across n.
     constexpr double by_differences = 1e-7;
     double ratio = 0;
 

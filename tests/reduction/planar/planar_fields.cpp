@@ -70,7 +70,7 @@ struct RandomField {
 
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// Returns the end of orbits that come to a line. It follows from the orders and the sign of R.
+/// Returns the end of orbits that come to a line, from the orders of T and R and the sign of R beside the line.
 PlanarEnd expected_end(const Line& line, double sign) {
   const int a = line.angular, b = line.radial, gamma = b - a + 1;
   if (gamma > 0 && !(a > 0 && b == 0)) return a > 0 && b > 0 ? PlanarEnd::rest : PlanarEnd::border;
@@ -168,7 +168,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
       const double error = (got - wanted).norm() / wanted.norm();
       ++compared;
       accurate += error < 1e-10;
-      // Multiple rays off the axes have an error of 1e-12. Some ends are ill-conditioned next to such rays.
+      // The angle of a multiple ray off the axes has an error of 1e-12. Ends next to such a ray may be ill-conditioned.
       CHECK(error < 1e-3);
     }
   }

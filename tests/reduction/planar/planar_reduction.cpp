@@ -114,7 +114,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
       CHECK(got.to_centre == wanted.to_centre);
       CHECK(std::isnan(wanted.k));
       CHECK(std::atan(mu * got.k) == Approx(std::abs(std::asin(std::sin(got.q)))).margin(1e-14));
-      // The value of sigma depends on the scale of the closed curve p = 0.
+      // In by_values the curve p = 0 is |x| = |around|. Rates by sigma depend on this scale.
       radial.add(wanted.radial * around.norm(), got.radial, what);
       if (std::isfinite(wanted.angular)) {
         angular.add(wanted.angular * around.norm(), got.angular, what);
@@ -405,8 +405,8 @@ TEST_CASE("a relay about another point stops when the one about the origin does"
   const PlanarReduction here = reduced(relay(0), {0.5, 2}), there = reduced(relay(1), {1.5, 2});
   CHECK(there.kind() == "stable focus");
   CHECK(there.end_time({1.5, 2}) == Approx(here.end_time({0.5, 2})).epsilon(1e-12));
-  // Computed by hand: an orbit meets u = 0 at v, then at -w. In each half turn v^2 (1 + ...) falls by the same factor.
-  const double a = 0.7, b = 1.3;  // size of v' on the way out and on the way back
+  // Computed by hand: each half turn, from one jump at u = 1 to the next, is `ratio` times as long and as fast.
+  const double a = 0.7, b = 1.3;  // size of v': a on the way back, b on the way out
   const double out = 2 / b, top = 0.5 + 2 * out - b * out * out / 2, in = std::sqrt(2 * top / a), w = a * in;
   const double ratio = std::sqrt(a / b), half_turn = w / b + w * ratio / a;
   CHECK(there.end_time({1.5, 2}) == Approx(out + in + half_turn / (1 - ratio)).epsilon(1e-12));

@@ -135,7 +135,7 @@ TEST_CASE("no symmetry: viscous drag beside dry friction", "[planar][symmetry]")
 }
 
 TEST_CASE("a symmetry that is no scaling", "[planar][symmetry]") {
-  // The field x' = 1 + sin y, y' = cos y has a translation along x as its symmetry.
+  // The symmetry of u' = 1.5 + sin 3 v, v' = cos 3 v is a translation along u.
   const PlanarSymmetries found =
       symmetries([](const Vector2d& x) { return Vector2d(1.5 + std::sin(3 * x[1]), std::cos(3 * x[1])); });
   CAPTURE(found.singular_values, found.level);
@@ -173,7 +173,7 @@ TEST_CASE("fields without values", "[planar][domain]") {
   CHECK_THROWS_WITH(symmetries([](const Vector2d&) { return Vector2d(0, 0); }), Contains("the field is 0"));
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(0, 0)), std::domain_error);
   CHECK_THROWS_AS(find_symmetries(friction, Vector2d(1, infinity)), std::domain_error);
-  // Values in half of the plane suffice. A field can have no value in two ways; both are tested.
+  // Values in a quarter of the plane suffice. A missing value is an exception (v < 0) or NaN (u < 0 < v).
   check_one(symmetries([&](const Vector2d& x) -> Vector2d {
               if (x[1] < 0) throw std::domain_error("v < 0");
               return friction(x) * (x[0] < 0 ? not_a_number : 1);
