@@ -42,7 +42,7 @@ State default_sides(const ReducedSystem& system, View view, const std::vector<St
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
-  // On the upper and the right border, sliding and pivoting take the same time: neither is squeezed against an axis.
+  // Pure sliding from v = V and pure pivoting from u = U last equally long: neither is squeezed against an axis.
   // The window does not reach above a large k, because balls there slide as if they did not spin.
   constexpr double large = 20;
   const double sliding = system.sliding_limit(1) / (1 - system.drive());

@@ -427,7 +427,7 @@ std::string finished_svg(std::string svg, const Figure& figure) {
   return svg;
 }
 
-/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. Offsets do not change.
+/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. No offset in it changes.
 std::string without_date(std::string bytes, std::string_view before, std::string_view date) {
   const std::size_t at = bytes.find(before);
   if (at != std::string::npos && at + before.size() + date.size() <= bytes.size()) {

@@ -98,7 +98,7 @@ class Uncoupled final : public Motion::Solution {
   double way() const { return speed_ * speed_ / (2 * slowing_); }
   Vector2d direction() const { return speed_ > 0 ? Vector2d(rolls_->velocity / speed_) : Vector2d(0, 0); }
 
-  /// Returns the state with rolling friction, computed from the state without it.
+  /// Returns the state with rolling friction, computed from the state without rolling friction.
   MotionPoint slowed(MotionPoint point) const {
     const double whole = speed_ / slowing_, braked = std::min(point.t - rolls_->t, whole);
     const double speed = braked < whole ? speed_ - slowing_ * braked : 0;

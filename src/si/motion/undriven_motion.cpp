@@ -36,7 +36,7 @@ class OneOrbit final : public Motion::Solution {
   std::vector<ReducedPiece> pieces() const override { return {{0, true, flow_, reduced_start(experiment), orbit_}}; }
 
   double path_length(double t) const override {
-    // V is a linear function of the slip (motion_by_slip). The speed may have a kink at its minimum.
+    // V is a linear function of the slip (motion_by_slip). The speed |V| may have a kink at its minimum.
     const double v0 = slip_at_start(experiment);
     const double spin = spin_at_start(experiment);
     const auto velocity = [&](double v) { return motion_by_slip(experiment, 0, v, 0, spin).velocity; };
