@@ -21,7 +21,7 @@ struct IsochroneTimes {
 /// times.
 IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int usual = usual_isochrones);
 
-/// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along a part, v/u
+/// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along each part the direction v/u
 /// turns from u > 0 to u < 0.
 ///
 /// The stop time satisfies tau*(c u, c v) = c tau*(u, v). One isochrone is therefore computed as a function of v/u, and

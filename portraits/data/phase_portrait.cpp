@@ -395,7 +395,7 @@ std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const 
   if (request.highlight) shown.push_back(*request.highlight);
   for (const Flow& flow : flows) sides.push_back(default_sides(flow.system(), view, shown));
   const auto largest = [&](double State::*side) { return std::ranges::max(sides, {}, side).*side; };
-  // Without points to show, take the smallest v of all planes, so that no plane is filled with mere sliding.
+  // Without points to show, except in the view patch, take the smallest v: no plane is filled with mere sliding.
   const bool rims = view == View::patch;
   const double u = largest(&State::u);
   const double v = shown.empty() && !rims ? std::ranges::min(sides, {}, &State::v).v : largest(&State::v);

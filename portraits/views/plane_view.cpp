@@ -15,7 +15,7 @@ namespace {
 
 using Copies = std::vector<OrbitCopy>;
 
-/// Returns ticks of v: round speeds in the linear part, powers of ten below this part.
+/// Returns ticks of v: round speeds in the linear part of the axis, powers of ten below this part.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // below this height the axis is not linear

@@ -25,7 +25,7 @@ constexpr double better_by = 0.01;
 /// alone sets the end if the sum of squares would fall beyond the limit by more than the share `telling` of the rise.
 constexpr double near_limit = 1e-6, telling = 0.1;
 constexpr Index patch_place = 1;
-/// Widest step of a logarithm, and the ratio of the lengths of successive steps.
+/// Widest step of ln f or ln eps, and the ratio of the lengths of successive steps.
 constexpr double widest = 1.2, growth = 1.6;
 /// Largest error of an end, as a share of its distance from the estimate.
 constexpr double sharp = 2e-3;

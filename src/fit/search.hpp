@@ -108,7 +108,7 @@ class Search {
   /// @return  largest relative change of a standard deviation
   double estimate_noise(const Eigen::VectorXd& parameters);
 
-  /// Returns the parameters that belong to the given ball and, for each track, to its start.
+  /// Returns the parameters that belong to the given ball and, for each track, to the ball's start.
   Eigen::VectorXd given() const;
 
   /// Finds the estimate and sets the unknown standard deviations.

@@ -27,8 +27,8 @@
 // spin is constant. For k < 1 it is (0, 1): the ball spins and its slip is constant. Both motions move k to 1. At k = 1
 // every point of the edge has the same power, and only Phi = r Psi = r/(1 + r) keeps k = 1: v and w fall together, v =
 // (c/f) |omega|, until both are 0. A ball that starts with k > 1 therefore slides until v = w0. Its slip is then (c/f)
-// |omega| until the spin ends, and the ball does not roll before. On the ray k = 1, dv/ds = -r/(1 + r). From v = w the
-// stop takes the time v (1 + r)/r = v + w/r; in tau it is S(v) + P(u), the sum of the times of pure sliding and pure
+// |omega| until the spin ends, and the ball does not roll before. On the ray k = 1, dv/ds = -r/(1 + r). From v = w on,
+// the motion lasts v (1 + r)/r = v + w/r; in tau this is S(v) + P(u), the sum of the times of pure sliding and pure
 // pivoting. This sum is the stop time from any start. Under the box the stop time is the larger of the two times. In s
 // the sum is
 //     s - s0 = v0 + w0/r

@@ -103,7 +103,7 @@ class Uncoupled final : public Motion::Solution {
     const double whole = speed_ / slowing_, braked = std::min(point.t - rolls_->t, whole);
     const double speed = braked < whole ? speed_ - slowing_ * braked : 0;
     const double rolling = turning_ == slowing_ ? speed : std::max(0.0, speed_ - turning_ * braked);
-    const Vector2d still = Vector2d::Zero();  // adding 0 avoids -0
+    const Vector2d still = Vector2d::Zero();  // adding it avoids -0
     const Vector2d rim = rolling * direction() + still;
     point.position = rolls_->position + (speed_ + speed) / 2 * braked * direction();
     point.velocity = speed * direction() + still;

@@ -46,7 +46,7 @@ class OneOrbit final : public Motion::Solution {
     const double slowest = change.squaredNorm() > 0 ? -last.dot(change) / change.squaredNorm() * v0 : 0;
     constexpr double straight = 1e-12;
     if (std::abs(last.x() * change.y() - last.y() * change.x()) <= straight * last.norm() * change.norm()) {
-      // The centre moves forth, and perhaps back from a turning point.
+      // The centre moves along a straight line: forth, and perhaps back from a turning point.
       const Eigen::Vector2d there = at(slowest > 0 && slowest < v0 ? std::min(slip_time(slowest), t) : 0).position;
       return there.norm() + (at(t).position - there).norm();
     }

@@ -94,7 +94,7 @@ struct Noise {
   double rms;                     ///< root mean square of the residuals, SI units
   double sd;                      ///< root mean square of the standard deviations that the weights imply
   bool estimated;                 ///< true if sd is estimated from the residuals
-  std::vector<Outlier> outliers;  ///< values with residuals above 6 sd, a sd that follows from the median of residuals
+  std::vector<Outlier> outliers;  ///< values whose residual exceeds 6 standard deviations (from the median residual)
 };
 
 /// The only combination f^a eps^b that the data determine, f friction, eps patch radius: f, eps, f eps or f/eps.

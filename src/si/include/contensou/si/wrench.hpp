@@ -40,7 +40,7 @@ struct Wrench {
 ///
 /// A body at rest under a force creeps. Under a tangential load T < f N alone, its speed is
 ///   |v| = s T/sqrt((f N)^2 - T^2).
-/// Under a moment Q < f N eps Psi(0) alone, eps |omega| = s/k, where Psi(k) = Q/(f N eps); for small Q s Q/(K f N eps).
+/// Under a moment Q < f N eps Psi(0) alone, eps |omega| = s/k with Psi(k) = Q/(f N eps); for small Q, s Q/(K f N eps).
 /// At speeds above s the effect of s is of the order of s^2 divided by the square of the larger speed.
 ///
 /// A stepper with one Newton step per time step dt needs s >= a dt/2, where a is the deceleration by friction alone
