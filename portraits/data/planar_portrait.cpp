@@ -373,7 +373,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   const double last = motion.period().value_or(infinity);
   // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
   constexpr int cells = 300, turns = 3;
-  std::map<std::pair<int, int>, std::pair<int, int>> visits;  // last point in a cell, and number of visits
+  std::map<std::pair<int, int>, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
   for (int i = 0; i < most && time < last; ++i) {
     const double next = std::min(time + step, last);
     Vector2d there;

@@ -31,7 +31,7 @@ constexpr PaperSize usual{290, 125};
 
 /// A path that bends by less than this fraction of its length is drawn as straight.
 constexpr double straight = 0.01;
-/// The time axis is logarithmic if spin time divided by slip time is at least this ratio.
+/// The time axis is logarithmic if the last time divided by the time of rolling exceeds this ratio.
 constexpr double long_spin = 6;
 
 void require_columns(const RollCurve& curve) {
