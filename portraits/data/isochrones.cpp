@@ -14,7 +14,7 @@ namespace {
 using reduction::State;
 
 /// Represents directions v/u by a number that grows from u > 0 to u < 0. On logarithmic axes it is ln(v/u). Otherwise
-/// it is an angle in quarter turns, from 0 to 2, on the ellipse whose half axes are the sides of the rectangle.
+/// it is an angle in quarter turns, from 0 to 2, on the ellipse with the half axes window.u() and window.v().
 class Directions {
  public:
   Directions(const reduction::Flow& flow, const Window& window, bool logarithmic)

@@ -21,11 +21,11 @@ struct IsochroneTimes {
 /// times.
 IsochroneTimes isochrone_times(const PortraitRequest& request, double last, int usual = usual_isochrones);
 
-/// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along each, the direction v/u
+/// Returns the parts of isochrones in a window of the half-plane, by increasing time. Along each part the direction v/u
 /// turns from u > 0 to u < 0.
 ///
 /// The stop time satisfies tau*(c u, c v) = c tau*(u, v). One isochrone is therefore computed as a function of v/u, and
-/// the others are scaled copies. Straight lines join the points well. Ends lie exactly on the border.
+/// the others are scaled copies. The points are close enough for straight lines. Ends lie exactly on the border.
 /// @param logarithmic  true for logarithmic axes; then the window is one of positive u and v
 std::vector<Isochrone> isochrones(const reduction::Flow& flow, const Window& window, const std::vector<double>& times,
                                   bool logarithmic = false);

@@ -42,7 +42,7 @@ State default_sides(const ReducedSystem& system, View view, const std::vector<St
   }
   if (far.u != 0 && far.v != 0) return {margin * far.u, margin * far.v};
   if (far.u != 0 || far.v != 0) return {margin * std::max(far.u, far.v), margin * std::max(far.u, far.v)};
-  // On the upper and the right border, sliding and pivoting take the same time: neither is squeezed against an axis.
+  // Pure sliding from v = V and pure pivoting from u = U last equally long: neither is squeezed against an axis.
   // The window does not reach above a large k, because balls there slide as if they did not spin.
   constexpr double large = 20;
   const double sliding = system.sliding_limit(1) / (1 - system.drive());
@@ -395,7 +395,7 @@ std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const 
   if (request.highlight) shown.push_back(*request.highlight);
   for (const Flow& flow : flows) sides.push_back(default_sides(flow.system(), view, shown));
   const auto largest = [&](double State::*side) { return std::ranges::max(sides, {}, side).*side; };
-  // Without points to show, take the smallest v of all planes, so that no plane is filled with mere sliding.
+  // Without points to show, except in the view patch, take the smallest v: no plane is filled with mere sliding.
   const bool rims = view == View::patch;
   const double u = largest(&State::u);
   const double v = shown.empty() && !rims ? std::ranges::min(sides, {}, &State::v).v : largest(&State::v);

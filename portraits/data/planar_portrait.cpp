@@ -212,7 +212,7 @@ class PlanarTracer {
   double level(double q) const { return -plane_.first_integral(plane_.point(q, 0)); }
 
   void read_turn() {
-    constexpr double margin = 1e-9;  // level() jumps by its change in a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // between q = 2 pi and q = 0 level() jumps by its change in a turn
     growth_ = level(2 * pi - margin) - level(margin);
     const Vector2d here = plane_.point(1, level(1)), next = plane_.point(1.001, level(1.001));
     sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
@@ -231,7 +231,7 @@ class PlanarTracer {
     const PlanarSector& sector = plane_.sectors()[index];
     const Course& course = courses_[index];
     const auto on_orbit = [&](double x_) { return std::pair(course.q(x_), integral + level(course.q(x_))); };
-    // Find x of the point.
+    // Find the place of the point on the course.
     double fraction = (q - sector.from) / (sector.to - sector.from);
     if (fraction < 0 || fraction > 1) fraction = (q + 2 * pi - sector.from) / (sector.to - sector.from);
     const double here = std::clamp(std::log(fraction / (1 - fraction)), course.low, course.high);
@@ -303,7 +303,7 @@ class PlanarTracer {
   std::vector<Way> ways_;  ///< forwards and backwards in time; only without a scaling
 };
 
-/// Appends the orbit from one x to another, with visibly close points.
+/// Appends the orbit between two values of its parameter, such as x of Course, with visibly close points.
 template <class OnOrbit>
 void PlanarTracer::follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
   const auto at = [&](double x) {
@@ -349,7 +349,7 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
-/// Follows a motion until it is some window sides beyond the window, because it may return from there.
+/// Follows a motion until it is some window sides beyond the window, because it may return from nearer places.
 Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   const auto& [plane, by_steps] = way;
   const Vector2d f = plane.field()(x);
@@ -373,7 +373,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
   const double last = motion.period().value_or(infinity);
   // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
   constexpr int cells = 300, turns = 3;
-  std::map<std::pair<int, int>, std::pair<int, int>> visits;  // last point in a cell, and number of visits
+  std::map<std::pair<int, int>, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
   for (int i = 0; i < most && time < last; ++i) {
     const double next = std::min(time + step, last);
     Vector2d there;
@@ -420,7 +420,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
 std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
                                    std::optional<int> count) {
   const Panel panel = panel_of(window);
-  constexpr double gap = 0.055;  // fraction of the window's side
+  constexpr double gap = 0.055;  // smallest gap that gets an orbit, as a fraction of the window's side
   constexpr int most = 80, across = 41;
   using Gaps = WidestGaps<std::size_t, Vector2d>;
   const auto seed_at = [&](Point place) -> std::optional<Gaps::Seed> {

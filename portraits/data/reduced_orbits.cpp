@@ -67,7 +67,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
       refuse_ray();
     }
   }();
-  /// Returns the curve through angles, in the direction of the motion.
+  /// Returns the curve of points (angle, constant - level(angle)), in the direction of the motion.
   const auto line = [&](const std::vector<double>& angles, double constant) {
     Polyline points;
     for (double angle : angles) {
@@ -88,7 +88,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
   if (plane.rays().empty()) {
     // In a focus the turns are copies of one another.
     constexpr int pieces = 400;
-    constexpr double margin = 1e-9;  // level() jumps by its change in a turn between 2 pi and 0
+    constexpr double margin = 1e-9;  // between 2 pi and 0 level() jumps by its change in a turn
     for (int i = 0; i <= pieces; ++i) angles.push_back(margin + (2 * pi - 2 * margin) * i / pieces);
     if (q < 0) from.start.x += 2 * pi;
     const Polyline turn = line(angles, integral);
@@ -106,7 +106,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
     from.rays.push_back(left);
     if (last) from.rays.push_back(right);
     angles.clear();
-    constexpr int half = 500;  // dense towards the rays
+    constexpr int half = 500;  // number of points on each side of the middle; they are dense towards the rays
     for (int j = -half; j <= half; ++j) angles.push_back(left + (right - left) / (1 + std::exp(-0.05 * j)));
     const bool of_start = left < start_q && start_q < right;
     if (of_start) from.start.x = start_q;

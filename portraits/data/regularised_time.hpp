@@ -6,8 +6,8 @@
 
 namespace contensou::portraits {
 
-/// Returns true if a motion is one orbit of a flow and therefore has a regularised time. A motion that turns under
-/// rolling friction for a part of its time only consists of several orbits.
+/// Returns true if a motion is one orbit of a flow and therefore has a regularised time. A ball that, under
+/// rolling friction, turns during only a part of its motion has several orbits.
 bool is_one_orbit(const reduction::Flow& flow, const PortraitOrbit& motion);
 
 /// Returns the regularised time beta (reduction::ReducedSystem) since the first state, for each state of an orbit, in

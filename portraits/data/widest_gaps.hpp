@@ -20,11 +20,11 @@ class WidestGaps {
     State state;
     Sector sector;
     double border = first;  ///< twice the distance to the nearest place of another sector
-    double gap = first;     ///< distance to the nearest orbit of its sector, or to the border
+    double gap = first;     ///< distance to the nearest orbit of the sector, at most `border`
   };
 
   /// @param columns, rows  numbers of places along the two sides of the panel
-  /// @param seed_at        returns the seed at a place; empty if no orbit may go through it
+  /// @param seed_at        returns the seed at a place; empty if no orbit may go through the place
   /// @param unit           lengths on paper of the vectors (1, 0) and (0, 1)
   template <class SeedAt>
   WidestGaps(int columns, int rows, SeedAt seed_at, Point unit) : unit_(unit) {

@@ -80,7 +80,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     }
   }
 
-  // Maps a side of a square (its first corner and its direction) to the zero on it and the sides joined to it.
+  // Maps a side of a square (first corner; true: upwards) to the zero on the side and to the sides joined with it.
   using Side = std::pair<std::pair<int, int>, bool>;
   struct Crossing {
     Vector2d at;

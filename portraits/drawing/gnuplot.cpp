@@ -53,8 +53,8 @@ constexpr unsigned time_limit = 300;
 struct Terminal {
   std::string_view name, font;
   double units_per_mm;
-  double letter, line, symbol;  ///< letter and line sizes; symbol 0: proportional to the letters
-  double dash;                  ///< 0: proportional to the width of the line
+  double letter, line, symbol;  ///< lengths of sizes 1 of letters, lines, marks; symbol 0: proportional to the letters
+  double dash;                  ///< length of a dash of size 1; 0: proportional to the width of the line
 };
 
 /// Returns the terminal of a format. Cairo's terminals take letter sizes for 96 dpi. Without a fontscale, PDF and EPS
@@ -427,7 +427,7 @@ std::string finished_svg(std::string svg, const Figure& figure) {
   return svg;
 }
 
-/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. Offsets do not change.
+/// Replaces the date that Cairo writes, so that the same figure gives the same bytes. Byte offsets do not change.
 std::string without_date(std::string bytes, std::string_view before, std::string_view date) {
   const std::size_t at = bytes.find(before);
   if (at != std::string::npos && at + before.size() + date.size() <= bytes.size()) {

@@ -445,7 +445,7 @@ class Compositor {
       y -= line_height;
     }
     const auto count = static_cast<double>(bar.colours.size());
-    constexpr double overlap = 0.04;  // boxes overlap by this share, so that no seam is visible
+    constexpr double overlap = 0.04;  // boxes overlap by this length, so that no seam is visible
     for (double i = 0; i < count; ++i) {
       const double from = height * i / count;
       layout_.colours.push_back(mm(left, bottom + from, 1, std::min(height / count + overlap, height - from)));

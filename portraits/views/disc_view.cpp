@@ -78,7 +78,7 @@ void add_turning(Panel& panel, const Drawing& drawing, const PolarMap& map) {
     const double middle = (angles[i] + angles[i + 1]) / 2;
     const double k = std::tan(middle);
     const auto [force, moment] = system.law()(reduction::slip_of_ratio(k));
-    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // sign of the motion in theta
+    const double turn = force - system.drive() - system.r() * k * moment > 0 ? -1 : 1;  // 1: theta grows; -1: it falls
     for (double sign : {1.0, -1.0}) {
       for (double rho : {0.0, infinity}) {
         if (rho == 0 && map.hole == 0) continue;

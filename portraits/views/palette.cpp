@@ -31,7 +31,7 @@ std::size_t bands_per(double interval, double unit) {
   return 1;
 }
 
-/// Returns equal bands, some for each interval.
+/// Returns bands of equal width; bands_per gives their number in an interval.
 TimeBands linear_bands(double longest, double interval, double unit, const Palette& palette) {
   const std::size_t per_interval = bands_per(interval, unit);
   TimeBands bands;

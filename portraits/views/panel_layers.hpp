@@ -35,7 +35,7 @@ inline bool inside(Point place, double margin) {
   return place.x >= margin && place.x <= 1 - margin && place.y >= margin && place.y <= 1 - margin;
 }
 
-/// A motion in the units of the axes, with the time left at each point. The time decreases along it or is infinite.
+/// A motion in the units of the axes, with the time left at each point. The time left decreases or is infinite.
 struct TimedLine {
   Polyline line;
   std::vector<double> left;
@@ -47,7 +47,7 @@ struct Drift {
   double size;
 };
 
-/// An orbit scaled by a factor; the sign -1 mirrors it.
+/// An orbit scaled by a factor; the sign is 1, or -1 for the mirror image in u = 0.
 struct OrbitCopy {
   const PortraitOrbit& orbit;
   double factor = 1;

@@ -126,7 +126,7 @@ Figure patch_drawing(const AskedSize& size) {
   }
   sketch.line(element, {ink, 1.6, false});
   const Point P = polar(r, theta);
-  const Point along{std::cos(theta), -std::sin(theta)};  // direction of the slip there
+  const Point along{std::cos(theta), -std::sin(theta)};  // direction of the slip at P
   sketch.arrow({P, {P.x + 0.55 * along.x, P.y + 0.55 * along.y}}, velocity_colour, 1.8);
   sketch.arrow({P, {P.x - 0.42 * along.x, P.y - 0.42 * along.y}}, force_colour, 2.2);
   sketch.label({P.x - 0.5 * along.x, P.y - 0.5 * along.y + 0.1}, math("dF"), force_colour);

@@ -15,7 +15,7 @@ namespace {
 
 using Copies = std::vector<OrbitCopy>;
 
-/// Returns ticks of v: round speeds in the linear part, powers of ten below this part.
+/// Returns ticks of v: round speeds in the linear part of the axis, powers of ten below this part.
 std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // below this height the axis is not linear
@@ -96,7 +96,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   const double U = portrait.window.u();
   const auto& [direction, k_star, order] = portrait.plane.tangents.front();
   const std::vector<double> rays = ray_log_ratios(portrait);
-  constexpr double shrinks = 20;  // u falls by this factor
+  constexpr double shrinks = 20;  // u falls by at least this factor within the panel
   const int per_side = drawing.crowd(12);
   constexpr double reach = 3;
   Panel panel;
@@ -134,7 +134,7 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
     }
     return result;
   };
-  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // place of -infinity, below the border
+  const double low = panel.y.low - 2 * (panel.y.high - panel.y.low);  // place of ln k = -infinity, below the border
   const PanelMap map{.place =
                          [low](const Instant& at, const Instant&) {
                            return Point{at.u, std::clamp(at.ln_k, low, 1e300)};

@@ -69,7 +69,7 @@ Panel rays(const reduction::Law& law, double low, double high, std::optional<dou
   panel.x = {math("r = γμ") + sup("2") + math("/χ"), 0, 1.2 * top, false, {}};
   if (drive == 0 && top > 20 * bottom) panel.x = {panel.x.name, 0.5 * bottom, 2 * top, true, {}};
   panel.y = {math("k*"), 1 / ends, ends, true, {}};
-  // Along the curve of attracting rays, r = Phi/(k Psi) grows with k.
+  // Along the curve of attracting rays, r = (Phi - rho)/(k Psi) grows with k.
   Lines attracting{{}, {curve_colour, 2.4}, "attracts"}, repelling{{}, {curve_colour, 1.4, true}, "repels"};
   for (std::size_t begin = 0; begin + 1 < points.size();) {
     const bool grows = points[begin + 1].x > points[begin].x;

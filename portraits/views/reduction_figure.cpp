@@ -73,7 +73,7 @@ Panel collapse(const ReducedOrbits& from) {
   return panel;
 }
 
-/// Fills both panels, whose axes are set, with rays, copies of the orbit of the start, and the action of the symmetry.
+/// Fills plane and strip, whose axes are set, with rays, copies of the start's orbit, and the action of the symmetry.
 Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& title, const AskedSize& size) {
   const Palette colours = palette(false);
   const auto mapped = [&](Polyline line) {

@@ -75,7 +75,7 @@ BetaCourse beta_course(const reduction::Flow& flow, reduction::State start, doub
 
 std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   const PhasePortrait& portrait = drawing.portrait;
-  // At the limit both speeds have long been powers of beta, even if one speed is much smaller at the start.
+  // At `border` both speeds have long been powers of beta, even if one speed is much smaller at the start.
   const reduction::ReducedSystem& system = portrait.system();
   const std::vector<double> ratios = start_ratios(portrait);
   const double slow = std::max(rate_at(system, 1, ratios.back()) / rate_at(system, 1, 0),

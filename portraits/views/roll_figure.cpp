@@ -31,7 +31,7 @@ constexpr PaperSize usual{290, 125};
 
 /// A path that bends by less than this fraction of its length is drawn as straight.
 constexpr double straight = 0.01;
-/// The time axis is logarithmic if spin time divided by slip time is at least this ratio.
+/// The time axis is logarithmic if the last time divided by the time of rolling exceeds this ratio.
 constexpr double long_spin = 6;
 
 void require_columns(const RollCurve& curve) {
@@ -72,7 +72,7 @@ std::pair<double, double> widened(double low, double high, double min_length) {
   return {middle - half, middle + half};
 }
 
-/// Draws both paths, and on each the point from which on the ball rolls. The axes are as long as the paths.
+/// Draws the path of each model and the point from which on the ball rolls. The axes are as long as the paths.
 Panel paths(const RollPicture& picture) {
   constexpr double size = 1.1;
   const double x = picture.ball.x[0], y = picture.ball.y[0];
@@ -92,7 +92,7 @@ Panel paths(const RollPicture& picture) {
                            !is_ball            ? "textbook"
                            : picture.lies_flat ? "this body"
                                                : "this ball"});
-    // The marks of this ball are drawn last, on top.
+    // The marks of picture.ball are drawn last, on top.
     if (curve->rolls > 0) {
       panel.marks.insert(panel.marks.begin(), {{at_time(*curve, curve->rolls)}, stroke.colour, size});
     }
@@ -315,7 +315,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
                                                                  : "this ball, from above",
                                              picture.lies_flat));
       if (!moves) continue;
-      // Mark the current position, and the point from which on the ball rolls. Marks of this ball are drawn on top.
+      // Mark the current position, and the point from which on the ball rolls. Marks of picture.ball are on top.
       Panel& path = frame.panels.front();
       const Polyline& line = path.lines[static_cast<std::size_t>(which)].lines.front();
       Marks rolls{{},

@@ -85,7 +85,7 @@ FilmOrbit::Number FilmOrbit::smaller_speed() const {
 }
 
 std::array<double, 2> FilmOrbit::steps(Number number) const {
-  constexpr double small = 1e-4, least = 1e-3;  // relative steps; errors by truncation and by rounding are both 1e-8
+  constexpr double small = 1e-4, least = 1e-3;  // relative step, least size; truncation and rounding each err by 1e-8
   const double mu = std::exp(at_[ln_mu]), v = std::abs(at_[slip]), w = mu * std::abs(at_[spin]);
   double size = number == drive ? std::max(at_[drive], least) : 1;
   if (number == slip) size = std::max(v, least * w);

@@ -59,7 +59,7 @@ class FilmOrbit {
   Number smaller_speed() const;
   Number larger_speed() const { return smaller_speed() == slip ? spin : slip; }
 
-  /// Two orbits with one number changed. They and this orbit define a parabola, which gives the derivative here.
+  /// Two orbits with one number changed. They and this orbit define a parabola, which gives the derivative at *this.
   struct Beside {
     std::vector<FilmOrbit> orbits;
     double of_here, of_first, of_second;

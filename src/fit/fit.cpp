@@ -22,7 +22,7 @@ namespace {
 bool of_all_tracks(Parameter parameter) { return static_cast<int>(parameter) < shared_parameters; }
 
 /// Replaces a negative slip by a positive one in the opposite direction, if no series shows the slip. If no series
-/// shows the sense of the spin, the spin gets the sense of the ball's spin.
+/// shows the sense of the spin, the spin gets the sense of the spin of request.ball.
 VectorXd with_signs(const FitRequest& request, VectorXd parameters) {
   for (std::size_t i = 0; i < request.tracks.size(); ++i) {
     const auto sees = [&](Observable observable) { return series_of(request.tracks[i], observable) != nullptr; };

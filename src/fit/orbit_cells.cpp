@@ -18,9 +18,9 @@ namespace {
 constexpr double near_axis = 1e-12;  ///< least k, and least 1/k; a start nearer to an axis is moved to this value
 constexpr double at_rest = 1e-12;    ///< share of the speeds at the start below which the body counts as being at rest
 constexpr double first_width = 0.5, min_width = 1e-16;
-constexpr double ray_step = 1e-5;  ///< share of c*; nearer to the ray D is mostly rounding, so F is linear there
-/// Shares of the larger term of D. Above `certainty` the sign of D is certain. Below `constant` k counts as constant.
-/// `rounding` is the error of the terms.
+constexpr double ray_step = 1e-5;  ///< share of c* (orbit_cells.hpp); next to c* D is mostly rounding, so F is linear
+/// Shares of the larger term of D. A |D| above `certainty` has a certain sign. If |D| is below `constant`, k counts as
+/// constant. `rounding` is the error of the terms.
 constexpr double certainty = 1e-9, constant = 1e-10, rounding = 1e-15;
 
 }  // namespace
@@ -30,9 +30,9 @@ struct OrbitCells::Basis {
   using Values = Eigen::Array<double, nodes, 1>;
 
   Values z;
-  Eigen::Matrix<double, nodes + 1, nodes> integral;   ///< values -> powers of z of the integral
-  Eigen::Matrix<double, nodes, nodes + 1> values;     ///< powers of z -> values
-  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< values -> last two Chebyshev coefficients
+  Eigen::Matrix<double, nodes + 1, nodes> integral;   ///< from values to the coefficients of z^i of the integral
+  Eigen::Matrix<double, nodes, nodes + 1> values;     ///< from coefficients of z^i to values
+  Eigen::Matrix<double, 2, nodes> last_coefficients;  ///< from values to the last two Chebyshev coefficients
 
   Basis() {
     for (int j = 0; j < nodes; ++j) {
@@ -101,7 +101,7 @@ double OrbitCells::greatest_drive(const reduction::Law& law, double mu, reductio
 }
 
 OrbitCells::Forces OrbitCells::forces(double k) const {
-  // At k < 0, which a start without slip may have if a ray lies next to it, the force is reversed.
+  // At k < 0, which a start without slip may have if a ray lies next to the start, the force is reversed.
   const auto [size, moment] = law_(reduction::slip_of_ratio(std::abs(k)));
   const double B = inertia_.gamma * mu_ * mu_ * moment;
   return {inertia_.chi * (std::copysign(size, k) - drive_) - B * k, B};
@@ -165,7 +165,7 @@ OrbitCells::Powers OrbitCells::next_powers(double half_width, double& error) con
   add(T_, dT);
   add(slid, dT * mu_ * k * u);
   add(turned, dT * u);
-  // In a cell that is far too wide the exponential underflows.
+  // If a cell is far too wide, exp(ln u) underflows at its end.
   constexpr double steepest = 50;
   const double fall_of_ln_u = -falls.minCoeff(), share = std::min(1.0, 2 * half_width + fall_of_ln_u);
   error = std::max(basis.error(falls), basis.error(dT) / dT.maxCoeff() * share) / (accuracy_ + noise);
@@ -197,7 +197,7 @@ Speeds OrbitCells::speeds_at(double T) const {
   const auto found = std::ranges::lower_bound(cells_, T, {}, &Cell::T_end);
   if (found == cells_.end()) return {0, 0, v_share_ * now_[slid], u_share_ * now_[turned]};
   const auto& [s, half_width, T_end, powers] = *found;
-  // Newton's method, starting at the last result.
+  // Newton's method for z, starting at the last result.
   const auto number = static_cast<std::size_t>(found - cells_.begin());
   double z = number == last_cell_ ? last_z_ : -1;
   for (int i = 0; i < 50; ++i) {

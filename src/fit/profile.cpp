@@ -22,10 +22,10 @@ constexpr double tolerance = 1e-4;
 /// An estimate counts as better if its sum of squares is lower by at least this much.
 constexpr double better_by = 0.01;
 /// A number counts as at a limit if its distance from the limit is below the share `near_limit` of its range. The limit
-/// is the end if the sum of squares would fall beyond the limit by more than the share `telling` of the rise.
+/// alone sets the end if the sum of squares would fall beyond the limit by more than the share `telling` of the rise.
 constexpr double near_limit = 1e-6, telling = 0.1;
 constexpr Index patch_place = 1;
-/// Widest step of a logarithm, and the ratio of the lengths of successive steps.
+/// Widest step of ln f or ln eps, and the ratio of the lengths of successive steps.
 constexpr double widest = 1.2, growth = 1.6;
 /// Largest error of an end, as a share of its distance from the estimate.
 constexpr double sharp = 2e-3;
@@ -60,7 +60,7 @@ void Profile::spread() {
 
 std::vector<VectorXd> Profile::starts_at(const Coordinate& number, double at, const VectorXd& foretold,
                                          std::size_t most) const {
-  // Divide the valley into parts by friction and patch radius. From each part take the nearest point on each side.
+  // Divide the valley by friction and patch radius. From each part take the nearest points below and above `at`.
   struct Nearest {
     const VectorXd* parameters = nullptr;
     double distance = endless;

@@ -14,8 +14,8 @@ namespace contensou::fit {
 /// given amount when all other numbers are fitted anew.
 ///
 /// The search follows the valley of small sums of squares outward from the farthest known point. Then it takes wide
-/// steps to the limits of the model. Minimisations start from the guesses and from all points found before, also along
-/// other numbers. A second valley that is found belongs to the interval.
+/// steps to the limits of the model. Minimisations start from the guesses and from all points found before, also for
+/// the intervals of other numbers. A second valley that is found belongs to the interval.
 class Profile {
  public:
   /// @param search  search in which all standard deviations are set; kept by reference

@@ -125,7 +125,7 @@ void Reporter::set_noise() {
       sizes.push_back(std::abs(residuals_[row]));
     }
     const auto n = static_cast<double>(rows.size());
-    // The standard deviation follows from the median, but is at least the step to which values are rounded.
+    // The deviation follows from the median of `sizes`, but is at least the rounding step or the given deviation.
     constexpr double far = 6;
     const double border =
         far * std::max(sd_by_median(sizes),

@@ -44,7 +44,7 @@ void Reporter::set_ball() {
 void Reporter::set_spreads() {
   const auto number = [&](Parameter parameter) { return fit_.estimate(parameter).value; };
   const bool placed = is_free(TrackModel::place(Parameter::direction)), flat = request_.ball.ball.body.lies_flat();
-  // `start_by` returns derivatives of velocity and angular velocity of the start. The rolling is velocity minus slip.
+  // `start_by` returns derivatives of the velocities at the start by a parameter. The rolling is velocity minus slip.
   const double along = placed ? number(Parameter::direction) : 0;
   const Eigen::Vector2d e(std::cos(along), std::sin(along)), across(-e.y(), e.x()), none = Eigen::Vector2d::Zero();
   const auto start_by = [&](Parameter parameter) -> Eigen::Matrix<double, 5, 1> {

@@ -87,8 +87,8 @@ void Reporter::set_covariance(const MatrixXd& covariance) {
 }
 
 /// C J^T E[e e^T] J C is the covariance of the estimate, with the derivatives J of the residuals, C = (J^T J)^-1, and
-/// errors e that may depend on each other. J changes little from value to value, and therefore J^T E[e e^T] J of a
-/// column is g J^T J with the growth g of the variance of means: n values are worth n/g independent values.
+/// errors e that may depend on each other. J changes little from value to value, and therefore J^T E[e e^T] J of an
+/// observable is g J^T J with the growth g of the variance of means: n values are worth n/g independent values.
 void Reporter::set_dependence() {
   const MatrixXd rows_of_A = derivatives_ * inverse_.root;
   VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1 for each row

@@ -106,7 +106,7 @@ void Reporter::set_rolling_friction_seen() {
   }
   const TrackModel model(request_.ball, request_.law, request_.tracks, accuracy_of_guess, true);
   VectorXd beside = start;
-  constexpr double step = 0.01;  // share of friction; so wide that orbits with accuracy_of_guess suffice
+  constexpr double step = 0.01;  // rolling friction divided by friction; so large that accuracy_of_guess suffices
   double& rolling_friction = beside[TrackModel::place(Parameter::rolling_friction)];
   rolling_friction = step * std::exp(start[0]);
   const VectorXd by_it = (model.values(beside) - model.values(start)).cwiseProduct(search_.weight) / rolling_friction;

@@ -93,8 +93,8 @@ class Search {
   /// Returns the free parameters that lie at a limit beyond which the sum of squares would be lower.
   std::vector<Eigen::Index> pushed_out(const Eigen::VectorXd& parameters) const;
 
-  /// Returns the parameters with the best velocity, position and angle of the body. The model is linear in these, so
-  /// one linear least-squares solution finds them.
+  /// Returns the parameters with the best velocity, position and angle of the body. The model is linear in
+  /// these numbers, so one linear least-squares solution finds them.
   Eigen::VectorXd carried(Eigen::VectorXd parameters) const;
 
   /// Improves the free parameters by Levenberg and Marquardt's method, between their limits.
@@ -108,7 +108,7 @@ class Search {
   /// @return  largest relative change of a standard deviation
   double estimate_noise(const Eigen::VectorXd& parameters);
 
-  /// Returns the parameters that belong to the given ball and, for each track, to its start.
+  /// Returns the parameters that belong to the given ball and, for each track, to the ball's start.
   Eigen::VectorXd given() const;
 
   /// Finds the estimate and sets the unknown standard deviations.

@@ -135,7 +135,7 @@ std::vector<Index> Search::pushed_out(const VectorXd& parameters) const {
 
 VectorXd Search::improved(VectorXd parameters, const Coordinate* held, double tolerance) const {
   if (request.each_search) request.each_search();
-  // If the sum of squares pushes a parameter beyond its limit, the parameter stays there until it is pushed back, while
+  // A parameter that the sum of squares pushes beyond its limit stays at the limit until it is pushed back, while
   // the others are improved. Otherwise steps that a limit cuts off are refused, and shorter steps end the search early.
   constexpr int most_rounds = 5;
   std::vector<Index> kept;

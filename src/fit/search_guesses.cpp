@@ -87,7 +87,7 @@ VectorXd Search::placed(VectorXd parameters) const {
         Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(weights.asDiagonal() * columns).solve(weights.cwiseProduct(right)));
   };
   if (turns) {
-    // In the direction d, friction moves the body by cos(d) times its effect for d = 0 plus sin(d) times that for pi/2.
+    // In the direction d, friction has cos(d) times its effect for d = 0, plus sin(d) times its effect for d = pi/2.
     VectorXd weights = VectorXd::Zero(weight.size());
     for (Observable observable : {Observable::x, Observable::y, Observable::vx, Observable::vy}) {
       for (Index row : rows_of[static_cast<std::size_t>(observable)]) weights[row] = weight[row];

@@ -19,12 +19,12 @@ inline double student_share(double t, double n) {
   return 2 / std::numbers::pi * (angle + (n > 1 ? sine * std::cos(angle) * sum : 0));
 }
 
-/// Returns t such that 95 % of Student's distribution lie between -t and t, to 1e-12. A test compares it with Boost's
+/// Returns t such that 95 % of Student's distribution lie between -t and t, to 1e-12. A test compares t with Boost's
 /// distribution, which would make up a twentieth of the page of `contensou explore`.
 /// @param n  degrees of freedom, a whole number >= 1
 inline double student_quantile(double n) {
   const double peak = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2)) / std::sqrt(n * std::numbers::pi);
-  // Newton's method from below: the share is concave, and the normal quantile is smaller.
+  // Newton's method from below: the share is concave, and the normal quantile is smaller than t.
   double t = normal_quantile;
   for (double step = t; step > 1e-13 * t; t += step) {
     step = (0.95 - student_share(t, n)) / (2 * peak * std::pow(1 + t * t / n, -(n + 1) / 2));

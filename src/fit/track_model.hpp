@@ -63,7 +63,7 @@ class TrackModel {
   Eigen::VectorXd limited(Eigen::VectorXd parameters) const;
 
  private:
-  /// Returns the orbit of track i up to its last instant. It is kept for calls with the same numbers.
+  /// Returns the orbit of track i up to its last instant. The orbit is kept for calls with the same numbers.
   const FilmOrbit& orbit_of(std::size_t i, const Eigen::VectorXd& parameters) const;
 
   FilmOrbit::Numbers orbit_numbers(std::size_t i, const Eigen::VectorXd& parameters) const;

@@ -22,7 +22,7 @@ constexpr double no_preference = 4;
 /// with 150 turns per second, one of the fastest, has 19 m/s.
 constexpr double fastest_spin = 20;
 
-/// Two successive measured values: the time between them, s, and the growth of the angle, rad, up to whole turns.
+/// Two successive measured angles: the time between them, s, and the growth of the angle, rad, up to whole turns.
 struct Step {
   double time, growth;
 };
@@ -43,7 +43,7 @@ double usual_time(const std::vector<Step>& steps) {
   return median(std::move(times));
 }
 
-/// Returns the rate, rad/s, at which the angle grows in the first steps of usual length, at most half a turn each.
+/// Returns the rate, rad/s, at which the angle grows in the first steps of usual duration, at most half a turn each.
 double slow_rate(const std::vector<Step>& steps, double usual) {
   constexpr int most = 10;
   std::complex<double> sum = 0;

@@ -14,7 +14,7 @@
 #include "contensou/si/scaling.hpp"
 
 // Let F = f N Phi be the force and M = c N Psi the moment under the load N. The motion under a cone is then that of
-// (2.6) for a patch of radius c/f with Psi(0) = 1, in the time s = chi f g t:
+// (2.6) in reduction/README.md for a patch of radius c/f with Psi(0) = 1, in the time s = chi f g t:
 //     dv/ds = -Phi,   dw/ds = -r Psi,   w = mu |u|,   mu = c/(f R),   r = gamma mu^2/chi,   k = v/w = f v/(c |omega|),
 //
 // The friction is the pair (Phi, Psi) of the cone for which Phi v + Psi w, the power divided by f N, is largest.
@@ -23,12 +23,12 @@
 //
 // Box, Phi <= 1, Psi <= 1. The maximum is always the corner (1, 1): in s, the slip ends after v0, the spin after w0/r.
 //
-// Pyramid, Phi + Psi <= 1. A linear function is largest at a corner. For k > 1 this is (1, 0): the ball slides and its
+// Pyramid, Phi + Psi <= 1. A linear function is largest at a corner. For k > 1 it is (1, 0): the ball slides and its
 // spin is constant. For k < 1 it is (0, 1): the ball spins and its slip is constant. Both motions move k to 1. At k = 1
 // every point of the edge has the same power, and only Phi = r Psi = r/(1 + r) keeps k = 1: v and w fall together, v =
 // (c/f) |omega|, until both are 0. A ball that starts with k > 1 therefore slides until v = w0. Its slip is then (c/f)
-// |omega| until the spin ends, and the ball does not roll before. On the ray k = 1, dv/ds = -r/(1 + r). From v = w the
-// stop takes the time v (1 + r)/r = v + w/r; in tau this is S(v) + P(u), the sum of the times of pure sliding and pure
+// |omega| until the spin ends, and the ball does not roll before. On the ray k = 1, dv/ds = -r/(1 + r). From v = w on,
+// the motion lasts v (1 + r)/r = v + w/r; in tau this is S(v) + P(u), the sum of the times of pure sliding and pure
 // pivoting. This sum is the stop time from any start. Under the box the stop time is the larger of the two times. In s
 // the sum is
 //     s - s0 = v0 + w0/r
@@ -121,7 +121,7 @@ FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm)
   const reduction::Law law =
       cone == Cone::points ? *reduction::find_law("ring") : reduction::Law(reduction::EllipticLaw(1));
   const ReducedSystem system(law, mu > 0 ? mu : 1,
-                             experiment.ball.body.inertia);  // for mu = 0 any system will do: its sliding alone is used
+                             experiment.ball.body.inertia);  // for mu = 0 any mu will do: only sliding is used
   if (mu > 0 && is_law) return fade_times(experiment, Motion::reduced(experiment, reduction::Flow(system)));
   if (mu > 0 && cone == Cone::pyramid) {
     const PyramidMotion motion(experiment, mu);

@@ -16,7 +16,7 @@ namespace {
 
 using Way = Ways::value_type;
 
-/// Returns the names in one text. If all names have one section, it follows them once; else it follows each name.
+/// Returns the names in one text. A section that all names have follows them once; else each name has its section.
 std::string joined(const std::vector<Source>& sources) {
   const bool together =
       std::ranges::all_of(sources, [&](const Source& source) { return source.section == sources.front().section; });

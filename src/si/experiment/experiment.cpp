@@ -131,7 +131,7 @@ Experiment without_spin(Experiment experiment) {
 Eigen::Vector2d slip_velocity_at_start(const Experiment& experiment) {
   const auto [centre, body] = velocities_of(experiment.start);
   const double R = experiment.ball.radius;
-  // A sum that is only the rounding of its terms becomes 0. A ball that a user gives pure rolling therefore rolls.
+  // A sum that is only the rounding of its terms becomes 0. Velocities of pure rolling therefore have the slip 0.
   const auto sum = [](double a, double b) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     return std::abs(a + b) <= rounding * std::abs(a) ? 0 : a + b;

@@ -44,7 +44,7 @@ double LoadHistory::time_of(double clock) const {
   const bool last = after == clock_.end();
   if (last) return load_.back() > 0 ? t_.back() + missing / load_.back() : std::numeric_limits<double>::infinity();
   const double slope = (load_[i + 1] - load_[i]) / (t_[i + 1] - t_[i]);
-  // The time passed is the smaller solution of load passed + slope passed^2/2 = missing, without cancellation.
+  // The time passed is the smaller solution of load passed + (dload/dt) passed^2/2 = missing, without cancellation.
   const double root = std::sqrt(std::max(0.0, load_[i] * load_[i] + 2 * slope * missing));
   return std::min(t_[i + 1], t_[i] + 2 * missing / (load_[i] + root));
 }

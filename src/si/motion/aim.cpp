@@ -202,7 +202,7 @@ Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& fl
         "aim finds where a ball begins to roll only without rolling friction; --rolling-friction 0 leaves it out");
   }
   reduction::require_monotone(flow.system().law());
-  // Returns the speed that the slip of the start gives to the centre.
+  // Returns the speed that the centre loses from the start to the final rolling.
   const Shots shots(experiment, flow);
   const auto added = [&](const Motion& motion, double slip) { return slip - motion.final_motion().velocity.x(); };
   const auto too_far = [&](double slip) {

@@ -94,8 +94,8 @@ std::optional<VectorXd> EventNumbers::slopes(const Component& by) const {
   const Eigen::Vector2d rolls = velocities_of(experiment_.start).angular_velocity.head<2>();
   const double slip_speed = slip_at_start(experiment_), at = value(by);
   // Steps must not cross points at which the numbers have no derivative. Such points are the value 0 of a component,
-  // the slip 0, because the slip is the length of a vector, and, for all components that change the slip, the threshold
-  // of rolling.
+  // the slip 0, because the slip is the length of a vector, and the threshold of rolling for all components that change
+  // the slip.
   constexpr double share = 1e-3, reach = 2.5 * share;
   const double beyond = std::abs(slip_speed - (experiment_.ball.body.lies_flat() ? 0 : rolling_below_.value_or(0)));
   const double free = std::min(slip_speed, beyond / reach);

@@ -4,8 +4,8 @@
 // Psi sign(omega_z) about the vertical:
 //   m V' = F,   J omega_x' = R F_y,  J omega_y' = -R F_x,  J_z omega_z' = M                  (2.5)
 // with R^2/J = (chi - 1)/m and J_z = m R^2/gamma. For a ball J = J_z = (2/5) m R^2; for a body that lies flat 1/J is 0.
-// Units of the integration: R omega has a speed scale, t a time scale T, and the position their product. The slip
-// length is in units of the slip length without spin.
+// Units of the integration: R omega is divided by a speed scale, t by a time scale T, the position by their product.
+// The slip length is divided by the slip length without spin.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ namespace odeint = boost::numeric::odeint;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// ln(v/scale), alpha, ln(R|omega_z|/scale), R omega_x/scale, R omega_y/scale, x, y, slip length, spin angle R/length
+// ln(v/scale), alpha, ln(R|omega_z|/scale), R omega_x/scale, R omega_y/scale, x, y, slip length, R spin angle
 using Values = std::array<double, 9>;
 // Fehlberg 7(8) is unsuitable. Its error estimate compares the two ends of a step and vanishes for a quadrature; the
 // position and the horizontal spin are quadratures.
@@ -49,7 +49,7 @@ struct Ballistics {
   double J_z;
   double normal_friction;  ///< f N/m
   double eps;
-  double turn;     ///< sign of omega_z
+  double turn;     ///< 1 or -1: sign of omega_z
   Vector2d along;  ///< e at the start, from which alpha is measured
   double speed_scale;
   double time_scale;
@@ -105,7 +105,7 @@ struct Ballistics {
   double spin_time_left(double omega) const { return omega * J_z / (normal_friction * eps * law.pivoting_moment()); }
 };
 
-/// The end of a motion in which force or moment alone acts. The speed falls linearly in time.
+/// The end of a motion in which force or moment alone acts. The slip or the spin then falls linearly in time.
 class Tail {
  public:
   /// @param start  time of `from`, s

@@ -78,7 +78,7 @@ class Loaded final : public Motion::Solution {
   SolvedMotion motion_;
   LoadHistory load_;
   double end_ = 0;
-  std::vector<double> edges_;  ///< times from 0 to the end at which the load has a corner, s
+  std::vector<double> edges_;  ///< times before the end at which the load has a corner, and the end, s
   std::vector<double> slid_, turned_;
 };
 

@@ -27,7 +27,7 @@ double require_speed(const char* function, double speed) {
   throw std::domain_error(fmt::format("Motion::{}: speed >= 0 is required, got {}", function, speed));
 }
 
-/// Returns the time at which a value that falls until `last` reaches `to` > 0.
+/// Returns the time at which a value that falls until the time `last` reaches `to` > 0.
 double time_of_fall(const std::function<double(double)>& value, double to, double last) {
   return value(0) <= to ? 0 : reduction::root_between([&](double t) { return value(t) - to; }, 0, last);
 }

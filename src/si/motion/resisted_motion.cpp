@@ -168,7 +168,7 @@ class Resisted : public Motion::Solution {
 
  protected:
   Given body_;
-  /// Times up to the stop, s, increasing; between two successive ones the slip has at most one maximum.
+  /// Times up to the stop, s, increasing; between two successive times the slip has at most one maximum.
   std::vector<double> knots_;
   double stop_ = 0, rest_ = 0;
 };
@@ -194,7 +194,7 @@ class Straight final : public Resisted {
       pieces_.push_back({t, here, {t * body_.tau_per_second, turning, driven, speeds, driven.orbit(speeds)}});
       const Piece& piece = pieces_.back();
       const double stop = t + seconds(experiment, piece.of.orbit.stop_time());
-      // After a ball has begun to turn, it does not stop turning before slip and spin end (R55).
+      // After a ball has begun to turn, it turns until slip and spin end (R55).
       const bool goes_on = turning && pieces_.size() > 1;
       const std::optional<double> changes = goes_on   ? std::nullopt
                                             : turning ? ceases_to_turn(piece, stop)
@@ -293,7 +293,7 @@ class Straight final : public Resisted {
   std::optional<double> ceases_to_turn(const Piece& piece, double stop) const {
     if (body_.resisting == 0) return std::nullopt;
     const auto turning = [&](double t) { return state(t).rolling.dot(along_); };
-    // In each of these intervals the rate of turning only grows or only falls.
+    // Before passes_holding(), and from then to the stop, the rate of turning only grows or only falls.
     constexpr double first = 1e-9;
     double from = piece.start.rolling.norm() > 0 ? piece.t : piece.t + first * (stop - piece.t);
     for (const double to : {passes_holding(piece).value_or(from), stop}) {
@@ -321,7 +321,7 @@ class Straight final : public Resisted {
   std::optional<double> creep_ratio_;
 };
 
-/// The integrated c, W, w, position, slip length, turned, path, rolled, divided by scales of the start.
+/// The integrated c, W, w, m/s; position and slip length, m; angle turned, rad; path and rolled length, m.
 using Progress = std::array<double, 11>;
 
 /// The motion of any ball, integrated in steps.
@@ -395,7 +395,7 @@ class Integrated final : public Resisted {
     knots_.push_back(step.t);
   }
 
-  /// Returns the time, s, after which v + w would be 0 at its present rate of change; infinity if v + w grows.
+  /// Returns the time, s, after which v + w would be 0 at the present rate of change; infinity if v + w grows.
   double time_to_stop(const Step& step) const {
     Progress rate;
     equations(step.x, rate, step);
@@ -451,7 +451,7 @@ class Integrated final : public Resisted {
     constexpr double tolerance = 1e-13, slip_tolerance = 1e-15;
     constexpr double nothing = 1e-9;  // share of the speeds at the start
     constexpr double soon = 1e-6;     // share of size/(f g), the time in which friction would end the speeds
-    constexpr double slow = 3e-4;     // share of the rolling speed
+    constexpr double slow = 3e-4;     // share of the rolling speed below which a slip is slow
     constexpr long step_limit = 2'000'000;
     Step now{0, progress_of(start)};
     Progress& x = now.x;

@@ -98,12 +98,12 @@ class Uncoupled final : public Motion::Solution {
   double way() const { return speed_ * speed_ / (2 * slowing_); }
   Vector2d direction() const { return speed_ > 0 ? Vector2d(rolls_->velocity / speed_) : Vector2d(0, 0); }
 
-  /// Returns the state with rolling friction, computed from the state without it.
+  /// Returns the state with rolling friction, computed from the state without rolling friction.
   MotionPoint slowed(MotionPoint point) const {
     const double whole = speed_ / slowing_, braked = std::min(point.t - rolls_->t, whole);
     const double speed = braked < whole ? speed_ - slowing_ * braked : 0;
     const double rolling = turning_ == slowing_ ? speed : std::max(0.0, speed_ - turning_ * braked);
-    const Vector2d still = Vector2d::Zero();  // adding 0 avoids -0
+    const Vector2d still = Vector2d::Zero();  // adding it avoids -0
     const Vector2d rim = rolling * direction() + still;
     point.position = rolls_->position + (speed_ + speed) / 2 * braked * direction();
     point.velocity = speed * direction() + still;

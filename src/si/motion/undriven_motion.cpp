@@ -36,7 +36,7 @@ class OneOrbit final : public Motion::Solution {
   std::vector<ReducedPiece> pieces() const override { return {{0, true, flow_, reduced_start(experiment), orbit_}}; }
 
   double path_length(double t) const override {
-    // V is a linear function of the slip (motion_by_slip). The speed may have a kink at its minimum.
+    // V is a linear function of the slip (motion_by_slip). The speed |V| may have a kink at its minimum.
     const double v0 = slip_at_start(experiment);
     const double spin = spin_at_start(experiment);
     const auto velocity = [&](double v) { return motion_by_slip(experiment, 0, v, 0, spin).velocity; };
@@ -46,7 +46,7 @@ class OneOrbit final : public Motion::Solution {
     const double slowest = change.squaredNorm() > 0 ? -last.dot(change) / change.squaredNorm() * v0 : 0;
     constexpr double straight = 1e-12;
     if (std::abs(last.x() * change.y() - last.y() * change.x()) <= straight * last.norm() * change.norm()) {
-      // The centre moves forth, and perhaps back from a turning point.
+      // The centre moves along a straight line: forth, and perhaps back from a turning point.
       const Eigen::Vector2d there = at(slowest > 0 && slowest < v0 ? std::min(slip_time(slowest), t) : 0).position;
       return there.norm() + (at(t).position - there).norm();
     }

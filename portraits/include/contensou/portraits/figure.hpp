@@ -22,7 +22,7 @@ struct Colour {
   unsigned rgb = 0;
 };
 
-/// The look of a line; its width is in points.
+/// The look of a line. The unit of the width is line_width of layout.hpp, about half a point.
 struct Stroke {
   Colour colour;
   double width = 1;

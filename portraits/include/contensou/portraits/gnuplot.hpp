@@ -33,8 +33,8 @@ std::string gnuplot_script(const Figure& figure);
 /// Returns the figure as the bytes of a file in a format other than gif. The same figure gives the same bytes.
 ///
 /// gp and tex need no gnuplot. For other formats gnuplot is found on PATH and runs once, without ~/.gnuplot, for at
-/// most 300 s. gnuplot ends if this program ends. Its input and output stay in memory. If it draws the figure and also
-/// writes a text to its standard error, this text goes to std::cerr.
+/// most 300 s. gnuplot ends if this program ends. Its input and output stay in memory. If gnuplot draws the figure and
+/// also writes a text to its standard error, this text goes to std::cerr.
 ///
 /// @return  a complete file of the format; an SVG contains all plots of the figure
 /// @throws GnuplotError       if gnuplot is not found, fails, takes longer, or draws no whole file

@@ -133,7 +133,7 @@ struct PortraitRequest {
   bool linear = false;
   /// True: compute only the data that the view draws. Views without the window get no orbits and isochrones.
   bool drawn_only = false;
-  double time_unit = 1;  ///< tau of a time unit; isochrones are at round multiples of it
+  double time_unit = 1;  ///< number of tau in one time unit; isochrones are at round multiples of it
 };
 
 /// Computes a portrait.

@@ -26,7 +26,7 @@ struct PortraitCaption {
 struct PortraitStyle {
   enum class Arrows { time, one, none } arrows = Arrows::time;  ///< heads: at equal times, one on each orbit, or none
   enum class Field { none, motion, regularised } field = Field::none;  ///< needles: none, of (2.6) or of (2.7)
-  bool invariant = true;       ///< draw the axes and the invariant ray; they are the nullclines
+  bool invariant = true;       ///< draw the axes and the invariant rays, on which k is constant
   bool colour_by_time = true;  ///< colour orbits by the time left, unless two laws are compared
   bool asked = true;      ///< true: draw the highlighted orbit and the orbits through the requested points; false: the
                           ///< caller draws these orbits

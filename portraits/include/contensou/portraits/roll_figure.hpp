@@ -53,8 +53,8 @@ struct FilmPace {
 /// @param asked  number of frames; it replaces this rule
 FilmPace film_pace(double end, std::optional<Eigen::Index> asked = {});
 
-/// Draws the frames of a film, one for each row of the columns. A frame shows the path and the speeds so far, and both
-/// balls from above with marks that turn, with the words slide or roll.
+/// Draws the frames of a film, one for each row of the columns. A frame shows the path and the speeds so far, and the
+/// balls of both models from above, with marks that turn and with the word slides or rolls.
 ///
 /// @throws std::domain_error  as roll_figure, and for columns without angular velocities
 std::vector<Figure> roll_film(const RollPicture& picture);

@@ -28,7 +28,7 @@ struct StopTimeMap {
 
 /// Computes the map. Isochrones are computed from the flow, not from the values of the map.
 ///
-/// @param time_unit  unit in tau; isochrones are at round multiples of it
+/// @param time_unit  unit of time, in tau; isochrones are at round multiples of it
 /// @throws std::domain_error  if an axis is not as MapAxes requires, values are outside 1e-100 to 1e100, or a stop time
 ///                            overflows
 StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, double time_unit = 1);

@@ -94,7 +94,7 @@ struct Noise {
   double rms;                     ///< root mean square of the residuals, SI units
   double sd;                      ///< root mean square of the standard deviations that the weights imply
   bool estimated;                 ///< true if sd is estimated from the residuals
-  std::vector<Outlier> outliers;  ///< values with residuals above 6 standard deviations, by the median of the residuals
+  std::vector<Outlier> outliers;  ///< values whose residual exceeds 6 standard deviations (from the median residual)
 };
 
 /// The only combination f^a eps^b that the data determine, f friction, eps patch radius: f, eps, f eps or f/eps.
@@ -111,7 +111,7 @@ struct Combination {
 
 /// Possible errors of an angle by whole turns.
 struct Turns {
-  /// Spin, rad/s, at which a mark turns by half a turn between two pictures. Above it, turns are found by trial.
+  /// Spin, rad/s, at which a mark turns by half a turn between two pictures. At faster spins turns are found by trial.
   /// Infinite if the film shows no angle, or if it shows the spin.
   double half_turn_spin = INFINITY;
   std::vector<double> other_spins = {};  ///< spins at the start that fit the data equally well
@@ -127,7 +127,7 @@ struct OtherMotion {
 /// Rolling friction that is not free but would make the fit far better, estimated by one step from a fit without it.
 struct RollingFrictionSeen {
   double value, standard_error;
-  double friction;   ///< coefficient of sliding friction together with it
+  double friction;   ///< coefficient of sliding friction in the fit with this rolling friction
   double chi2_less;  ///< decrease of the sum of squares
 };
 
@@ -168,7 +168,7 @@ struct Fit {
 /// Finds the motion of the highest likelihood for independent normal errors, by weighted least squares.
 ///
 /// The starts of the search are guessed from the data. Unknown standard deviations of a series are estimated from its
-/// residuals. The model is the orbit, to 1e-9 of its speeds. The velocity of a body that lies flat is its slip, so no
+/// residuals. The model is accurate to 1e-9 of the speeds. The velocity of a body that lies flat is its slip, so no
 /// other velocity is free. A ball with rolling friction, given or free, must roll in the direction in which it slides,
 /// or not roll at first.
 ///

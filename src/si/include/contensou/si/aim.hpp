@@ -46,7 +46,7 @@ struct RollingGoal {
 ///
 /// @param flow  flow of undriven_system(experiment, law)
 /// @throws std::domain_error  if a demand is out of its range; for a body that lies flat, rolling friction or a
-///                            slope; if doubles miss the place by more than 1e-6 of it; as require_monotone
+///                            slope; if doubles miss the place by more than a share of 1e-6; as require_monotone
 Velocities aimed_to_roll(const Experiment& experiment, const reduction::Flow& flow, const RollingGoal& goal);
 
 /// Returns the level stroke of a standard cue that gives a ball this start along x: struck(ball, stroke) returns the

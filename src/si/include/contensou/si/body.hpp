@@ -15,7 +15,7 @@ struct Body {
   reduction::Inertia inertia = reduction::homogeneous_ball;
   std::optional<double> patch_ratio{};  ///< patch radius/R if the body fixes it: a puck rests on its whole face
   bool rolls_on_a_small_patch = true;   ///< true: a ball, whose mu = patch radius/R must be at most 1
-  std::string_view law = "exact";       ///< name of the friction law that follows from its pressure
+  std::string_view law = "exact";       ///< name of the friction law that follows from the body's pressure
   std::optional<double> factor = {};    ///< moment of inertia divided by m R^2, if given (with_factor)
 
   /// Returns true if the body turns about the vertical only, and never rolls.

@@ -25,7 +25,7 @@ inline constexpr double faded = 1e-3;
 
 /// Times and lengths until slip and spin end.
 struct FadeTimes {
-  double slip;         ///< time until the slip has fallen to `faded` of its start, s; 0 without slip
+  double slip;         ///< time until the slip has fallen to `faded` of its value at the start, s; 0 without slip
   double spin;         ///< time until the spin has fallen to this share, s; infinity for never
   double slip_length;  ///< length that the contact point slides until the stop, m; for a body that lies flat, the path
   double turns;        ///< turns about the vertical until the stop; infinity for never
@@ -41,7 +41,7 @@ FadeTimes fade_times(const Experiment& experiment, const reduction::Law& law);
 /// @throws std::domain_error  as require_experiment, or if moment_arm is negative or not a finite number
 FadeTimes fade_times(const Experiment& experiment, Cone cone, double moment_arm);
 
-/// Returns slip and spin at a time under Cone::pyramid. One of them falls alone until v = c/f |omega|; then both fall.
+/// Returns slip v and spin omega under Cone::pyramid. One of them falls alone until v = c/f |omega|; then both fall.
 ///
 /// @param moment_arm  c in m, > 0
 /// @param t           time, s, >= 0

@@ -14,7 +14,7 @@
 
 namespace contensou::si {
 
-/// The place at which a value of an experiment was given. Messages quote it.
+/// The place at which a value of an experiment was given. Messages quote this place.
 struct Source {
   std::string place;    ///< FILE:LINE:COLUMN; empty outside of files
   std::string name;     ///< name of the value at this place, such as 'mass' in quotes, or --mass

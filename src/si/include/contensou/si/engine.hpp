@@ -19,11 +19,11 @@ struct EngineContact {
   double moment_arm() const { return friction * patch_radius * pivoting_moment; }
 };
 
-/// Returns these values for an experiment.
+/// Returns the EngineContact of an experiment.
 /// @throws std::domain_error  as patch_radius_of
 EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
 
-/// A number of an engine in SI units: factor times f, a and Psi(0), each only if it is set to true, times a power of R.
+/// A number of an engine in SI units: factor times f, a and Psi(0), each only if its flag is true, times a power of R.
 struct EngineNumber {
   double factor = 1;
   bool f = false, a = false, psi = false;
@@ -42,7 +42,7 @@ struct EngineParameter {
   EngineNumber value;
 };
 
-/// One way to set up an engine, and the limit of the contact that results.
+/// One way to set up an engine, and the resulting limit of its contact.
 struct EngineSetting {
   std::string_view words;
   Cone cone;
@@ -66,7 +66,7 @@ struct Engine {
   std::string_view repository;  ///< repository on github.com
   std::string_view version;     ///< version whose source was read
   EngineUse ball;
-  EngineUse face;                ///< use for a body that lies flat; no settings if there is none or none was read
+  EngineUse face;                ///< use for a body that lies flat; no settings if no such use exists or was read
   std::string_view combination;  ///< rule by which the numbers of two bodies are combined
   std::vector<std::string_view> remarks;  ///< known problems
   std::vector<std::string_view> sources;  ///< FILE:LINES

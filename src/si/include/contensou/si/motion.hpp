@@ -66,9 +66,9 @@ inline constexpr double resting_slip = 1e-4;
 ///
 /// Friction determines slip and spin. Everything else follows from first integrals (motion_by_slip). Rolling resistance
 /// is a torque chi J u_r g/R (J: moment of inertia) against turning about a horizontal axis; for a homogeneous ball
-/// (7/5) u_r m g R. Under it a ball that rolls without slip slows down at u_r g. The torque also acts while the ball
-/// slides, and up to its size it keeps a ball that does not turn from turning. On a slope of the angle alpha, g
-/// cos(alpha) presses and g sin(alpha) pulls. After slip and spin the ball rolls on or rests, in closed form (R56).
+/// (7/5) u_r m g R. Under it a ball that rolls without slip slows down at u_r g. The torque also acts on a sliding
+/// ball, and up to its size it prevents the start of turning. On a slope of the angle alpha, g cos(alpha) presses and g
+/// sin(alpha) pulls. After slip and spin the ball rolls on or rests, in closed form (reduction/README.md, (R56)).
 ///
 /// A motion never changes. Copies, also in several threads, share its solution.
 class Motion {

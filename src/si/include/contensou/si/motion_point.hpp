@@ -51,7 +51,7 @@ Velocities final_motion(const Experiment& experiment);
 /// Returns the state of a motion at a time, computed from slip, slip length and spin about the vertical.
 ///
 /// The slip keeps its direction e, and omega keeps its component along e. The velocity of the centre along e falls by
-/// 1/chi of the lost slip (homogeneous ball: 2/7). The rest of the lost slip changes R omega across e (V. F. Zhuravlev,
+/// 1/chi of the lost slip (homogeneous ball: 2/7). The remainder of it changes R omega across e (V. F. Zhuravlev,
 /// 1998, after (2.5)). The result: velocity V = V0 - (v0 - v) e/chi, place X = V0 t - (v0 t - slip_length) e/chi.
 ///
 /// @param t            time, s

@@ -45,7 +45,7 @@ Eigen::Vector2d direction_at_start(const Experiment& experiment);
 bool is_driven(const Experiment& experiment);
 
 /// Returns the drive rho of the motion from the start while the ball turns.
-/// @throws std::domain_error  if the motion is not one orbit of a reduced system: it slides up or across the slope, or
+/// @throws std::domain_error  if the motion is not one reduced orbit: the ball slides up or across the slope, or
 ///                            not in the direction of rolling, so that the slip turns; as require_stop. The message
 ///                            contains the reason
 double drive_of(const Experiment& experiment);

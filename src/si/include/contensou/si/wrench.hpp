@@ -39,9 +39,9 @@ struct Wrench {
 /// 1e-6 next to the kink of ring and similar laws.
 ///
 /// A body at rest under a force creeps. Under a tangential load T < f N alone, its speed is
-/// under a moment Q < f N eps Psi(0) alone it is eps |omega| = s/k, where Psi(k) = Q/(f N eps); for small Q this is s
-/// Q/(K f N eps). At speeds above s the effect of s is of the order of s^2 divided by the square of the larger speed.
-/// At speeds above s the effect of s is of the order of s^2 divided by the larger speed squared.
+///   |v| = s T/sqrt((f N)^2 - T^2).
+/// Under a moment Q < f N eps Psi(0) alone, eps |omega| = s/k with Psi(k) = Q/(f N eps); for small Q, s Q/(K f N eps).
+/// At speeds above s the effect of s is of the order of s^2 divided by the square of the larger speed.
 ///
 /// A stepper with one Newton step per time step dt needs s >= a dt/2, where a is the deceleration by friction alone
 /// (for a ball 7/2 f g). For a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
