@@ -16,7 +16,7 @@ string(REPLACE "@VERSION@" "${VERSION}" html "${html}")
 file(READ ${ROOT}/LICENSE licence)
 file(READ ${ROOT}/.github/THIRD_PARTY.txt others)
 string(REGEX REPLACE "=+\nBSD-3-Clause\n=.*" "" others "${others}")
-string(APPEND html "<!--\n${licence}\n${others}-->\n")
+string(REPLACE "</html>\n" "<!--\n${licence}\n${others}-->\n</html>\n" html "${html}")
 file(WRITE ${PAGE} "${html}")
 
 file(WRITE ${EMBEDDED} "#include \"embedded_page.hpp\"\n

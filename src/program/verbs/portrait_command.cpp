@@ -282,7 +282,7 @@ class PortraitCommand final : public Verb {
     view_ = &looks_.back();
     add("--scale", "SCALE",
         "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). With bent, "
-        "a shaded part shows a power of v, so that orbits end as straight lines",
+        "a shaded part shows a power of v, so that orbits end straight",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
