@@ -1,5 +1,5 @@
-// The functions of the library that the page calls from JavaScript. An error of the library becomes an Error with its
-// message. Columns are Float64Array.
+// The functions of the library that the page calls from JavaScript. An error of the library becomes an Error with the
+// same message. Columns are Float64Array.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
-/// Prefix of a law's name that contains a pressure table of the reader, a CSV.
+/// Prefix of the name of a law by a pressure table of the reader. The rest of this name is the table as CSV.
 constexpr std::string_view table_of_pressure = "table:";
 
 Law law_of(const std::string& name) {
@@ -133,7 +133,7 @@ answers::PortraitSpec question_of(const val& asked, const Flow& flow) {
   return question;
 }
 
-/// The plane that the page shows. If choose() rejects new values, the last valid plane stays.
+/// The phase plane that the page shows. If choose() rejects new values, the last valid plane stays.
 class Plane {
  public:
   /// Sets the law, patch, body and the drive of a slope or of rolling friction. Returns the limit of k and its meaning.
@@ -146,7 +146,7 @@ class Plane {
   }
 
   /// Draws the portrait that the program draws for a request, but without the requested orbits, which the page draws.
-  /// The result contains their motions from start to stop and, for each panel, the line and the place of its arrow.
+  /// The result contains the motion of each requested orbit from start to stop and, for each panel, its line and arrow.
   /// @param behind  true to draw everything behind these orbits again; false if nothing but these orbits has changed
   val portrait(const val& asked, bool behind) {
     answers::PortraitSpec question = question_of(asked, flow());
@@ -207,7 +207,7 @@ class Plane {
     return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
   }
 
-  /// Returns a state of the motion from a start, the friction as a fraction of f N, and the place in each panel.
+  /// Returns the state at tau of the motion from (u, v), the friction divided by f N, and the place in each panel.
   val instant(double u, double v, double tau) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const auto point = orbit.at_time(tau);
@@ -234,9 +234,9 @@ class Plane {
                                                                        : val::null();
   }
 
-  /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, its change of
-  /// direction in degrees, and the time at which slip and spin end. A ball ceases to slide when its slip has fallen to
-  /// `least` m/s, a body that lies flat when it stops.
+  /// Returns the time in s at which a body ceases to slide, the path of its centre until then in m, the change of
+  /// direction of this path in degrees, and the time at which slip and spin end. A ball ceases to slide when its slip
+  /// has fallen to `least` m/s, a body that lies flat when it stops.
   /// @param fields  fields, see ride
   val slide(const val& fields, double rolling_friction, double least) const {
     const si::Motion motion = motion_of(fields, rolling_friction);
@@ -253,7 +253,7 @@ class Plane {
 
   /// Returns the motion over the table until `end` in s, in the columns of `contensou roll`. The times are dense at the
   /// beginning. If a ball with rolling friction or on a slope comes to rest, {t, x, y} of the rest is included.
-  /// @param fields  a ball; its patch is the patch of the plane
+  /// @param fields  a ball; its patch is the patch of the phase plane
   val ride(const val& fields, double rolling_friction, double end) const {
     const si::Motion moves = motion_of(fields, rolling_friction);
     constexpr Eigen::Index pieces = 160;
@@ -267,7 +267,7 @@ class Plane {
     return result;
   }
 
-  /// Returns the lines of all states with one stop time, for each panel, and for u > 0 and u < 0.
+  /// Returns the isochrone, the curve of all states with one stop time, in each panel, for u > 0 and for u < 0.
   val isochrone(double tau) const {
     std::vector<State> states;
     const auto add = [&](State direction) {
@@ -314,7 +314,7 @@ class Plane {
   }
   const ReducedSystem& system() const { return flow().system(); }
 
-  /// Returns the motion of a ball with the plane's body.
+  /// Returns the motion of a ball with the body for which the phase plane was chosen.
   si::Motion motion_of(const val& fields, double rolling_friction) const {
     si::Experiment experiment = experiment_of(fields);
     experiment.ball.body.inertia = system().inertia();
@@ -445,7 +445,7 @@ val catalogue() {
   });
 }
 
-/// Returns the reason why the plane cannot show the motion with its rolling friction; empty if it can. Rolling friction
+/// Returns the reason why the phase plane cannot show a motion with rolling friction; empty if it can. Rolling friction
 /// may turn the slip, or prevent the ball from turning at first.
 std::string without_rolling_friction(const si::Experiment& experiment, const Law& law) {
   const double u_r = experiment.contact.rolling_friction;
@@ -460,7 +460,7 @@ std::string without_rolling_friction(const si::Experiment& experiment, const Law
   }
 }
 
-/// Returns the data of the plane for a ball. The drive includes slope and rolling friction, or `without` says why not.
+/// Returns a ball's phase plane as data. Its drive has slope and rolling friction, or `without` says why slope only.
 val contact(const std::string& law, const val& fields) {
   si::Experiment experiment = experiment_of(fields);
   const std::string without = without_rolling_friction(experiment, law_of(law));

@@ -11,7 +11,7 @@ int open_to_write(const char* path);
 int duplicate(int file);
 
 /// Creates and opens a file that no other user can read.
-/// @param name  path that ends in XXXXXX; unique characters replace them before the file exists
+/// @param name  path that ends in XXXXXX; unique characters replace these six before the file exists
 int create_unfinished(char* name);
 
 /// Removes a file, even if it is open. It may be called in a signal handler.

@@ -4,12 +4,12 @@
 
 namespace contensou::platform {
 
-/// Creates and opens the unfinished file, which no other user can read. There is at most one.
+/// Creates and opens the unfinished file, which no other user can read. At most one such file exists at a time.
 ///
 /// @param folder  folder of the file
 /// @param target  path of the finished file, as the user wrote it
 /// @param path    receives the path of the unfinished file
-/// @return  its descriptor, or -1 with errno
+/// @return  descriptor of the unfinished file, or -1 with errno
 int open_unfinished(const std::string& folder, const std::string& target, std::string& path);
 
 /// Must be called when the unfinished file is renamed or removed.

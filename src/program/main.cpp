@@ -100,7 +100,7 @@ class Verbs {
 };
 
 /// Throws for words that CLI11 could not assign: an unknown verb or option, or a superfluous word.
-/// @param names  names of the verbs if one was expected, else empty
+/// @param names  names of all verbs if a verb was expected, else empty
 /// @throws BadInput  if there is such a word
 void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::string>& names) {
   if (app.remaining_size() == 0) return;

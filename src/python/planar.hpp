@@ -12,7 +12,7 @@
 
 namespace contensou::python {
 
-/// Thrown after a signal during a call of a field. Not a std::exception, as the library takes one for a missing value.
+/// Thrown after a signal during a call of a field. No std::exception, which would mean a missing value.
 struct Interrupted {
   py::error_already_set error;
 };

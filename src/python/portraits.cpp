@@ -116,7 +116,7 @@ py::dict dict_of(const Figure& figure) {
 
 using Sides = std::pair<double, double>;
 
-/// (U, V), or both ends of each side.
+/// A window: its sides (U, V), or both ends of each side.
 using AskedWindow = std::variant<Sides, std::pair<Sides, Sides>>;
 
 /// A number of isochrones, or the times of isochrones.

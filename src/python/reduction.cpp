@@ -108,7 +108,7 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
 
 /// Returns rows of tau and of its derivatives by u, v, mu, chi, gamma and drive. An invalid start gives NaN in all
 /// rows, a start at rest NaN in the derivatives.
-/// @param gradient  computes them for the start with a number
+/// @param gradient  computes a start's tau and derivatives from the index of the start and the start
 template <class Gradient>
 py::array_t<double> stop_time_gradients(const Numbers& u, const Numbers& v, Gradient gradient) {
   const py::ssize_t count = u.size();

@@ -57,10 +57,10 @@ std::string words_of(const py::handle& value) {
   return words.size() > most ? words.substr(0, most) + "..." : words;
 }
 
-/// Writes the friction of contacts to `values`, and its slopes to `slopes` unless that is empty; NaN if an input is.
+/// Writes the friction of contacts to `values`, and its slopes to `slopes`, if that has entries; NaN from NaN.
 /// @param given  loads, then friction, radius and creep of the patches; each has one value for each contact, or one for
 ///               all
-/// @throws std::domain_error  for the first contact with a wrong number, with its index in the message
+/// @throws std::domain_error  for the first contact with a wrong number; the message names this contact by its index
 void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 4>& given, py::array_t<double>& values,
               py::array_t<double>& slopes) {
   const double* const speeds = motions.data();
@@ -140,7 +140,7 @@ si::Velocities start_of(const double* row) { return {{row[0], row[1]}, {row[2], 
 
 constexpr py::ssize_t columns_of_start = 5;
 
-/// Writes the events of a motion in the order of the fields in Python. If the ball never rests, that time is infinite.
+/// Writes the events of a motion in the order of the fields in Python. If the ball never rests, rest gets infinity.
 void write_events(const si::Motion& motion, double rolling_below, double* row) {
   const si::Events events = motion.finite().events(rolling_below);
   for (const si::Event& event :

@@ -27,7 +27,7 @@ using Released = py::call_guard<py::gil_scoped_release>;
 /// Numbers of any shape, in C order.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Ends a long computation, which runs without Python's lock, on a signal such as Ctrl-C, checked ten times a second.
+/// Ends a long computation, which runs without Python's lock, after a signal such as Ctrl-C. It looks every 0.1 s.
 class Interruption {
  public:
   /// @throws py::error_already_set  KeyboardInterrupt, or another exception of a handler in Python

@@ -62,7 +62,7 @@ class FormulaLaw {
   }
 
  private:
-  /// Range of k in which the formulas are evaluated. Outside it they may overflow.
+  /// Least and largest k at which the formulas are evaluated. Beyond these two values the formulas may overflow.
   static constexpr double least = 0x1p-90, most = 0x1p90;
 
   std::string name_;
@@ -79,7 +79,7 @@ reduction::Law parse_formula_law(const std::string& text, const std::map<std::st
   try {
     return law;
   } catch (const std::domain_error& error) {
-    // The caller puts the name of the law into its message.
+    // Leave out the name of the law, because the caller puts this name into a message of its own.
     std::string message = error.what();
     const std::string before = fmt::format("Law {}: ", law.name());
     if (message.starts_with(before)) message.erase(0, before.size());

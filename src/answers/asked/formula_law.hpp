@@ -15,14 +15,14 @@ bool is_formula_law(const std::string& text);
 /// (answers/input/formulas.hpp). Phi is the force divided by f N. Psi is the moment divided by f N and the patch
 /// radius. The name of the law is the text with the parameters.
 ///
-/// Below k = 2^-90 and above 2^90 the functions Phi and Psi replace the formulas by limits. Below, Phi is proportional
-/// to k, and Psi is constant. Above, 1 - Phi and Psi are proportional to 1/k. reduction::Law checks these limits.
+/// Below k = 2^-90 and above k = 2^90, limits replace the formulas. Below 2^-90, Phi is proportional to k, and Psi is
+/// constant. Above 2^90, 1 - Phi and Psi are proportional to 1/k. reduction::Law checks that the law has such limits.
 ///
-/// @throws BadInput  for a mistake in a formula, with the character at which it stands; for a law that does not resist
-///                   the motion or has no limits, with the values that show it
+/// @throws BadInput  for a mistake in a formula, with the number of its character; for a law that does not resist the
+///                   motion or has no limits, with the values that show this
 reduction::Law parse_formula_law(const std::string& text, const std::map<std::string, double>& parameters = {});
 
-/// Returns the law that a text names or gives by formulas, such as the `law` of a run file; empty for an unknown name.
+/// Returns the law of a text (a name, or formulas), such as the text `law` in a run file; empty for an unknown name.
 /// @throws std::domain_error  as reduction::find_law and parse_formula_law
 std::optional<reduction::Law> find_law_or_formulas(const std::string& text);
 

@@ -7,14 +7,14 @@
 
 namespace contensou::answers {
 
-/// The start that a user gives, and its system with the law.
+/// A start that a user gives, and the reduced system (body, mu and law) of this start.
 struct GivenStart {
   reduction::ReducedSystem system;
   reduction::State state;
-  std::optional<si::Experiment> experiment;  ///< source of the start, if it is a ball in SI units
-  std::optional<si::Motion> motion = {};     ///< motion of a ball; `system` belongs to its first piece
+  std::optional<si::Experiment> experiment;  ///< source of the start, if the start is that of a ball in SI units
+  std::optional<si::Motion> motion = {};     ///< motion of a ball; `system` is that of the first piece of this motion
 
-  /// Returns the orbits of a ball, one after the other; empty without a ball.
+  /// Returns the pieces of `motion`, each one orbit, in the order of time; empty without a ball.
   std::vector<si::ReducedPiece> pieces() const { return motion ? motion->pieces() : std::vector<si::ReducedPiece>(); }
   bool is_in_pieces() const { return pieces().size() > 1; }
 

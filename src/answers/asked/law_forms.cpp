@@ -10,7 +10,7 @@
 namespace contensou::answers {
 
 std::vector<std::pair<std::string, std::string>> law_forms() {
-  // Remarks on laws that concern the program. An example is the use of a law as a default.
+  // Remarks on laws for users of the program. One example: the law is the default of a kind of body.
   const std::map<std::string_view, std::string_view> notes{
       {"exact", "default of a ball; also called hertz"},
       {"pade",

@@ -6,7 +6,7 @@
 
 namespace contensou::answers {
 
-/// The error of the Pade law of the paper in the slip length of the balls pool, steel and bowling.
+/// Words for the error of the paper's Pade law in the slip length of the balls pool, steel and bowling.
 inline constexpr const char* cost_of_pade =
     "in which the length that spin adds to the slip is too long: 5 times (pool), 129 (steel), 470 (bowling)";
 

@@ -33,7 +33,7 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
     end = std::min(text.find(';', begin), text.size());
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
     if (first == end) continue;
-    // The class Formulas throws for parameters that its formulas do not contain. Keep only the parameters in this one.
+    // The class Formulas throws for parameters that its formulas do not contain. Keep only those in this formula.
     std::map<std::string, double> known;
     const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     for (std::size_t at = first; at < end; ++at) {

@@ -13,7 +13,7 @@
 
 namespace contensou::answers {
 
-/// A reduction::PlanarField that is given by formulas.
+/// A planar field (a reduction::PlanarField) whose two components are given by formulas.
 struct FormulaField {
   enum class Equations {
     system,  ///< u' = F(u, v), v' = G(u, v)
@@ -26,10 +26,10 @@ struct FormulaField {
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& x) const;
 
-  /// Returns the derivatives of (u', v') by u and v, from Formula::with_slopes. Row 0 belongs to u'.
+  /// Returns the derivatives of (u', v') by u and v, from Formulas::with_slopes. Row 0 belongs to u'.
   Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
 
-  operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): it is one
+  operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): the field is smooth
 };
 
 /// Returns the field of "u' = F; v' = G", of "x' = F; y' = G" in x and y, of the equation "y' = F" in x and y, or of
@@ -38,16 +38,16 @@ struct FormulaField {
 /// @throws BadInput  as Formulas
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
 
-/// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)". The formulas contain the variables of a
-/// system and its parameters.
-/// @throws BadInput  as Formulas; for more functions than Basis::most
+/// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)". The formulas may contain the
+/// variables of `system`, and `parameters`.
+/// @throws BadInput  as Formulas; for no function, and for more functions than Basis::most
 reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
                              const std::map<std::string, double>& parameters);
 
 /// Returns true if a start equals the centre of the scaling up to rounding.
 bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
 
-/// A system that its scaling or an inverse integrating factor solves, or else the reason why neither solves the system.
+/// The solution of a system by a scaling or an inverse integrating factor, or else the reason why there is none.
 struct SolvedPlane {
   std::optional<reduction::PlanarReduction> plane;
   std::string why_not;
@@ -55,7 +55,7 @@ struct SolvedPlane {
   std::function<reduction::FactorFormula()> formula = {};  ///< formula of the factor that solves the system
 };
 
-/// @param found  symmetries found from the same start
+/// @param found  symmetries of `field`, found by reduction::find_symmetries with the same start
 SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
                          const Eigen::Vector2d& start);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int of_narrow = 8;  ///< number of orbits on each side of u = 0 in a narrow panel
 
-/// Returns several orbits as one line. Steps of time are equal; on the last orbit, ratios of the time left are equal.
+/// Joins orbits into one curve, at equal steps of time; on the last orbit, at equal ratios of successive times left.
 portraits::PortraitOrbit one_line(const std::vector<si::ReducedPiece>& pieces) {
   constexpr Eigen::Index of_piece = 300;
   constexpr double folds = 30;

@@ -15,7 +15,7 @@ namespace contensou::answers {
 struct PortraitSpec {
   reduction::Flow flow;
   std::optional<reduction::State> start = {};     ///< start of the highlighted orbit
-  std::optional<si::Experiment> experiment = {};  ///< source of mu and start, if it is a ball in SI units
+  std::optional<si::Experiment> experiment = {};  ///< source of mu and start, if they are those of a ball in SI units
   portraits::PortraitRequest request = {};        ///< highlight and time unit follow from start and experiment
   portraits::PortraitStyle style = {};
 
@@ -23,19 +23,19 @@ struct PortraitSpec {
   /// @throws std::domain_error  as phase_portrait
   portraits::PhasePortrait portrait() const;
 
-  /// Draws a portrait, in the units of a ball if there is one.
+  /// Draws a portrait, in SI units if `experiment` is set.
   portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
 
   /// Draws a portrait and returns the figure with the map of each panel.
   portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
 
-  /// Returns the origin of the portrait, for files with its data.
+  /// Returns the source of the portrait (version, ball, seconds per tau), for files with the data of the portrait.
   portraits::PortraitSource source() const;
 
   /// Returns the request, completed from start, experiment and style.
   portraits::PortraitRequest whole_request() const;
 
-  std::vector<si::ReducedPiece> pieces() const;  ///< the orbits of a ball with rolling friction or on a slope
+  std::vector<si::ReducedPiece> pieces() const;  ///< orbits of a ball with rolling friction or on a slope; else empty
   portraits::PortraitCaption caption(const portraits::PhasePortrait& portrait) const;
 };
 

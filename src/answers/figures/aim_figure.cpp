@@ -48,7 +48,7 @@ std::vector<Arrival> arrivals(const si::Experiment& ball, const reduction::Flow&
   return all;
 }
 
-/// Returns 1, 2 and 5 times powers of ten between the limits. If these are few, it returns numbers with more digits.
+/// Returns the numbers 1, 2 and 5 times powers of ten in [least, largest]; if fewer than 5, also 1.5, 3, 4, 6 and 8.
 std::vector<double> round_values(double least, double largest) {
   constexpr std::size_t enough = 5;
   std::vector<double> values;
@@ -64,12 +64,12 @@ std::vector<double> round_values(double least, double largest) {
   return values;
 }
 
-/// The lines on each of which one number of the start is constant, and the values of this number.
+/// The look of the curves on each of which one number of the start (`value`) is constant.
 struct Family {
   double Arrival::*value;
   const char *name, *unit;
   portraits::Stroke stroke;
-  double label;  ///< place of the text as a share of the length of its line, 0 to 1
+  double label;  ///< place of the label on a curve, as a share of the length of the curve, 0 to 1
 };
 
 void add(portraits::Panel& panel, const std::vector<Arrival>& all, const Family& family) {
@@ -77,7 +77,7 @@ void add(portraits::Panel& panel, const std::vector<Arrival>& all, const Family&
   const auto copy = [&](const Arrival& arrival, double factor) {
     return Point{factor * factor * arrival.distance, factor * factor * arrival.turns};
   };
-  // A ray leaves the panel at two points of its border. There the number has its least and its largest value.
+  // A ray (constant k) crosses the border of the panel at two points. There `value` is least and largest on this ray.
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (const Arrival& arrival : all) {
     if (!(arrival.distance > 0 && arrival.turns > 0)) continue;
@@ -115,7 +115,7 @@ portraits::Figure aim_figure(const si::Experiment& ball, const reduction::Law& l
   const std::vector<Arrival> all = arrivals(ball, flow);
   const Arrival &in_place = all.front(), &straight = all.back();
   const Arrival end = arrival_of(ball, flow, {ball.ball.radius * start.spin, start.slip});
-  // A logarithmic axis cannot show 0. In place of 0 it shows the largest value that is possible in this time.
+  // A logarithmic axis cannot show 0. In place of 0 it shows the largest value that the same time allows.
   const auto squared = [](double x) { return x * x; };
   const double x = end.distance > 0 ? end.distance : straight.distance * squared(end.time / straight.time);
   const double y = end.turns > 0 ? end.turns : in_place.turns * squared(end.time / in_place.time);

@@ -19,7 +19,7 @@ constexpr portraits::Colour law_colour{0x8c0f35}, nearest_colour{0x707070}, tabl
 constexpr std::size_t most_rows = 250;  ///< largest number of rows of a table that are drawn; more marks would overlap
 constexpr int samples = 400;            ///< number of points of a curve
 
-/// Returns the time, in s after the first row, at which this speed is 0 in the table and under the law, plus a margin.
+/// Returns the time, s after the first row, until this speed is almost 0 in the table and under the law; with a margin.
 double lasting(const MotionsBeside& motions, double si::SlipAndSpin::*speed) {
   constexpr double next_to_nothing = 2e-3, more = 1.15;
   const double first = motions.rows.front().t;

@@ -7,7 +7,7 @@
 
 namespace contensou::answers {
 
-/// Draws slip and spin of a table against time, with the motion under the law. A nearer model, if any, is dashed.
+/// Draws slip and spin of a table against time, with the motion under the law. A model nearer to the table is dashed.
 /// @param ball  name of the ball
 portraits::Figure check_figure(const MotionsBeside& motions, const std::string& ball, const portraits::AskedSize& size);
 

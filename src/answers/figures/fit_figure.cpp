@@ -62,7 +62,7 @@ ShownUnit shown_unit(const fit::Fit& fit, const std::vector<fit::Track>& tracks,
   return unit.starts_with('m') && largest < small ? ShownUnit{"m" + unit, 1e3} : ShownUnit{unit};
 }
 
-/// Returns an angle, rad, plus or minus whole turns, so that the result is nearest to another angle.
+/// Returns an angle, rad, plus or minus the whole turns that bring it nearest to the angle `other`.
 double at_turn_of(double other, double angle) {
   constexpr double turn = 2 * std::numbers::pi;
   return angle + turn * std::round((other - angle) / turn);

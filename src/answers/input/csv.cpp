@@ -23,7 +23,7 @@ std::string_view utf16(std::string_view text) {
   return text[0] == '\0' && text[2] == '\0' ? "UTF-16BE" : "";
 }
 
-/// Returns advice if the first name of a header contains a semicolon or a tab, the usual other separators; else "".
+/// Returns advice if the first name of a header contains a semicolon or a tab, separators of other tables; else "".
 std::string separator_hint(std::string_view name) {
   const std::size_t separator = name.find_first_of(";\t");
   if (separator == std::string_view::npos) return {};

@@ -51,7 +51,7 @@ class CsvRow {
   /// Returns the line on which the record begins, counted from 1. Lines end in LF, CR LF or CR, also inside quotes.
   long line() const { return record_.line; }
 
-  /// Returns the record as it stands in the file, without its line end.
+  /// Returns the record as it stands in the file, without the end of its line.
   std::string_view text() const { return std::string_view(block_.text_).substr(record_.text_begin, record_.text_size); }
 
   /// Returns the number of fields.
@@ -78,7 +78,7 @@ class CsvParser {
   explicit CsvParser(std::string source) : source_(std::move(source)) {}
 
   /// Appends to a block the records that end in the next piece of text.
-  /// @throws BadLine  for a quote inside a field, or a record longer than 64 MiB; earlier records are appended before
+  /// @throws BadLine  for a quote inside a field, or a record longer than 64 MiB; earlier records are appended first
   void add(std::string_view piece, CsvBlock& block);
 
   /// Appends the last record if it has no line end.
@@ -102,7 +102,7 @@ class CsvParser {
   Place place_ = Place::between_records;
   long line_ = 0;
   bool at_line_start_ = true;
-  bool after_return_ = false;  ///< true: a line feed here belongs to the previous line end
+  bool after_return_ = false;  ///< true: the last letter was CR; an LF that follows belongs to the same line end
   long record_line_ = 0;
   long quote_line_ = 0;  ///< line of the opening quote of the field
   std::string text_;     ///< text of the record so far
@@ -124,9 +124,9 @@ class CsvReader {
 
   /// Reads the file up to the end of the header.
   /// @param path       a file, or "-" for standard input
-  /// @param separator  comma_or_tab: tabs separate if the header contains tabs and no comma; a title may stand above
+  /// @param separator  comma_or_tab: tabs separate if the header contains tabs and no comma; a title may precede it
   /// @throws std::system_error  if the file cannot be read
-  /// @throws BadLine            if there is no header, or it is not CSV; for UTF-16 with advice
+  /// @throws BadLine            if the header is missing or is not CSV; for a file in UTF-16, with advice
   explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
 
   /// Reads text from memory.
@@ -147,7 +147,7 @@ class CsvReader {
   /// Returns true if `next` can return without waiting for input.
   bool ready() const;
 
-  /// Reads the next records, about 32 kB at most: the records that are available before the input pauses.
+  /// Reads the next records: those that the input supplies before it pauses, about 32 kB at most.
   /// @return  false at the end of the file
   /// @throws BadLine            as CsvParser, after all records before the mistake have been returned
   /// @throws std::system_error  if the file cannot be read
@@ -172,7 +172,7 @@ class CsvReader {
  private:
   void read_header(Separator separator);
 
-  /// Sets tabs as separators if the first line with tabs or commas contains tabs only. A title above becomes a comment.
+  /// Sets tabs as separators if the first line with tabs or commas contains tabs only. Text above it is a comment.
   void find_tabs();
 
   /// Reads once from the file and appends the result to the buffer.
@@ -184,7 +184,7 @@ class CsvReader {
   double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< size of the file, if known
   double bytes_read_ = 0;
   bool at_end_ = false;
-  std::optional<BadLine> fault_;  ///< error that is thrown after the records before it have been returned
+  std::optional<BadLine> fault_;  ///< error of a later record, thrown when all records before that record were returned
   CsvBlock first_;                ///< records read together with the header
   std::vector<std::string> names_;
   long header_line_ = 1;
@@ -192,7 +192,7 @@ class CsvReader {
 
 /// Returns the numbers >= 0 in one column of a table, or in a file of one number per line without a header.
 /// @param path  a file, or "-" for standard input
-/// @throws  as CsvReader; BadLine for any other number, with its line
+/// @throws  as CsvReader; BadLine for any other number, with the line of that number
 std::vector<double> read_column(const std::string& path, std::string_view name, Infinity infinity);
 
 }  // namespace contensou::answers

@@ -23,7 +23,7 @@ namespace formula_parts {
 
 using Pair = std::array<double, 2>;
 
-/// A function of one number, of two numbers, or of more, which are combined two at a time. Null slopes stand for 0.
+/// A function of one number, of two, or of more (combined two at a time). A null `slope` or `slopes` means slopes of 0.
 struct Function {
   std::string_view name;
   double (*one)(double) = nullptr;
@@ -78,7 +78,7 @@ constexpr Function functions[] = {
 constexpr Function negative{"-", [](double x) { return -x; }, [](double, double) { return -1.0; }};
 constexpr Function opposite{"!", [](double x) { return x == 0 ? 1.0 : 0.0; }};
 
-/// Slope by x, then by y. 0^y with y > 0 has slope 0 by y; x < 0 gives NaN. At 0^0 the slope by x is set to 0, not NaN.
+/// Slopes of x^y by x and by y. The slope by y is 0 at x = 0 < y, and NaN for x < 0. The slope by x is set to 0 at 0^0.
 Pair of_power(double x, double y, double value) {
   return {y == 0 ? 0 : y * std::pow(x, y - 1), value == 0 && x >= 0 ? 0 : value * std::log(x)};
 }
@@ -90,12 +90,12 @@ const Function* function_of(std::string_view name) {
   return found == std::end(functions) ? nullptr : found;
 }
 
-/// A step either puts a number or a variable on a stack, or replaces the last values there by a function of them.
+/// A step either puts a number or a variable on a stack, or replaces the last values on it by one result.
 enum class Kind : unsigned char { number, variable, one, two, add, subtract, multiply, divide, choose };
 
 struct Step {
   Kind kind;
-  unsigned char left = 0, right = 0;  ///< bit i + 1 is set if the first or the last operand contains variable i
+  unsigned char left = 0, right = 0;  ///< of the first and the last operand: bit i + 1 is set if it has variable i
   union {
     double number;
     std::size_t variable;
@@ -126,7 +126,7 @@ constexpr Operator operators[] = {
 constexpr int tightest = 5;  ///< above the level of every operator
 constexpr int deepest = 250;
 constexpr std::size_t longest = 20000;
-/// Each level of nesting keeps at most two values while the next level is computed. Two places below them are unused.
+/// Each level of nesting keeps at most two values while the next level is computed. The two lowest places are unused.
 constexpr std::size_t most_values = 2 * deepest + 2;
 
 /// Computes the formula with N slopes; with N = 0 the value alone.
@@ -204,12 +204,12 @@ constexpr std::pair<char32_t, std::string_view> pasted[] = {
     {0xD7, "*"},   {0xB7, "*"},   {0x22C5, "*"}, {0xF7, "/"},           {0x2215, "/"},
     {0xB2, "^2"},  {0xB3, "^3"},  {0x3C0, "pi"}, {0x221A, "sqrt(...)"}, {0xA0, "a blank"}};
 
-/// Throws for characters that are not ASCII. After that, the number of a byte is also the number of a character.
+/// Throws for characters that are not ASCII. In a text that passes, bytes and characters have equal numbers.
 void require_ascii(const std::string& text) {
   const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (at == text.end()) return;
   const auto place = static_cast<std::size_t>(at - text.begin());
-  // In UTF-8 the first byte has as many leading 1 bits as there are bytes; later bytes begin with 10. Else Latin-1.
+  // UTF-8: the first byte has a leading 1 bit for each byte of the letter; later bytes begin with 10. Else Latin-1.
   std::size_t size = 1;
   while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
   const std::string letter = text.substr(place, size);
@@ -298,7 +298,7 @@ class Parser {
     --depth_;
   }
 
-  /// Reads a value and its closing sign. For a function it reads several values between commas.
+  /// Reads a value and the sign that closes it. For a function it reads several values between commas.
   /// @return  number of values
   int within(std::string_view closing, const Function* function = nullptr) {
     const std::size_t opening = at_ - 1;
@@ -429,14 +429,14 @@ struct Quotient {
   Factors over, under = {};
 };
 
-/// Appends those factors of `by` that depend on variables.
+/// Appends those factors of `by` that depend on variables, each of them `times` times.
 void multiply(Factors& product, const Factors& by, int times = 1) {
   for (const Factor& each : by) {
     if (each.variables != 0) product.insert(product.end(), static_cast<std::size_t>(times), each);
   }
 }
 
-/// Appends to `product` the factors that it lacks to be a multiple of `of`.
+/// Makes `product` a multiple of `of`: appends the factors of `of` that `product` lacks.
 void make_multiple(Factors& product, const Factors& of) {
   for (auto each = of.begin(); each != of.end(); ++each) {
     if (std::ranges::count(product, *each) < std::count(of.begin(), each + 1, *each)) product.push_back(*each);
@@ -469,7 +469,7 @@ Factors divisors(const Steps& formula) {
       multiply(joined.under, divides ? parts[1].over : parts[1].under);
     } else if (step.kind == Kind::add || step.kind == Kind::subtract ||
                (step.kind == Kind::one && step.function == &negative)) {
-      // On the common denominator a sum is one factor. The factors of the denominator then multiply this sum.
+      // A sum: `under` is the common denominator, and `over` is the sum, as one factor, times `under`.
       for (const Quotient& part : parts) make_multiple(joined.under, part.under);
       multiply(joined.over, joined.under);
     } else if (step.kind == Kind::two && step.function == &power && parts[1].whole.variables == 0) {

@@ -18,7 +18,7 @@ using Dual = std::array<double, N + 1>;
 
 /// The form that a pair of formulas, or a single formula, must have.
 struct FormulaShape {
-  /// Names before the equals signs. For a single formula the second is empty; without an equals sign both are empty.
+  /// Names before the equals signs. For a single formula the second name is empty; without an equals sign both are.
   std::array<std::string, 2> left;
   std::vector<std::string> variables;               ///< variables of the formulas
   std::string sentence;                             ///< sentence for messages, such as: a system is "u' = F; v' = G"
@@ -39,11 +39,11 @@ std::vector<std::string> left_sides(const std::string& text);
 /// to the last bit. A comparison is 1 or 0, and a condition is true unless it is 0. A bar opens |x| where a value is
 /// expected and closes it where an operator is expected. Therefore || means "or" except directly within |x|.
 ///
-/// A value type: copies share the compiled formulas, and several threads may call them at once.
+/// A value type: copies share the compiled formulas, and several threads may call the copies at once.
 class Formulas {
  public:
   /// @param text  formulas of at most 20000 characters, nested at most 250 deep
-  /// @param parameters  values that replace values in the text
+  /// @param parameters  values of parameters, which replace values of the same parameters in the text
   /// @throws BadInput  with the mistake and its character; for a parameter whose name has another meaning, or that
   ///                   no formula contains
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);
@@ -52,7 +52,7 @@ class Formulas {
   /// @return the values of the formulas; 0 for a missing formula
   std::array<double, 2> operator()(std::initializer_list<double> values) const;
 
-  /// Returns the same values with their slopes by the chain rule, exact except for rounding. N is 1 or 2.
+  /// Returns the values of operator() with their slopes by the chain rule, exact except for rounding. N is 1 or 2.
   ///
   /// At a kink of abs, min, max or a choice the slopes are those of the branch that gives the value; for |x| at 0 the
   /// slope of x is used. sign, rint and comparisons have slope 0. If a slope does not exist, such as the slope of
@@ -60,8 +60,8 @@ class Formulas {
   template <std::size_t N>
   std::array<Dual<N>, 2> with_slopes(const std::array<double, N>& values) const;
 
-  /// Returns the common denominator as the first formula of the result. It is the product of the divisors that depend
-  /// on variables and stand outside functions, each to its highest power. Empty without such a divisor.
+  /// Returns the common denominator as the first formula of the result. This denominator is the product of the
+  /// divisors that depend on variables and stand outside functions, each to its highest power; empty without a divisor.
   std::optional<Formulas> denominator() const;
 
  private:

@@ -30,7 +30,7 @@ struct SiColumn {
   double factor = 1;
 };
 
-/// Finds the column with this name, else with this usual_name, and the unit in its heading; empty without a column.
+/// Finds the column with this name, else the one with this usual_name, and reads its unit; empty without a column.
 /// @param pixel  size of a pixel, m, > 0, for a length in px or a speed in px/s
 /// @throws BadLine  for two such columns, for a unit of another kind, and for pixels without a size
 std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit,

@@ -13,8 +13,8 @@ namespace contensou::answers {
 /// @throws FileFailure  if the file cannot be read
 si::LoadHistory read_load_history(const std::string& path);
 
-/// Throws if a motion under a changing load differs from a motion under a constant load by more than its time: the load
-/// changes the patch, or a force is not proportional to the load.
+/// Throws if a changing load changes more than the time scale of a motion. This is so if the load changes the patch, or
+/// if a force is not proportional to the load.
 /// @param others  names of given options that need a constant load, between commas; empty if there are none
 /// @return  a remark on the patch, for people; empty for a body that lies flat
 /// @throws BadInput  with the reason, and the option that the user must leave out

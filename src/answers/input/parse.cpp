@@ -12,7 +12,7 @@ namespace contensou::answers {
 
 namespace {
 
-/// Reads a whole text as a number. It accepts spaces around it and a leading plus, which std::from_chars rejects.
+/// Reads a whole text as a number. Unlike std::from_chars it accepts a leading plus, and spaces.
 template <class Value>
 std::errc read(std::string_view text, Value& value) {
   const auto first = std::min(text.find_first_not_of(" \t"), text.size());

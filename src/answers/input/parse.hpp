@@ -19,7 +19,7 @@ enum class Infinity { forbidden, allowed };
 /// wrong number.
 const char* decimal_hint(std::string_view text);
 
-/// Returns true if parse_number finds a number in a text, no matter how large.
+/// Returns true if a text is written like the numbers that parse_number reads, no matter how large the number is.
 bool is_number(std::string_view text);
 
 /// Returns the number that a text consists of; spaces around it are allowed.

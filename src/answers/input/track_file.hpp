@@ -43,7 +43,7 @@ std::string observable_name(std::string_view column);
 /// @param name  name of the track
 /// @param note    called with a sentence about each column that is not read, or whose unit seems to be wrong
 /// @param unused  options; the function removes those that it uses
-/// @throws BadLine            with the line: for a header without t or an observable, with the names in it; for a field
+/// @throws BadLine            with the line: for a header without t or an observable, with all its names; for a field
 ///                            that is not a number, a time that does not increase, a standard deviation that is not > 0
 /// @throws std::system_error  if the table cannot be read
 fit::Track read_track(CsvReader& table, const std::string& name, const TrackRequest& request,

@@ -96,7 +96,7 @@ std::string tex_number(double value, Digits digits) {
   return fmt::format("${}10^{{{}}}$", factor, std::stoi(plain.substr(power + 1)));
 }
 
-/// Returns the columns of a table in TeX. Each begins with its name.
+/// Returns the columns of a table in TeX. Each column begins with its name.
 std::vector<std::vector<std::string>> tex_columns(const Answer& answer, Digits digits) {
   std::vector<std::vector<std::string>> columns;
   const auto begin = [&](const std::string& name) -> auto& {

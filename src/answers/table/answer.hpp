@@ -39,7 +39,7 @@ struct Answer {
   Json members = Json::object();         ///< members of JSON after the schema number and the version
   std::vector<Column> columns = {};      ///< columns of CSV and text; the last members of JSON
   Json remarks = Json::object();         ///< comment lines before the header, for CSV with columns
-  std::vector<Json> rows = {};           ///< rows of CSV without columns: objects with the same names
+  std::vector<Json> rows = {};           ///< rows of CSV without columns: objects, all with the same names
   std::vector<std::string> beside = {};  ///< names in rows that TeX leaves out, because a paper has no room for them
   std::function<std::string(const Digits&)> text = {};  ///< text for people; empty: the columns, or the rows as in CSV
   std::function<Answer()> numbers = {};  ///< returns the answer for every format except text; empty: this answer
@@ -50,7 +50,7 @@ std::vector<std::string> answer_formats(const std::string& standard);
 
 /// Returns an answer in a format. CSV and JSON contain the shortest digits that read back to the same double. In CSV
 /// each member of an object in a row has its own column. TeX is a tabular for \input with the same columns, and with as
-/// many digits as text. If it has fewer rows than columns, it is transposed.
+/// many digits as text. A table with fewer rows than columns is transposed.
 /// @param format  one of answer_formats
 /// @throws std::runtime_error  for NaN, which JSON cannot represent
 /// @throws std::domain_error   for a letter that LaTeX does not have

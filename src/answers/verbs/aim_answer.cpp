@@ -17,12 +17,12 @@ struct AimReport {
   si::Experiment experiment;  ///< ball with the start that reaches the goal
   reduction::Law law;
   si::Velocities start;
-  double slip;                   ///< slip at the start
-  double distance, turns, time;  ///< results of the start
+  double slip;                   ///< slip at the start, m/s
+  double distance, turns, time;  ///< results of the start: m, number of turns, s
   si::Velocities final;
   std::optional<si::Event> rolls;  ///< event at which rolling begins; empty for a body that lies flat
   std::optional<si::CueStrike> strike;
-  std::optional<si::Event> rest;  ///< event at which the ball rests; empty without rolling friction
+  std::optional<si::Event> rest;  ///< event at which the ball comes to rest; empty without rolling friction
 
   bool is_ball() const { return !experiment.ball.body.lies_flat(); }
 };

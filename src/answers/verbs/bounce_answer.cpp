@@ -20,8 +20,8 @@ struct BounceReport {
   si::Experiment experiment;  ///< ball with the patch of the impact
   reduction::Law law;
   si::Impact impact;
-  std::optional<double> height;  ///< m
-  double rolling_below;          ///< m/s
+  std::optional<double> height;  ///< height of the drop, m
+  double rolling_below;          ///< slip below which the ball rolls, m/s
   bool by_moduli;                ///< true: the patch radius follows from the moduli
   si::Rebound ours, textbook;
 

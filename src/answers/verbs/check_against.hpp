@@ -32,7 +32,7 @@ struct ModelBeside {
 /// A row of a table.
 struct Instant {
   long line;
-  double t;  ///< s
+  double t;  ///< time in the table, s
   si::SlipAndSpin speeds;
   std::optional<si::Velocities> body = {};  ///< velocities in the log of a rigid body
 };
@@ -41,10 +41,10 @@ struct Instant {
 struct MotionsBeside {
   std::vector<Instant> rows;
   si::SlipAndSpin start;
-  double slip_unit, spin_unit;      ///< units, m/s and rad/s, by which relative errors are divided
+  double slip_unit, spin_unit;      ///< m/s and rad/s; an error divided by its unit is a relative error
   std::vector<ModelBeside> models;  ///< models; the first is the motion under the law
 
-  /// Returns the model with the smallest error. Among equal models the model of the law wins.
+  /// Returns the model with the smallest error. Among equal errors the motion under the law wins.
   const ModelBeside& nearest() const;
 };
 

@@ -17,15 +17,15 @@ struct CheckedLaw {
   std::optional<Deviation> deviation = {};  ///< deviation from a table, if the check uses one
 };
 
-/// Returns the worst results of the checks of a law over a set of starts. Their k0 = v0/(mu u0) runs from almost pure
-/// pivoting to almost pure sliding. The routes to the stop time are also compared for starts with a drive.
+/// Returns the worst results of the checks of a law over a set of starts. Over this set k0 = v0/(mu u0) runs from
+/// almost pure pivoting to almost pure sliding. The routes to the stop time are also compared for starts with a drive.
 std::vector<reduction::Check> built_in_checks(const reduction::Law& law);
 
 /// Replaces each check by the same check in `others` if that one is worse. NaN is the worst.
 void take_worse(std::vector<reduction::Check>& worst, const std::vector<reduction::Check>& others);
 
 /// Returns the answer of `check` with the given rows.
-/// @param built_in  true for rows of built_in_checks; the text then names their starts
+/// @param built_in  true for rows of built_in_checks; the text then names the starts of built_in_checks
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);
 
 /// The answer for a table and the motions of a ball: two checks of the motion under the law, and errors of other models
@@ -38,7 +38,7 @@ struct BesideAnswer {
 /// @param tolerance  largest error that passes, as a share of the start
 BesideAnswer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance);
 
-/// Returns the fields of these answers.
+/// Returns the fields of both answers, of check_answer and of check_against_answer.
 std::vector<FieldText> check_fields();
 
 }  // namespace contensou::answers

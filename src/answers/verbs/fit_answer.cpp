@@ -38,7 +38,7 @@ Json reduced_chi2(const fit::Fit& fit, bool planned) {
   return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
 }
 
-/// Returns the first times at which outliers lie, such as "t = 0.1, 0.25 s". For several tracks, each has its own list.
+/// Returns the first times at which outliers lie, such as "t = 0.1, 0.25 s". For several tracks, each track has a list.
 std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vector<fit::Track>& tracks) {
   constexpr std::size_t most = 6;
   std::string text;

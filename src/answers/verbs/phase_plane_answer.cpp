@@ -112,7 +112,7 @@ Json ratio_members(const TerminalRatios& ratios) {
   return members;
 }
 
-/// Returns the half-line along which orbits with this limit of k enter the origin, with its k and order of contact.
+/// Returns the half-line along which orbits with this limit of k enter the origin, its k, and the order of contact.
 Json tangent_of(const PhasePlane& plane, std::size_t end) {
   const auto& [direction, k, order] = plane.tangents[end];
   return {{"half_line", name(direction)}, {"k", k}, {"contact_order", order}};

@@ -15,7 +15,7 @@ Answer terminal_answer(const reduction::ReducedSystem& system);
 /// way in which orbits enter the origin. CSV has one row for each singular point.
 Answer phase_plane_answer(const reduction::ReducedSystem& system);
 
-/// Return the fields of these two answers.
+/// Return the fields of terminal_answer and of phase_plane_answer.
 std::vector<FieldText> terminal_fields();
 std::vector<FieldText> phase_plane_fields();
 

@@ -168,7 +168,7 @@ Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
     const std::size_t step = (line.size() + most - 1) / most;
     for (std::size_t i = (line.size() - 1) % step; i < line.size(); i += step) {
       const Vector2d at = place(line[i]);
-      if (!at.allFinite()) continue;  // the speeds overflow so long before the start
+      if (!at.allFinite()) continue;  // that long before the start, the speeds overflow
       columns[x].push_back(line[i].x);
       columns["p"].push_back(line[i].y);
       columns["u"].push_back(at[0]);
@@ -190,7 +190,7 @@ std::string difference(double one, double other) {
   return fmt::format("differs by {:.1e}", std::abs(one / other - 1));
 }
 
-/// Returns a text on the tried forms of the inverse integrating factor V. If V was found, it has the last form.
+/// Returns a text on the tried forms of the inverse integrating factor V. If V was found, it has the last form listed.
 std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   std::string text;
   for (const auto& [form, value, gap, residual, cleared] : tried) {
@@ -201,7 +201,7 @@ std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   return text;
 }
 
-/// The equilibria of the field near the start, and the maps that reverse its motions.
+/// The equilibria of the field near the start, and the maps that reverse the motions of the field.
 struct Equilibria {
   std::vector<reduction::Equilibrium> zeros;
   std::vector<reduction::Reversor> reversors;
@@ -321,7 +321,7 @@ void add_factor(Answer& answer, const SolvedPlane& solved) {
 }
 
 /// Distance between the state by the solution and the state by steps in time, at 95 % of a finite end time, else at t =
-/// 5. It is divided by the distance of the start from 0, or of the state by steps if that one is larger.
+/// 5. It is divided by the distance from 0 of the start or of the state by steps, whichever is farther from 0.
 struct BySteps {
   double time, difference;
 };
@@ -391,7 +391,7 @@ std::vector<std::string_view> named_ends() {
   std::vector<std::string_view> names;
   for (int i = 0; i < reduction::planar_ends; ++i) {
     const auto end = static_cast<PlanarEnd>(i);
-    // An orbit that tends to a limit cycle has no name in the answer: its field `end` is null.
+    // The end of an orbit that tends to a limit cycle has no name: the member `end` of the answer is null.
     if (end != PlanarEnd::undecided && end != PlanarEnd::cycle) names.push_back(name(end));
   }
   return names;
@@ -505,7 +505,7 @@ ReduceAnswer reduce_answer(const GivenStart& given) {
               [&] { return route == ways.front() ? tau : reduction::stop_time(system, state, route).tau; });
   }
   add_route("section", [&] {
-    // Other quadrants mirror u, v > 0. But a multiple zero of the angular rate on an axis shows on both its sides only.
+    // Other quadrants mirror u, v > 0. Only a multiple zero of the angular rate on an axis needs both sides of it.
     const bool simple = std::ranges::all_of(plane.rays(), [](const PlanarRay& ray) { return ray.order == 1; });
     const auto quadrant = [&](const Vector2d& x) -> Vector2d {
       return simple && x.minCoeff() < 0 ? Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()) : field(x);

@@ -23,11 +23,11 @@ struct ReduceAnswer {
 /// @throws BadInput  for a start at rest
 ReduceAnswer reduce_answer(const GivenStart& given);
 
-/// Reduces any field.
-/// @param text  text of the field, for the answer
+/// Reduces any planar field.
+/// @param text  formulas of the field, for the answer
 ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
 
-/// Returns every name that the field `end` can contain. The field is null for an orbit with an end that has no name.
+/// Returns every name that the member `end` of an answer can contain. For an orbit whose end has no name, it is null.
 std::vector<std::string_view> named_ends();
 
 /// Returns the fields of the answer for the equations of motion (2.6).

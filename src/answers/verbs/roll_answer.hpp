@@ -40,7 +40,7 @@ struct Roll {
   double standard_end() const;
 };
 
-/// Returns the columns of the motion at these instants, and its events.
+/// Returns the columns of the motion at these instants, and the events of the motion.
 /// @param times  s
 Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times);
 

@@ -74,16 +74,16 @@ struct StopReport {
   GivenStart start;
   reduction::Route route;
   reduction::StopTime stop;
-  double sliding_only;                  ///< tau of a body with the same slip that does not pivot
-  double pivoting_only;                 ///< tau of a body with the same spin that does not slide
-  std::optional<OtherLaw> other;        ///< stop time under the other law of the paper, for one of its two laws
-  std::optional<CoarserTable> coarser;  ///< stop time under a pressure table without every other row
+  double sliding_only;                             ///< stop time tau of a body with the same slip that does not pivot
+  double pivoting_only;                            ///< stop time tau of a body with the same spin that does not slide
+  std::optional<OtherLaw> other;                   ///< stop time under the other law of the paper, see other_law
+  std::optional<CoarserTable> coarser;             ///< stop time under a pressure table without every other row
   std::vector<reduction::StopEstimate> estimates;  ///< estimates for small mu
   std::optional<reduction::StopTimeGradient> gradient;
   std::optional<Uncertainty> uncertainty;    ///< uncertainty of t_stop for a ball, else of tau_stop
   std::optional<si::LoadHistory> load = {};  ///< changing load, if given
 
-  /// Returns the time, s, in which a ball passes tau >= 0 under its load, which may change.
+  /// Returns the time in s that belongs to tau >= 0 for the ball, under a constant or a changing load.
   double seconds(double tau) const {
     const double nominal = si::seconds(*start.experiment, tau);
     return load ? load->time_of(nominal) : nominal;
@@ -319,7 +319,7 @@ class Text {
                        number_(report_.load->nominal()));
   }
 
-  /// Returns lines on rolling friction and slope, and on the pieces of the motion; empty for a ball without them.
+  /// Returns lines on rolling friction and slope, and on the pieces of the motion; empty for a ball with neither.
   std::string resistance(const si::Experiment& experiment) const {
     if (!si::is_driven(experiment)) return "";
     std::string text;

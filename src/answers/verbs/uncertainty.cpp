@@ -35,14 +35,14 @@ namespace {
 struct Spread {
   std::string name;
   double value;
-  double standard = 0;  ///< standard deviation of value, in its unit
+  double standard = 0;  ///< standard deviation of `value`, in the unit of `value`
 };
 
 /// A number for which a user may give a standard deviation.
 struct Spreadable {
   Spread number;
   std::string_view unit;         ///< unit, as in si::Quantity
-  std::string_view corner = {};  ///< words for a result without a derivative if the number is 0; empty: there is none
+  std::string_view corner = {};  ///< words for a result without a derivative if the number is 0; empty: all have one
 };
 
 /// Numbers with their standard deviations and the correlations of their errors.
@@ -65,7 +65,7 @@ std::string key(std::string name) {
 }
 
 /// Reads "slip=1%, spin=2 rad/s, ...", where % means per cent of the value. "fit" stands for the spreads of the ball.
-/// A number that is named beside "fit" replaces the spread of the ball, and its error is independent of other errors.
+/// A number that is named beside "fit" replaces the spread of the ball; its error is independent of all others.
 /// @param known  numbers that a user may name; their names contain underscores
 /// @param own    spreads of the ball
 /// @throws BadInput  with the mistake and the allowed values; also for a number that is 0 and has a `corner`
@@ -142,7 +142,7 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-/// Solutions of one system for many mu. They are computed at equal steps of ln mu; between these values, interpolated.
+/// Solutions of one system for many mu. Those at equal steps of ln mu are computed, results between are interpolated.
 class FlowsOfMu {
  public:
   /// @param step  step of ln mu, >= 0; 0: mu does not vary. A step of 1/8 of the standard deviation of ln mu leaves an
@@ -173,7 +173,7 @@ class FlowsOfMu {
 
 /// Numbers of events as functions of other numbers, which have spreads.
 struct Varied {
-  /// Indices of some of these other numbers.
+  /// Indices of some entries of `numbers`.
   using Places = std::vector<std::size_t>;
 
   std::vector<Spreadable> numbers;       ///< all numbers that may have a spread
@@ -189,10 +189,10 @@ struct Varied {
 };
 
 /// Returns `count` independent standard normal numbers for a point of a lattice, which fills the space more evenly than
-/// random points. Its coordinates are the fractions of 1/2 + point/x^i, i = 1 ... count, with x^(count + 1) = x + 1.
+/// random points. The coordinates are the fractions of 1/2 + point/x^i, i = 1 ... count, with x^(count + 1) = x + 1.
 /// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
 VectorXd normal_numbers(Index count, long point) {
-  // Boost computes tables of long double at the start of the program. Under valgrind they abort it.
+  // Boost computes tables of long double at the start of the program. Under valgrind this aborts the program.
   constexpr boost::math::policies::policy<boost::math::policies::promote_double<false>> plain;
   double x = 2;
   for (int i = 0; i < 30; ++i) x = std::pow(1 + x, 1 / static_cast<double>(count + 1));
@@ -243,7 +243,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
     const auto slopes = varied.slopes(place);
     if (!slopes) throw BadInput(fmt::format("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner));
     shares.col(i) = standard * *slopes;
-    // A difference quotient suffices, because mu only sets the step of FlowsOfMu, an eighth of its standard deviation.
+    // A difference quotient suffices: the spread of ln mu only sets the step of FlowsOfMu, 1/8 of this spread.
     constexpr double step = 1e-3;
     const double more = value + step * (value == 0 ? standard : std::abs(value));
     const double beside = varied.mu({place}, VectorXd::Constant(1, more));

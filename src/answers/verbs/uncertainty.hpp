@@ -17,7 +17,7 @@ namespace contensou::answers {
 struct KnownTo {
   double standard = 0;  ///< standard deviation to first order
   /// Standard deviation due to each number alone, with the sign of the derivative. If the numbers are independent,
-  /// `standard` is the square root of the sum of their squares.
+  /// `standard` is the square root of the sum of the squares of these shares.
   std::vector<std::pair<std::string, double>> shares = {};
   std::array<double, 5> quantiles = {};  ///< quantiles of the samples at `probabilities`
   bool holds = true;                     ///< true if first order and quantiles agree within a tenth of `standard`
@@ -64,7 +64,7 @@ Json members_of(const Uncertainty& uncertainty);
 /// Returns the uncertainty of all numbers as a table.
 std::string text_of(const Uncertainty& uncertainty, const Digits& digits);
 
-/// Returns the remarks below such a table: numbers for which the first order fails, and samples left out.
+/// Returns the remarks below the table of text_of: numbers for which the first order fails, and samples left out.
 std::string remarks_on(const Uncertainty& uncertainty);
 
 }  // namespace contensou::answers

@@ -1,5 +1,5 @@
-// std::from_chars for doubles, for a libc++ older than LLVM 20, which lacks this function (macOS, the page). There the
-// build includes this header in every file.
+// std::from_chars for doubles, for a libc++ older than LLVM 20, which lacks this function (macOS, the page). A build
+// with such a libc++ includes this header in every file.
 #pragma once
 
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace contensou::platform {
 namespace {
 
 /// Ends the program. The function calls only async-signal-safe functions: unlink, write, signal, raise and _exit.
-/// Several threads may run it at once, and each removes the file before it ends the program.
+/// Several threads may run the function at once, and each removes the unfinished file before it ends the program.
 void end_program(int signal) {
   const char* message = remove_unfinished();
   if (message != nullptr && signal != SIGPIPE) {

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#ifndef O_PATH  // Linux alone has O_PATH: neither reading nor writing is allowed
+#ifndef O_PATH  // Linux alone has O_PATH, which opens a file for neither reading nor writing
 #define O_PATH O_RDONLY
 #endif
 

@@ -67,7 +67,7 @@ bool is_ready(int file) {
   const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(file));
   DWORD bytes = 0;
   if (::GetFileType(handle) != FILE_TYPE_PIPE) return true;
-  // PeekNamedPipe returns 0 if the pipe has ended. Then a read does not wait.
+  // PeekNamedPipe returns 0 if the pipe has ended. In this case a read does not wait.
   return ::PeekNamedPipe(handle, nullptr, 0, nullptr, &bytes, nullptr) == 0 || bytes > 0;
 }
 

@@ -26,7 +26,7 @@ CLI::Option* Argument::add(CLI::App& app, const std::string& names, const std::s
 void Argument::accept(const CLI::App& app, const std::vector<std::string>& values, const Take& take,
                       bool repeatable) const {
   for (const std::string& value : values) {
-    // If the value of an option was forgotten, the next option is taken for its value.
+    // If the value of an option was forgotten, the next option stands in place of this value.
     if (value.starts_with('-') && app.get_option_no_throw(value) != nullptr) {
       throw BadInput(fmt::format("{} needs a value before '{}'", name_, value));
     }
@@ -38,7 +38,7 @@ void Argument::accept(const CLI::App& app, const std::vector<std::string>& value
     try {
       if (take) take(value);
     } catch (const BadLine&) {
-      throw;  // the message already names its file
+      throw;  // the message already names the file
     } catch (const NotAllowed& error) {
       throw BadInput(fmt::format("{}: {}", typed(value), error.what()));
     } catch (const BadInput& error) {

@@ -92,7 +92,7 @@ inline auto whole_number(long lowest, long highest) {
   return [=](const std::string& typed) { return parse_integer(typed, lowest, highest); };
 }
 
-/// Reads a number in a unit. Another unit of the same kind may follow the number.
+/// Reads a number and returns it in a unit. Behind the typed number, any unit of the same kind may stand.
 /// @param symbol  symbol of the unit (si::dimensions); empty for a pure number
 double parse_quantity(const std::string& typed, std::string_view symbol);
 /// @throws std::logic_error  unless the text is a symbol in si::dimensions

@@ -19,7 +19,7 @@ class BulkOptions {
   void add(CLI::App& app);
 
   /// Throws BadInput if one of these options was given to a verb that cannot use it.
-  /// @param reason  end of the message, after "--threads is for "
+  /// @param reason  end of the message, after "--threads is for " or the like
   void refuse(const std::string& reason) const;
 
   /// Returns the number of threads: by default as many as the machine runs at once.

@@ -11,7 +11,7 @@ namespace contensou::program {
 /// Throws BadInput if `names` is not empty and no picture is written.
 void require_picture(const std::string& names, const Output& output);
 
-/// Name of the group of these options in the help.
+/// Returns the name of the group of figure options in the help.
 std::string figure_group();
 
 /// The options for the look of a figure on a page: --size, --font, --title and --dpi.

@@ -10,13 +10,13 @@
 namespace contensou::program {
 
 /// Returns instants from 0 to the end, both included. Half of the instants lie before `busy`, because most of the
-/// motion happens before that time. The instants are equidistant if `busy` is not in the first half of the time.
+/// motion happens before that time. All are equidistant unless count >= 4 and 0 < busy < end/2.
 Eigen::ArrayXd instants(Eigen::Index count, double busy, double end);
 
 /// The options --at, --samples and --equidistant, which set the instants of a motion or their number.
 class InstantsOption {
  public:
-  /// @param time    name of the time, the column of the file of --at
+  /// @param time    name of the time, and of its column in a file that --at names
   /// @param unit    symbol of the unit of the time; empty for tau
   /// @param extent  time span of the instants of --samples: "" or " from WHERE to WHERE"
   /// @return        the option --at
@@ -34,7 +34,7 @@ class InstantsOption {
 
   bool given() const { return !names().empty(); }
 
-  /// Returns the names of the given ones of these three options, joined for a message.
+  /// Returns the names of those of the three options that were given, joined for a message.
   std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
 
   /// Returns the instants of --at, in the order given; null without --at.

@@ -19,7 +19,7 @@ struct OutputKind {
   std::string standard = formats.front();
 };
 
-/// Returns a list of formats: formats of numbers, the picture formats, and more formats of numbers. tex is a picture.
+/// Returns the formats `first`, the picture formats, and the formats `last`, in one list. Here tex is a picture format.
 std::vector<std::string> with_pictures(std::vector<std::string> first, const std::vector<std::string>& last = {});
 
 /// Destination and format of a result.
@@ -55,7 +55,7 @@ class OutputOptions {
   void add(CLI::App& app);
 
   /// Reads the three options. The ending of the file sets the format; without an ending, --format sets the format;
-  /// without both, the kind of output.
+  /// without both, the kind of output has a default.
   /// @throws BadInput  if the kind does not have the format, if ending and --format disagree, if a file needs an
   ///                   ending, or if --digits is given with a format other than text
   Output read(std::size_t place = 0) const;

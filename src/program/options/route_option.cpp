@@ -47,7 +47,7 @@ std::optional<Flow> flow_of(const ReducedSystem& system, Route route) {
   return std::nullopt;
 }
 
-/// Returns the first tau at which a speed has fallen to 1e-3 of its start. Most of the motion happens before.
+/// Returns the first tau at which a speed has fallen to 1e-3 of its start. Most of the motion happens before this tau.
 double busy_time(const Orbit& orbit, State start) {
   const double v = start.v > 0 ? orbit.time_of_v(1e-3 * start.v) : 0;
   const double u = start.u != 0 ? orbit.time_of_u(1e-3 * std::abs(start.u)) : 0;

@@ -37,8 +37,8 @@ class BodyOptions {
   /// Returns the body; a homogeneous ball if none was given.
   Body body() const { return body_.value_or({}); }
 
-  /// Returns the system of the body under a law. Its mu is the value of --mu, or of the body itself.
-  /// @param ways  options that set mu, for a message
+  /// Returns the system of the body under a law. Its mu is the value of --mu, or the only mu of the body.
+  /// @param ways  options that set mu, for the message about a missing mu
   /// @throws BadInput  if mu is not given, or impossible for the body
   reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
 
@@ -95,7 +95,7 @@ class StartOptions {
   bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
 
   /// Reads the start from the options.
-  /// @param law  law of the system; a patch that is given by a spin deceleration is computed under it
+  /// @param law  law of the system; a patch that is given by a spin deceleration is computed under this law
   /// @throws BadInput           if options are missing, exclude each other or have values that no ball can have
   /// @throws si::RunFileError   for a mistake in a run file
   /// @throws std::system_error  for a run file that cannot be read
@@ -113,7 +113,7 @@ class StartOptions {
   /// Also allows --load to name a table of the load against time. This must be called before add_ball.
   void take_load_history() { takes_load_history_ = true; }
 
-  /// Returns the table that --load names. Throws BadLine for its mistakes, and FileFailure if it cannot be read.
+  /// Returns the table that --load names. Throws BadLine for a mistake there, FileFailure if it is unreadable.
   std::optional<si::LoadHistory> load_history() const;
 
   /// Returns the values that are given by single options, such as --slip.
@@ -177,7 +177,7 @@ class StartOptions {
 
   bool radius_is_ball_ = false, takes_load_history_ = false;
   mutable std::optional<si::LoadHistory> load_history_;  ///< empty until load_history() has read the table, once
-  mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, as it may be a pipe
+  mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, because its file may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
 };
 

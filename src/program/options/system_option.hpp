@@ -21,7 +21,7 @@ class SystemOption {
   /// @throws BadInput  as parse_planar_system
   reduction::SmoothField read(const ParameterOptions& parameters) const;
 
-  /// Returns the system for a portrait. It is solved if possible. Otherwise orbits are computed by steps in time.
+  /// Returns the system for a portrait: solved if possible; else its orbits are computed by steps in time.
   reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;
 
  private:

@@ -28,13 +28,13 @@ struct BatchRequest {
 };
 
 /// Computes a table of any length; only a few blocks of the table are in memory. Rows are written in order, as soon as
-/// possible. The bytes do not depend on the number of threads. Standard error shows the number of infinite results.
+/// possible. The output does not depend on the number of threads. Standard error shows the number of infinite results.
 ///
 /// @param output  file for the table; the caller finishes it
 /// @return        status of the worst row that has no result; `done` if all rows have results
 /// @throws BadLine             for a table that lacks a column or is not CSV. Without keep_going also for a bad row,
 ///                             after the rows before it have been written
-/// @throws std::runtime_error  without keep_going, for a row that cannot be computed, after the rows before it
+/// @throws std::runtime_error  without keep_going, for a row that cannot be computed, when earlier rows are written
 ExitStatus run_batch(CsvReader& table, OutputFile& output, const BatchRequest& request);
 
 }  // namespace contensou::program

@@ -20,7 +20,7 @@ std::string clock(double seconds) {
 }
 
 /// Returns the progress bar for a fraction of the work, with the rate and the time left, without a line end. If `total`
-/// is NaN, it returns only the amount of work that is done.
+/// is NaN, the text contains only the amount and the rate of the work that is done.
 std::string progress_line(double done, double total, const std::string& what, double seconds) {
   constexpr int width = 24;
   const double rate = done / seconds;

@@ -17,7 +17,7 @@ double seconds_now();
 class Progress {
  public:
   /// @param what    noun of the counted things, in the plural
-  /// @param now     returns the time, s
+  /// @param now     returns the time of a clock, s
   /// @param output  terminal or file to which the line is written
   Progress(std::string what, ShowProgress when, std::function<double()> now = seconds_now, std::FILE* output = stderr)
       : what_(std::move(what)),

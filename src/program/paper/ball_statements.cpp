@@ -1,4 +1,4 @@
-// V and omega: velocities of the centre and of rotation; c: of the contact point; v = |c|, e = c/v, n is normal to e.
+// Velocities: V of the centre, omega of rotation, c of the contact point. v = |c|; e = c/v; n is normal to e.
 #include <Eigen/Geometry>
 #include <boost/math/quadrature/gauss.hpp>
 

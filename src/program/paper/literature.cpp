@@ -65,7 +65,7 @@ struct Bowled {
   double friction = ball.contact.friction * ball.environment.gravity;
 };
 
-/// Returns the speed at which a ball begins to roll, divided by its speed v at the start. Its backspin is (5/2) v/R.
+/// Returns the speed at which a ball begins to roll, divided by its speed v at the start. The backspin is (5/2) v/R.
 double speed_of_draw() {
   si::Experiment ball = si::find_ball("pool")->experiment;
   const double speed = 1;

@@ -27,7 +27,7 @@ double derivative(double at) {
   return (-3 * function(at) + 4 * function(at + step) - function(at + 2 * step)) / (2 * step);
 }
 
-/// Returns the logarithmic derivative d ln f/d ln k of a function f(k).
+/// Returns the slope of ln f against ln k between k and 2 k, for a function f(k).
 template <double (*function)(double)>
 double order(double k) {
   return std::log2(function(2 * k) / function(k));
@@ -49,7 +49,7 @@ double over_angles(int n, int power, double k, double top) {
   const auto integrand = [&](double theta) {
     return std::pow(std::cos(theta), power) * patch().chord_moment(n, theta, k);
   };
-  // Theta = top sin(x) makes the integrand smooth: at the last angle the chord's length has a square root.
+  // Near the last angle, the chord's length varies like a square root; theta = top sin(x) makes the integrand smooth.
   return integral([&](double x) { return top * std::cos(x) * integrand(top * std::sin(x)); }, 0, pi / 2, 2);
 }
 
@@ -59,7 +59,7 @@ double force_by_chords(double k) {
   return (k > 1 ? 2 : 1) * over_angles(1, power, k, last_angle(k));
 }
 
-/// Returns M^h - h F of the paper, by an integral over `multiple` times the angles of (1.2).
+/// Returns M^h - h F of the paper, by an integral up to `multiple` times the last angle in (1.2).
 template <int multiple>
 double moment_by_chords(double k) {
   return (k > 1 ? 2 : 1) * over_angles(2, 0, k, multiple * last_angle(k)) - k * true_force(k);

@@ -18,7 +18,7 @@ namespace {
 using namespace reduction;
 using namespace zh98;
 
-constexpr double limit = 1e-6;  ///< allowed error of a limit that is computed at a small distance from it
+constexpr double limit = 1e-6;  ///< allowed error of a number that is computed near a limit, in place of this limit
 constexpr double a = 2;         ///< factor of the similarity (u, v) -> (a u, a v)
 
 constexpr State start{1, 0.5}, mirrored{-1, 0.5}, scaled{a * start.u, a*start.v};
@@ -40,7 +40,7 @@ double exponent(const Orbit& motion, Logarithm ln_y) {
 double ln_u(const OrbitPoint& at) { return std::log(at.u); }
 double ln_v(const OrbitPoint& at) { return at.ln_v; }
 
-/// Returns (2.8) from beta = lower, along the solution u = u1/beta of (2.7) with v = 0; u1 = -u^2/u', u' = du/dbeta.
+/// Returns the time (2.8) from beta = lower on, for u = u1/beta of (2.7) with v = 0; u1 = -u^2/u', u' = du/dbeta.
 double time_from(double mu, double lower) {
   if (lower == 0) return infinity;  // the integrand grows like 1/beta^2 at beta = 0
   const double u1 = -1 / regularised_field(mu, {1, 0}).u;
@@ -112,13 +112,13 @@ std::vector<Statement> plane_statements(double mu) {
        time_from(mu, 1)},
       {"(2.8)", "with beta = 0 at the start it converges, to the stop time",
        stop_time(reduced, start, Route::regularised).tau, motion.stop_time(), stepping},
-      // The speed that vanishes last is bounded: tau* <= 16 u0/(5 mu) + (15 pi/14) v0, README (R6).
+      // Bound of the stop time: tau* <= 16 u0/(5 mu) + (15 pi/14) v0, (R6) in reduction/README.md.
       {"", "every curve arrives in finite time: a bound over tau*", 1.,
        reduced.stop_time_bounds(start).upper / motion.stop_time(), lower_bound},
       {"", "u and v vanish at the same time: that of v over that of u", 1.,
        vanishes(motion, ln_v, 2 / reduced.r()) / vanishes(motion, ln_u, 1), limit},
       {"", "and that is the stop time", 1., vanishes(motion, ln_u, 1), limit},
-      // If times stayed equal, multiplying the state by a would multiply its velocity dv/dtau by a.
+      // If times stayed equal, multiplying the state by a would multiply the rate dv/dtau by a.
       {"", "(u, v) -> (a u, a v) is a symmetry of (2.6): dv/dtau there, a = 2", a * field(mu, start).v,
        reduced.field(scaled).v, arithmetic, 0, "", Verdict::erratum, "with tau -> a tau (and beta -> beta/a in (2.7))",
        field(mu, start).v},

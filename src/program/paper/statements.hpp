@@ -44,7 +44,7 @@ struct Statement {
   double allowed;                     ///< largest difference, relative to max(1, |computed|)
   double at = 0;                      ///< k or mu at which the numbers are compared
   std::string_view where = {};        ///< text that shows `at`: a format of fmt with the argument `at`
-  Verdict recorded = Verdict::holds;  ///< verdict in README.md
+  Verdict recorded = Verdict::holds;  ///< verdict in reduction/README.md, section errata
   std::string_view correction = {};   ///< a format of fmt with the arguments `computed` and `percent`
   Number corrected = nullptr;         ///< number from the corrected statement
 

@@ -7,7 +7,7 @@
 
 #include "contensou/reduction/reduced_system.hpp"
 
-/// Formulas of V. F. Zhuravlev, 1998 (Zh98), exactly as printed, with errata. No argument is checked; 0/0 gives NaN.
+/// Formulas of V. F. Zhuravlev, 1998 (Zh98), exactly as printed, with errors. No argument is checked; 0/0 gives NaN.
 namespace contensou::program::zh98 {
 
 using std::numbers::pi;
@@ -17,7 +17,7 @@ using std::numbers::pi;
 /// Returns sigma eps^2/N; sigma is the normal stress at the distance rho eps from the centre.
 inline double pressure(double rho) { return 3 / (2 * pi) * std::sqrt(1 - rho * rho); }
 
-/// Returns q_- or q_+ (by `sign`), the end of the chord at the edge, for the angle theta.
+/// Returns q_- (sign = -1) or q_+ (sign = 1), the ends of the chord at the edge of the patch, for the angle theta.
 inline double chord_end(double k, double theta, double sign) {
   return k * std::cos(theta) + sign * std::sqrt(1 - k * k * std::sin(theta) * std::sin(theta));
 }

@@ -47,7 +47,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const auto place = static_cast<std::size_t>(found - names.begin());
     const std::string_view unit = name == stop ? "s" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);
-    // A number without a unit is in radians here, in contrast to other angles.
+    // An angle without a unit is in radians here, in contrast to angles of other options.
     const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);

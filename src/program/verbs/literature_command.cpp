@@ -32,7 +32,7 @@ constexpr Field<Published> number_fields[]{
      [](const Published& n) -> Json { return n.confirmed ? "agrees" : "differs"; }},
 };
 
-/// The list of sources below the table, and the number of each source in it.
+/// The list of sources below the table, and the number of each source in this list.
 struct Sources {
   std::vector<std::string> list{};
 

@@ -29,7 +29,7 @@ struct OrbitReport {
   std::optional<si::LoadHistory> load;
   Eigen::ArrayXd u_estimate = {}, v_estimate = {}, ln_v_estimate = {};
   Eigen::ArrayXd tau_left = {};
-  Eigen::ArrayXd t = {};  ///< s
+  Eigen::ArrayXd t = {};  ///< time since the start, s
   Eigen::ArrayXd q = {}, p = {}, integral = {};
 };
 

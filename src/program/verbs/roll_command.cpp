@@ -39,7 +39,7 @@ portraits::RollCurve curve(const si::Experiment& experiment, const si::MotionCol
                                   .finished()};
 }
 
-/// Returns the data for the picture of the motion at these instants. They include the motion of the uncoupled model.
+/// Returns the data for the picture of the motion at these instants. The data include that of the uncoupled model.
 portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times) {
   const si::Experiment& experiment = roll.experiment;
   const double rolls = roll.whole.rolls(roll.rolling_below);

@@ -20,12 +20,12 @@ using reduction::State;
 
 namespace {
 
-/// Largest number of curves that are kept. A curve by quadrature takes about 300 kB, and so does a table. If each row
-/// has its own mu, no curve is used twice. A grid uses one mu after the other.
+/// Largest numbers of mu whose solutions are kept: curves for rows, tables of stop times for a grid. A curve or a table
+/// takes about 300 kB. If each row has its own mu, no curve is used twice. A grid needs one mu after the other.
 constexpr std::size_t max_curves = 256;
 constexpr std::size_t max_tables = 16;
 
-/// StopTimesOfMu costs as much time as 32 curves. Later a start takes 1 us; by the Flow of its mu it takes 0.3 us.
+/// StopTimesOfMu costs as much time as 32 curves. Later one start takes 1 us, or 0.3 us by a Flow for its mu.
 constexpr long mus_that_pay = 32;
 constexpr std::size_t starts_that_pay = 300;
 

@@ -61,7 +61,7 @@ struct SweepGrid {
   bool mu_is_range;  ///< true if the array has an axis for mu
   Range u0;          ///< values of u0; for a ball, values of its spin
   Range v0;
-  std::optional<si::Experiment> ball = {};  ///< if this is set, grid and stop times are in SI units
+  std::optional<si::Experiment> ball = {};  ///< if `ball` is set, grid and stop times are in SI units
 
   /// Returns the number of starts as a double, because it may exceed every integer type.
   double points() const {
@@ -216,7 +216,7 @@ class Sweep {
   double done_ = 0;
 };
 
-/// Writes the stop times of all starts; only a few blocks of them are in memory. The bytes do not depend on `threads`.
+/// Writes the stop times of all starts; only a few blocks of them are in memory. The file does not depend on `threads`.
 ///   npy  NumPy's format 1.0: float64, shape (v0, u0), or (mu, v0, u0) if mu is a range
 ///
 /// @param output  file for the result; the caller finishes it

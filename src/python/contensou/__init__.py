@@ -10,8 +10,8 @@
     ct.reduce("u' = -v - a*u; v' = u - a*v", u=1, v=1, a=0.1)  # the symmetry of any planar system, and its motion
 
 u = R omega_z is the speed of pivoting and v >= 0 the speed of sliding. mu is the radius of the contact patch divided by
-R, the radius of the body. tau = (3 pi/2) f g t is the time in the model of V. F. Zhuravlev, 1998, with the coefficient
-of friction f. u, v and tau have one unit, which is arbitrary; a Ball is in SI units. Numbers may be arrays of any
+R, the radius of the body. tau = (3 pi/2) f g t is the time of V. F. Zhuravlev, 1998, with friction coefficient f and
+gravity g. u, v and tau have one unit, which is arbitrary; a Ball is in SI units. Numbers may be arrays of any
 shapes that broadcast; masked entries become NaN. Errors of the library are ValueErrors.
 """
 

@@ -27,7 +27,7 @@ def aim(
 
     distance:  path of the centre, m
     turns:     turns about the vertical, of either sign
-    time:      s
+    time:      duration until then, s
 
     For a ball it also finds the start with forward slip that begins to roll (slip below 1 mm/s) at a place:
 
@@ -36,10 +36,10 @@ def aim(
     spin:           spin about the vertical at the start, rad/s, default 0
 
     Returns the fields of `contensou aim --format json`. The start is velocity and angular_velocity, arguments of
-    Ball.roll, and also its slip (m/s) and spin (rad/s). Ball.roll takes these two for a start by distance, turns and
-    time, because it does not roll. The result is distance, turns and time; for a ball also final_velocity, rolls_after,
-    and strike, the cue stroke that gives this start, if there is one. The start of `ball` is not used. With rolling
-    friction the demands hold when all motion ends.
+    Ball.roll, and also its slip (m/s) and spin (rad/s). For demands of distance, turns and time, slip and spin suffice
+    for Ball.roll, because the ball then spins only about the vertical. The result is distance, turns and time; for a
+    ball also final_velocity, rolls_after, and strike, the cue stroke that gives this start, if any. The start of `ball`
+    is not used. Under rolling friction the demands hold when all motion ends.
 
     Raises ValueError, with the nearest possible values, if no start fulfils both demands; for a slope; and for distance
     with time of a ball with rolling friction, because several starts may fulfil them. Raises TypeError for wrong types.

@@ -28,9 +28,9 @@ class ArrayFunction:
 
     name, arguments:  for messages
     compute:  writes results, the last positional arguments, of the arguments before them: arrays of doubles of one shape,
-              plus the axes below. dask and processes need one that can be pickled
+              plus the axes of along. dask and processes need one that can be pickled
     along:    names of the numbers along the last axis of the first argument; () if it has no such axis
-    gives:    for each result the number of its last axes of that size
+    gives:    for each result the number of its last axes that have the size of along
     """
 
     def __init__(self, name: str, arguments: Sequence[str], compute: Callable[..., None], along: Sequence[str] = (),
@@ -61,7 +61,7 @@ class ArrayFunction:
         return self._here(given, outs, where)
 
     def _decides(self, given: Any) -> bool:
-        """Returns True for an array that decides about the result itself."""
+        """Returns True for an array whose own __array_ufunc__ decides about the result."""
         method = getattr(type(given), "__array_ufunc__", _own)
         if method is _own or isinstance(given, np.ma.MaskedArray):
             return False
@@ -91,7 +91,7 @@ class ArrayFunction:
         return self(*given[:-1], where=given[-1])
 
     def _parts(self, given: Sequence[Any], outs: tuple[Any, ...], where: Any, kind: str) -> tuple[Any, list[Any], list[int]]:
-        """Returns the function to call for parts of arrays, its arguments, and the numbers of their last axes."""
+        """Returns the function to call for parts of arrays, its arguments, and how many last axes each has."""
         if outs:
             raise TypeError(f"out: {self.__name__} of {kind} returns new arrays: leave out out")
         if where is True:

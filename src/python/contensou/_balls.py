@@ -42,7 +42,7 @@ def _takes_one_and_fields(
 
 
 class Event(NamedTuple):
-    """A time of a motion, in s after the start, and the place of the centre then, in m from the start."""
+    """A time of a motion, in s after the start, and the place of the centre at this time, in m from the start."""
 
     t: float
     x: float
@@ -60,8 +60,8 @@ class Ball:
                        the patch only
     gravity, load:     m/s^2, 9.80665 by default; or the force in N that presses the ball on the plane
     slip, spin, velocity, angular_velocity:  the start, by default rest: slip in m/s along x and spin in rad/s about the
-                       vertical, or velocity (x, y) and angular_velocity (x, y, z up). The other fields contain the
-                       result
+                       vertical, or velocity (x, y) and angular_velocity (x, y, z up). Velocities also set slip
+                       and spin
     rolling_friction:  u_r: a ball that rolls without slip slows down at u_r g
     slope:             angle of the plane in degrees; it rises along x, and falls if negative
     law:               default law of the methods: a name, a Law or a function; by default that of the body
@@ -70,7 +70,7 @@ class Ball:
     inertia:           moment of inertia divided by m R^2, instead of that of the named body
     uncertainty:       standard deviations by name as in a run file, such as {"friction": 0.01, "patch_radius": 1e-4};
                        vx, vy, wx, wy, wz for velocities; correlations under "correlation": {"patch_radius":
-                       {"friction": -0.7}}. `but` removes those of its numbers
+                       {"friction": -0.7}}. `but` removes the deviations of the numbers that it replaces
 
     `Ball.pool()` and the like are the balls of `contensou balls`; arguments of the call replace their values.
     """
@@ -110,7 +110,7 @@ class Ball:
         vars(self).update({**derived, **known, "law": law, "_experiment": core})
 
     def _given(self) -> dict[str, Any]:
-        """Returns the fields that determine the ball."""
+        """Returns the fields that determine the ball, without those that follow from them."""
         derived = {"gravity"} if self.load is not None else set()
         if self.velocity is not None:
             derived |= {"slip", "spin"}
@@ -207,7 +207,7 @@ class Ball:
         return _solved(self, self._law(law)).mu
 
     def _law(self, asked: Optional[LawLike]) -> Law:
-        """Returns the given law, or by default the ball's own."""
+        """Returns the given law, or by default the law of the ball."""
         return law_of(self.law if asked is None else asked)
 
     @overload
@@ -346,8 +346,8 @@ class Ball:
         rolling_friction: Optional[float] = None,
     ) -> NDArray[np.float64]:
         """Returns the state of a ball t seconds later, in the convention of pooltool: rows r, v and w are the place of
-        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 has any shape S, and the
-        result has shape (*S, 3, 3); for N balls, (N, 3, 3), it has shape (N, *S, 3, 3). It is a new array."""
+        the centre in m, its velocity in m/s and the angular velocity in rad/s, z up. t >= 0 has any shape S. The
+        result is a new array of shape (*S, 3, 3). For N balls, with rvw of shape (N, 3, 3), it is (N, *S, 3, 3)."""
         rvw = numbers("rvw", rvw)
         if rvw.ndim not in (2, 3) or rvw.shape[-2:] != (3, 3):
             raise ValueError(f"rvw: rows r, v, w of a ball on the table, shape (3, 3) or (N, 3, 3); got shape {rvw.shape}")
@@ -548,8 +548,8 @@ class Roll:
         `roll.uncertainty("fit")` uses the deviations of the ball (Ball.uncertainty); arguments replace them.
 
         The result is the member uncertainty of `contensou roll --uncertainty --format json`. For each number of an
-        event it contains the standard deviation to first order, the shares in it by name, quantiles of 10 000 samples,
-        and first_order_holds, True if these agree.
+        event it contains the standard deviation to first order, the shares in it by name, quantiles of 10 000 samples
+        (1 000 with rolling friction or slope), and first_order_holds, True if standard deviation and quantiles agree.
         Raises ValueError for a number without a value, an invalid deviation, a changing load, and the uncoupled model.
         """
         typed = ",".join([*(text("uncertainty", each) for each in own),
@@ -599,8 +599,8 @@ class Rolls:
     shape S, they return a structured array of shape (N, *S) with the fields of Roll. An index returns one Roll, a slice
     Rolls.
 
-    events:  a structured array of shape (N,) with flat names: rolls_after_t, rolls_after_x, rolls_after_y (s, m), so also
-             spin_ends and rest, which is infinite if a Roll has None; slip_length, path (m), turns, stop_time (s).
+    events:  a structured array of shape (N,) with flat names: rolls_after_t, rolls_after_x, rolls_after_y (s, m), and
+             so on for spin_ends and rest (infinite if Roll.rest is None); slip_length, path (m), turns, stop_time (s).
              events["rest"] has the fields t, x, y. rolls_after, spin_ends, rest and the last four are also attributes
     """
 

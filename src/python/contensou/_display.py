@@ -10,7 +10,7 @@ import numpy as np
 
 
 def words(value: Any) -> str:
-    """Returns a cell of a table; a number has six digits."""
+    """Returns a value as text for a cell of a table; a number has six digits."""
     return f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
 
 

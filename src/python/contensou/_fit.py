@@ -31,8 +31,8 @@ class Estimate(NamedTuple):
 
 
 class RollingFrictionSeen(NamedTuple):
-    """Rolling friction that was not free but would make the fit far better, with the sliding friction in that case and
-    the decrease of chi^2."""
+    """Rolling friction that was not free but would make the fit far better, with the sliding friction that the
+    fit then has, and the decrease of chi^2."""
 
     value: float
     standard_error: float
@@ -60,7 +60,7 @@ class Fit:
 
     ball:          the ball with the fitted contact and start; its uncertainty contains the covariance of all free
                    numbers that the film determines
-    estimates:     friction, patch_radius, slip, spin, and those placing the film: direction, vx, vy, x, y, angle at
+    estimates:     friction, patch_radius, slip, spin, and those that place the film: direction, vx, vy, x, y, angle at
                    the start; with rolling friction also rolling_friction, and rolling (m/s, R omega along the slip)
                    instead of vx and vy
     names, correlation_matrix:  names of the free numbers, and their correlations

@@ -62,13 +62,13 @@ class Terminal(NamedTuple):
 
     @property
     def k_star(self) -> float:
-        """The limit of k for the largest sector of starts."""
+        """The limit of k that the largest sector of starts (an angle in the plane of mu |u| and v) reaches."""
         return max(self.ends, key=lambda end: math.atan(end.k_to) - math.atan(end.k_from)).k_star
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """The motion from one start to its stop. There are no time steps: a state at any time is one root."""
+    """The motion from one start to its stop. There are no time steps: any state is the root of one equation."""
 
     flow: Flow
     u: float
@@ -122,8 +122,8 @@ class Orbit:
     def gradient(self, tau: ArrayLike) -> dict[str, dict[str, NDArray[np.float64]]]: ...
     def gradient(self, tau: ArrayLike) -> dict[str, dict[str, Any]]:
         """Returns u, v, slip_length (the integral of v) and turned (the integral of u) at times tau, with exact partial
-        derivatives by the start and by tau, each as {value, u, v, tau}. The time at which v has a value changes with
-        the start's u by -g["v"]["u"]/g["v"]["tau"].
+        derivatives by the start and by tau, each as {value, u, v, tau}. The time at which v reaches a given value has
+        the derivative -g["v"]["u"]/g["v"]["tau"] by the start's u.
         Raises ValueError for a start with u or v of 0."""
         times = numbers("tau", tau)
         found = self.flow._core.instant_gradients(number("u", self.u), number("v", self.v), times)
@@ -187,7 +187,7 @@ class Flow:
     def stop_time(self, *, u: ArrayLike, v: ArrayLike, gradient: Literal[True],
                   where: ArrayLike = True) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]: ...
     def stop_time(self, *, u: Any, v: Any, out: Any = None, threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
-        """Returns the time tau until u = v = 0, to a few eps (2e-15 relative).
+        """Returns the time tau until u = v = 0, to a few eps of a double (2e-15 relative).
 
         u, v:      numbers, or arrays of shapes that broadcast; any u, v >= 0. Invalid or masked entries of an array
                    become NaN
@@ -288,7 +288,7 @@ def stop_time(
     *, u: Any, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, out: Any = None,
     threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
     """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Up to 31 of its
-    values cost a flow each (0.4 ms). From 32 values on all of them share some flows, which are cached, and the error may
+    values cost a flow each (0.4 ms). From 32 values on, all of them share some cached flows, and the error may
     be 8 eps/(1 - drive) larger. The time is NaN where mu is NaN or masked."""
     if mu is None or isinstance(mu, (float, int)):
         flow: Any = _flow(mu, law, body, drive)
@@ -362,7 +362,7 @@ class Checks(tuple[Check, ...]):
 
     def raise_for_failure(self) -> Checks:
         """Returns itself if every check passed.
-        Raises ArithmeticError, with the names of the others."""
+        Raises ArithmeticError, with the names of the failed checks."""
         if self.passed:
             return self
         raise ArithmeticError("\n".join(str(Checks([row])) for row in self if not row.passed))

@@ -226,7 +226,7 @@ class Portrait:
 
     @staticmethod
     def _arrows(place: Any, panel: dict[str, Any], layer: dict[str, Any], letter: float) -> None:
-        """Draws heads of one size, each at the end of a thousandth of the axes, whatever their size."""
+        """Draws arrow heads of one size, each on a shaft of a thousandth of the axes, whatever the size of the axes."""
         from matplotlib.patches import FancyArrowPatch
 
         span = np.array([panel[name]["high"] - panel[name]["low"] for name in "xy"])

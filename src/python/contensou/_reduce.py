@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Generator(NamedTuple):
-    """X = c t d/dt + (A x + b) . d/dx, x = (u, v), with the largest entry 1. If `everywhere` is False, it maps the
+    """X = c t d/dt + (A x + b) . d/dx, x = (u, v), with the largest entry 1. If `everywhere` is False, X maps the
     field onto itself within each sector in which the field is smooth, and not across their borders."""
 
     time: float
@@ -37,7 +37,7 @@ class PlanarRay(NamedTuple):
 
 
 class Equilibrium(NamedTuple):
-    """An isolated zero of the field. kind is its type by the eigenvalues of the derivatives there; center, where a
+    """An isolated zero of the field. kind is its type by the eigenvalues of the derivatives there; "center" only if a
     reflection or V proves it."""
 
     u: float
@@ -136,7 +136,7 @@ class Reduction:
 
     @property
     def turn(self) -> Optional[tuple[float, float]]:
-        """For a focus, the factor of exp(p) in a turn, and sigma of a turn, d sigma = exp(-c p) dt; else None."""
+        """For a focus, the factor of exp(p) and the growth of sigma in one turn, d sigma = exp(-c p) dt; else None."""
         return self._core.turn
 
     @overload
@@ -145,7 +145,7 @@ class Reduction:
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def canonical(self, u: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
         """Returns q, the angle, and p, the only coordinate that the symmetry changes. p is ln(d/d0) with the distance d
-        from the centre, and d0 that of reduce's start."""
+        from the centre, and d0 the distance of the start given to reduce."""
         q, p = self._canonical(*together(u=u, v=v))
         return q[()], p[()]
 
@@ -247,7 +247,7 @@ class PlanarOrbit:
     def at(self, t: ArrayLike) -> NDArray[np.void]: ...
     def at(self, t: ArrayLike) -> Any:
         """Returns the states at times t >= 0 after the start, as a structured array of their shape with fields t, u, v,
-        q, p (as in Reduction.canonical). From end_time on the centre; NaN at infinity and beyond a border."""
+        q, p (as in Reduction.canonical). From end_time on: the centre; NaN at infinity and beyond a border."""
         times = numbers("t", t)
         states = np.empty(times.shape, [(name, float) for name in ("t", "u", "v", "q", "p")])
         states["t"] = times
