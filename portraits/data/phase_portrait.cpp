@@ -343,7 +343,7 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
   if (!request.drawn_only || shows_window(view)) {
     portrait.isochrones = isochrones(flow, window, times.times);
     const int with_room_for_labels = view == View::pair ? 9 : 12;
-    constexpr double most = 4;  // largest factor by which a part of a window has more orbits
+    constexpr double most = 4;  // largest factor for the number of orbits if the window is a part of |u| <= U
     const double denser = std::clamp(window.u() / window.sides()[0], 1.0, most);
     portrait.orbits =
         tracer.orbits(request.orbits.value_or(static_cast<int>(std::lround(denser * with_room_for_labels))));

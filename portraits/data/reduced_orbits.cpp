@@ -37,7 +37,7 @@ ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start)
     const double x = curve.chart().log_ratio(there);
     return Point{x, integral + curve.ln_w(there) + ln_mu + x};
   };
-  // Points are dense about k = 1. For small mu, u falls while ln k falls by thousands.
+  // Points are dense about k = 1 and sparser far from it: for small mu, ln k falls by thousands while u falls.
   constexpr int upstream = 400, most = 4000;
   for (int i = upstream; i > 0; --i) from.orbit[0].push_back(at(xi + 0.05 * i));
   double there = xi;

@@ -390,7 +390,7 @@ double Orbit::integral(const std::function<double(double)>& of_v, double tau, co
     for (double v : edges) panels.push_back(std::min(time_of_v(std::max(v, 0.0)), end));
     integrand = [&](double at) { return of_v(v0_ * (1 - at / stop_time())) - last_value; };
   } else {
-    // The variable of integration is xi, because v and the time follow from xi without a root.
+    // The variable of integration is xi, because v and the time follow from xi without a search for a root.
     constexpr double ln_nothing = -50;
     constexpr double width = 3;
     constexpr double most = 64;

@@ -29,7 +29,7 @@ constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
 
 bool moderate(double x) { return x > 0x1p-100 && x < 0x1p100; }
 
-/// Returns inverse_mu v0/|u0| at a y on the branch of a panel.
+/// Returns k0 = inverse_mu v0/|u0| for the coordinate y of StopTimePanels on the branch of a panel.
 double ratio(std::size_t panel, double y) {
   const double up_to_one = (panel & Panels::near_one) != 0 ? (1 - y) / (1 + y) : y / (1 - y);
   return (panel & Panels::above_one) != 0 ? 1 / up_to_one : up_to_one;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double accurate = 1e-13;  ///< error of a series, relative to the largest sample
 
-/// A series in x from 0 to 1, times x^order. The series at x = 0 is not 0, unless the function vanishes.
+/// The product of x^order and a series in x, 0 <= x <= 1. The series is not 0 at x = 0, unless the product is 0.
 struct PowerSeries {
   double order = 0;
   LegendreSeries rest;

@@ -29,7 +29,7 @@ constexpr double same_order = 1e-9;
 Limit limit_at(const Approach& end, double sign) {
   if (!end.decided()) return Limit::undecided;
   const double radial = sign * end.radial().factor;
-  const bool along = end.ray() && end.radial().order == 0;  // p has no bound at least on the ray itself
+  const bool along = end.ray() && end.radial().order == 0;  // p has no bound on the ray itself, perhaps only there
   if (radial == 0 || (end.growth() > same_order && !along)) return Limit::point;
   return radial < 0 ? Limit::centre : Limit::infinity;
 }

@@ -117,15 +117,16 @@ TEST_CASE("the curves V = 0 are drawn where V changes its sign and where it only
     request.window = Window{{-1, -1}, {1.2, 1.1}};
     return planar_portrait(reduction.reduction(), "a system", request).invariant;
   };
-  for (const double power : {1, 2, 3, 4}) {
+  // V = (1 + u^2) v^power is the only V of these fields.
+  for (const double power : {1, 2}) {
     INFO("v' = v^" << power);
     const std::vector<PortraitOrbit> lines =
-        lines_of([&](const Vector2d& x) { return Vector2d(1, std::pow(x[1], power)); });
+        lines_of([&](const Vector2d& x) { return Vector2d(1 + x[0] * x[0], std::pow(x[1], power)); });
     REQUIRE(lines.size() == 1);
     CHECK(lines[0].v.abs().maxCoeff() < 1e-3);
     CHECK(lines[0].u.maxCoeff() - lines[0].u.minCoeff() > 2.1);
   }
-  CHECK(lines_of([](const Vector2d& x) { return Vector2d(1, x[1] * x[1] + 1e-4); }).empty());
+  CHECK(lines_of([](const Vector2d& x) { return Vector2d(1 + x[0] * x[0], x[1] * x[1] + 1e-4); }).empty());
 }
 
 TEST_CASE("a planar portrait is refused where there is nothing to show", "[input]") {

@@ -304,7 +304,7 @@ TEST_CASE("the slip is the integral of v along the orbit", "[orbit][route]") {
   CHECK_WITHIN_EPS(part, 1e6);
 }
 
-// The integral is summed over panels in k, so it also covers motions beyond a ray and towards infinity.
+// The integral is summed over panels in k, so it also covers motions beyond a ray and motions with k towards infinity.
 TEST_CASE("what is turned is the integral of u along the orbit", "[orbit][route]") {
   WorstCase turned("turned"), slipped("slip");
   for (const char* name : {"exact", "pade", "ring"}) {

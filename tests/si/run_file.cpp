@@ -263,7 +263,7 @@ TEST_CASE("text that toml++ 3.3 would not survive", "[domain]") {
     refused(header, "not TOML: ");
   }
   refused("a = [}", "x.toml:1:6: not TOML: a bracket that closes none");
-  // A letter within quotes that begin no string made toml++ have undefined behaviour.
+  // A letter behind a quotation mark that can begin no string gave toml++ undefined behaviour.
   refused("a = 0'\xC9\xA0", "x.toml:1:6: ' has no place here: it begins a key or a value");
   refused("a = \"\"\"\\\n\xEF\xBB\xBD\"\"\"", "x.toml:1:5: text of several lines has no place here");
   refused("a = '''b'''", "x.toml:1:5: text of several lines has no place here");

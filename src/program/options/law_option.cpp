@@ -27,8 +27,7 @@ void LawOption::add(CLI::App& app, const std::string& note) {
   app.option_defaults()->group("Law of friction");
   law_.add(
       app, "--law", "LAW",
-      "law of friction: name, formulas or FILE.csv (default exact; a --body or --ball has its own); 'contensou help laws' explains them" +
-          note);
+      "law of friction ('contensou help laws'): name, formulas or FILE.csv (default exact, or law of the body)" + note);
   parameters_.add(app);
 }
 

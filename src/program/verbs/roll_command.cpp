@@ -132,8 +132,8 @@ class RollCommand final : public Verb {
     app.add_flag("--gradient", gradient_,
                  "also print the derivatives of each event with respect to each number of the ball and its start");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of input values, such as slip=1%,friction=5%; fit takes those that "
-                     "'contensou fit' wrote into the run file. Also prints the standard deviations of the events");
+                     "standard deviations of input values, such as slip=1%,friction=5%, or fit: those in "
+                     "a file of 'contensou fit'. Also prints the standard deviations of the events");
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_
         .add(app, "--until", "TIME", "last instant, in seconds (default: 1.1 times the time of the last event)",

@@ -44,8 +44,8 @@ class StopCommand final : public Verb {
     app.add_flag("--estimate", estimate_, "also print estimates for small mu, with their errors");
     app.add_flag("--gradient", gradient_, "also print the derivatives of the stop time (see gradient)");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
-                     "standard deviations of input values, such as slip=1%,friction=5%; fit takes those that "
-                     "'contensou fit' wrote into the run file. Also prints the standard deviation of the stop time");
+                     "standard deviations of input values, such as slip=1%,friction=5%, or fit: those in "
+                     "a file of 'contensou fit'. Also prints the standard deviation of the stop time");
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "table with one start a row, - for standard input. Columns: mu,u0,v0, or with --ball slip,spin (m/s, "

@@ -99,7 +99,7 @@ class Portrait:
         return f"portrait({', '.join(f'{key}={value!r}' for key, value in self._asked.items() if value is not None)})"
 
     def render(self, format: str) -> bytes:
-        """Returns the file in a format: svg, pdf, png or eps, drawn by gnuplot (on PATH); gp, its script; tex."""
+        """Returns the file in a format: svg, pdf, png, eps (by gnuplot on PATH), gp (gnuplot script), tex (LaTeX)."""
         return self._core.render(format, self._asked["font"], self._asked["dpi"])
 
     def save(self, path: Union[str, PathLike[str]]) -> None:

@@ -1,4 +1,4 @@
-"""Many starts and films by dask and by MPI."""
+"""Tests of many starts and many films computed with dask and with MPI: the recipes of src/python/README.md."""
 
 import shutil
 import sys

@@ -405,7 +405,7 @@ TEST_CASE("a relay about another point stops when the one about the origin does"
   const PlanarReduction here = reduced(relay(0), {0.5, 2}), there = reduced(relay(1), {1.5, 2});
   CHECK(there.kind() == "stable focus");
   CHECK(there.end_time({1.5, 2}) == Approx(here.end_time({0.5, 2})).epsilon(1e-12));
-  // Computed by hand: each half turn, from one jump at u = 1 to the next, is `ratio` times as long and as fast.
+  // By hand: a half turn, from one jump at u = 1 to the next, is `ratio` times as long and as fast as the one before.
   const double a = 0.7, b = 1.3;  // size of v': a on the way back, b on the way out
   const double out = 2 / b, top = 0.5 + 2 * out - b * out * out / 2, in = std::sqrt(2 * top / a), w = a * in;
   const double ratio = std::sqrt(a / b), half_turn = w / b + w * ratio / a;

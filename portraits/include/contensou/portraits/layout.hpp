@@ -123,7 +123,7 @@ inline constexpr double tick_size = 0.9, label_size = 0.85;
 /// Returns the size of letters in a figure of the given width, 2.2 to 2.7 mm.
 double letter_mm(double width_mm);
 
-/// Returns the number of panels side by side: the largest for which each has 50 mm and all rows are full.
+/// Returns the number of panels side by side: the largest for which each is at least 50 mm wide and all rows are full.
 int panel_columns(double width_mm, int panels);
 
 /// Returns the size of a figure. Sides that are not wanted are chosen so that the panels keep their shape.

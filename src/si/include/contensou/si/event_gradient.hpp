@@ -11,8 +11,8 @@
 
 namespace contensou::si {
 
-/// The name of a number of an event, such as {"rolls_after", "t", "s"}. A number without an event, such as "path", has
-/// an empty `of`.
+/// The name of a number of an event: {"rolls_after", "t", "s"} is the time t, in s, of the event "rolls_after". For a
+/// number without an event, such as "path", the name stands in `event`, and `of` is empty.
 struct EventNumber {
   std::string_view event, of, unit;
 };
@@ -24,9 +24,8 @@ struct EventNumber {
 /// length, turns, path and stop time.
 class EventNumbers {
  public:
-  /// @param rolling_below  as in Motion::rolls; if it is empty, the stop time is the only number. The rolling
-  ///                       friction is
-  ///                       that of the experiment
+  /// @param rolling_below  as in Motion::rolls; if it is empty, the stop time is the only number. The experiment
+  ///                       contains the rolling friction
   /// @throws std::domain_error  as Motion::reduced and finite; for a ball at rest
   EventNumbers(const Experiment& experiment, const reduction::Law& law, std::optional<double> rolling_below);
 
