@@ -1,8 +1,13 @@
 #include "contensou/reduction/friction_law.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
 #include <stdexcept>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -90,5 +95,48 @@ void Law::Function::require_approach() const {
                              moment, same_moment));
   }
 }
+
+struct Law::Remembered final : Law::Function {
+  explicit Remembered(std::shared_ptr<const Function> function) : Function(*function), function_(std::move(function)) {}
+
+  Resistance resistance(Slip slip) const override { return at(slip).resistance; }
+  double moment_deficit(Slip slip) const override { return at(slip).moment_deficit; }
+  double force_deficit(Slip slip) const override { return function_->force_deficit(slip); }
+  bool states_force_deficit() const override { return function_->states_force_deficit(); }
+  const Function& given() const override { return function_->given(); }
+
+ private:
+  struct Values {
+    Resistance resistance;
+    double moment_deficit;
+  };
+  struct Hash {
+    std::size_t operator()(const Slip& slip) const {
+      constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
+      const auto bits = [](double speed) { return std::bit_cast<std::uint64_t>(speed); };
+      return ((bits(slip.sliding) * odd ^ bits(slip.pivoting)) * odd) >> 20;
+    }
+  };
+  struct Same {
+    bool operator()(const Slip& a, const Slip& b) const { return a.sliding == b.sliding && a.pivoting == b.pivoting; }
+  };
+
+  Values at(Slip slip) const {
+    {
+      const std::lock_guard lock(guard_);
+      if (const auto found = known_.find(slip); found != known_.end()) return found->second;
+    }
+    const Values made{function_->resistance(slip), function_->moment_deficit(slip)};  // other threads need not wait
+    const std::lock_guard lock(guard_);
+    known_.emplace(slip, made);
+    return made;
+  }
+
+  std::shared_ptr<const Function> function_;
+  mutable std::mutex guard_;
+  mutable std::unordered_map<Slip, Values, Hash, Same> known_;
+};
+
+Law Law::remembered() const { return Law(std::make_shared<const Remembered>(function_)); }
 
 }  // namespace contensou::reduction

@@ -6,7 +6,6 @@
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/pressure_law.hpp"
-#include "laws/remembered_law.hpp"
 
 namespace contensou::reduction {
 
@@ -30,13 +29,12 @@ kernel::Friction<double> ByDifferences::operator()(const kernel::Slip<double>& s
           force_slope, moment_slope};
 }
 
-SlopedLaw with_slopes(const Law& given) {
-  const Law& law = original(given);
+SlopedLaw with_slopes(const Law& law) {
   if (law.as<HertzLaw>() != nullptr) return kernel::Exact{};
   if (const auto* pressure = law.as<PressureLaw>(); pressure != nullptr && pressure->p() == 0) return kernel::Uniform{};
   if (const auto* elliptic = law.as<EllipticLaw>()) return kernel::Elliptic{elliptic->moment()};
   if (law.as<PadeLaw>() != nullptr) return kernel::Pade{};
-  return ByDifferences{given};
+  return ByDifferences{law};
 }
 
 std::function<kernel::Friction<double>(Slip)> tangent_of(const Law& law) {

@@ -19,7 +19,6 @@
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/tangent.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "laws/remembered_law.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/later.hpp"
 #include "similarity/regular_solution.hpp"
@@ -328,7 +327,7 @@ struct StopTimesOfMu::Tables {
   Tables(const Law& law, Inertia body, double drive)
       : unit(law, 1, body, drive),
         closed(closed_solution(law, max_r, drive)),
-        shared(remembered(law)),
+        shared(law.remembered()),
         stop_times({{shared, drive}}, edges(law, drive > 0, max_r)),
         derivatives({{shared, drive}, creeps(law, drive), tangent_error(law)},
                     edges(law, creeps(law, drive), max_r_of_derivatives(law, drive))) {}

@@ -123,10 +123,14 @@ class Law {
 
   const std::string& name() const { return function_->name; }
 
+  /// Returns this law with a memory of its values, for many solutions that call the law at the same k. Values and
+  /// constants are the same bit for bit. Threads may share the result.
+  Law remembered() const;
+
   /// Returns the wrapped law if its type is exactly L, else null. A type derived from L does not count as L.
   template <FrictionLaw L>
   const L* as() const {
-    const auto* function = dynamic_cast<const FunctionOf<L>*>(function_.get());
+    const auto* function = dynamic_cast<const FunctionOf<L>*>(&function_->given());
     return function ? &function->law : nullptr;
   }
 
@@ -150,6 +154,8 @@ class Law {
     virtual double moment_deficit(Slip slip) const = 0;
     virtual double force_deficit(Slip slip) const = 0;
     virtual bool states_force_deficit() const = 0;
+    /// Returns the function of the law that was wrapped.
+    virtual const Function& given() const { return *this; }
     void read_limits();
     void require_degree_0() const;
     void require_approach() const;
@@ -186,6 +192,11 @@ class Law {
 
     L law;
   };
+
+  /// A function, and its values that were computed so far.
+  struct Remembered;
+
+  explicit Law(std::shared_ptr<const Function> function) : function_(std::move(function)) {}
 
   std::shared_ptr<const Function> function_;
 };
