@@ -15,42 +15,22 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Returns the place of a zero between two corners of a square; empty if there is none, and at a pole.
-std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, Vector2d from, Vector2d to, double at_from,
-                                     double at_to) {
-  if (!(std::abs(at_from) < INFINITY && std::abs(at_to) < INFINITY) || (at_from < 0) == (at_to < 0))
-    return std::nullopt;
-  const double least = std::min(std::abs(at_from), std::abs(at_to));
-  double left = at_from;
-  constexpr int halvings = 30;
-  Vector2d middle = (from + to) / 2;
-  for (int i = 0; i < halvings; ++i) {
-    middle = (from + to) / 2;
-    const double here = piece.value(middle);
-    if (here == 0) return middle;
-    ((here < 0) == (left < 0) ? from : to) = middle;
-    if ((here < 0) == (left < 0)) left = here;
-  }
-  return std::abs(piece.value(middle)) <= least + 1e-9 * std::max(std::abs(at_from), std::abs(at_to))
-             ? std::optional(middle)
-             : std::nullopt;
-}
-
-/// Returns the place between two neighbours at which a function touches 0 without a change of its sign, as v^2 does;
-/// empty if the function stays away from 0.
-/// @param values  at four points in one line; the middle two are the neighbours
-std::optional<Vector2d> touch_between(const reduction::FactorPiece& piece, Vector2d from, Vector2d to,
-                                      const std::array<double, 4>& values) {
+/// Returns the place between two corners of a square at which a function is 0: it changes its sign there, or touches 0
+/// as v^2 does. Empty if the function stays away from 0, and at a pole.
+/// @param values  at four points in one line; the middle two are the corners. At the border an outer point is missing:
+///                its value repeats that of the corner
+std::optional<Vector2d> zero_between(const reduction::FactorPiece& piece, const Vector2d& from, const Vector2d& to,
+                                     const std::array<double, 4>& values) {
   std::array<double, 4> sizes{};
   std::ranges::transform(values, sizes.begin(), [](double value) { return std::abs(value); });
-  const double largest = std::max(sizes[0], sizes[3]);
-  if (!(largest < INFINITY && sizes[0] > sizes[1] && sizes[2] < sizes[3])) return std::nullopt;
+  const bool crosses = (values[1] < 0) != (values[2] < 0), turns = sizes[0] > sizes[1] && sizes[2] < sizes[3];
+  if (!(crosses || turns) || !(sizes[1] + sizes[2] < INFINITY)) return std::nullopt;
   constexpr int bits = 26;
   const auto place = [&](double s) { return Vector2d(from + s * (to - from)); };
   const auto [nearest, least] =
       boost::math::tools::brent_find_minima([&](double s) { return std::abs(piece.value(place(s))); }, 0.0, 1.0, bits);
   constexpr double rounding = 1e-6;  // also of a V that was fitted to differences
-  return least <= rounding * largest ? std::optional(place(nearest)) : std::nullopt;
+  return least <= rounding * std::max(sizes[1], sizes[2]) ? std::optional(place(nearest)) : std::nullopt;
 }
 
 }  // namespace
@@ -92,12 +72,9 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
       for (const bool up : {false, true}) {
         const int k = up ? i : i + 1, l = up ? j + 1 : j;
         if (k > columns || l > rows) continue;
-        auto zero = zero_between(piece, corner(i, j), corner(k, l), value(i, j), value(k, l));
-        if (!zero && (up ? j > 0 && l < rows : i > 0 && k < columns)) {
-          zero = touch_between(piece, corner(i, j), corner(k, l),
-                               {up ? value(i, j - 1) : value(i - 1, j), value(i, j), value(k, l),
-                                up ? value(k, l + 1) : value(k + 1, l)});
-        }
+        const double before = up ? value(i, std::max(j - 1, 0)) : value(std::max(i - 1, 0), j);
+        const double after = up ? value(k, std::min(l + 1, rows)) : value(std::min(k + 1, columns), l);
+        const auto zero = zero_between(piece, corner(i, j), corner(k, l), {before, value(i, j), value(k, l), after});
         if (zero) crossings[{{i, j}, up}] = {*zero, {}};
       }
     }
