@@ -1,7 +1,9 @@
 #include "output/help.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -94,6 +96,10 @@ std::string help_on_group(const CLI::App& app, const std::string& group) {
 }
 
 std::string help_on_words(const std::vector<std::string_view>& names) {
+  for (std::string_view name : names) {
+    if (std::ranges::find(glossary, name, &std::pair<std::string_view, std::string_view>::first) == std::end(glossary))
+      throw std::logic_error(fmt::format("the glossary of help has no entry '{}'", name));
+  }
   std::string text = "\nSymbols and words:\n";
   for (const auto& [name, meaning] : glossary) {
     if (names.empty() || std::ranges::find(names, name) != names.end()) text += help_entry(name, meaning);
