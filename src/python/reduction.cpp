@@ -131,7 +131,7 @@ py::array_t<double> stop_time_gradients(const Numbers& u, const Numbers& v, Grad
 }
 
 /// Computes stop times like stop_times, but each start has its own mu.
-void stop_times_of_mus(const reduction::StopTimesOfMu& stop_time, const Numbers& mu, const Numbers& u, const Numbers& v,
+void stop_times_of_mus(const reduction::StopTimesOfMu& stop_time, const Numbers& u, const Numbers& v, const Numbers& mu,
                        py::array_t<double>& out) {
   const auto count = static_cast<std::size_t>(out.size());
   const double* const mus = mu.data();
@@ -204,8 +204,8 @@ void bind_reduction(py::module_& module) {
                     system_of({}, mu, body, 0);
                   })
       .def("stop_times", &stop_times_of_mus)
-      .def("gradients",
-           [](const reduction::StopTimesOfMu& stop_time, const Numbers& mu, const Numbers& u, const Numbers& v) {
+      .def("stop_time_gradients",
+           [](const reduction::StopTimesOfMu& stop_time, const Numbers& u, const Numbers& v, const Numbers& mu) {
              return stop_time_gradients(u, v, [&, mus = mu.data()](py::ssize_t i, reduction::State start) {
                return stop_time.gradient(mus[i], start);
              });

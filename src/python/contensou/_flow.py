@@ -199,7 +199,7 @@ class Flow:
         """
         if not gradient and out is None and where is True and isinstance(u, (float, int)) and isinstance(v, (float, int)):
             return self._core.stop_time(number("u", u), number("v", v))
-        return _array_stop_times(partial(_write_stop_times, self), ("u", "v"), (u, v), out, threads, gradient, where)
+        return _array_stop_times(partial(_write_stop_times_of_mu, self), ("u", "v"), (u, v), out, threads, gradient, where)
 
     def orbit(self, *, u: float, v: float) -> Orbit:
         """Returns the motion from one start."""
@@ -297,13 +297,20 @@ def stop_time(
     return _array_stop_times(write, ("u", "v", "mu"), (u, v, mu), out, threads, gradient, where)
 
 
-def _write_stop_times(flow: Flow, threads: int, u: NDArray[np.float64], v: NDArray[np.float64], *results: NDArray[np.float64]) -> None:
-    """Writes the stop times; with seven results also the derivatives."""
+def _write_stop_times(
+    solved: Any, given: Sequence[NDArray[np.float64]], results: Sequence[NDArray[np.float64]], *options: int
+) -> None:
+    """Writes the stop times by a Flow or StopTimesOfMu of the library; with seven results also the derivatives."""
     if len(results) == 1:
-        flow._core.stop_times(u, v, results[0], threads)
+        solved.stop_times(*given, results[0], *options)
         return
-    for result, found in zip(results, flow._core.stop_time_gradients(u, v)):
-        result[...] = found.reshape(u.shape)
+    for result, found in zip(results, solved.stop_time_gradients(*given)):
+        result[...] = found.reshape(result.shape)
+
+
+def _write_stop_times_of_mu(flow: Flow, threads: int, u: NDArray[np.float64], v: NDArray[np.float64],
+                            *results: NDArray[np.float64]) -> None:
+    _write_stop_times(flow._core, (u, v), results, threads)
 
 
 def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, threads: int, u: NDArray[np.float64],
@@ -315,20 +322,12 @@ def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, t
     if len(values) >= 32:
         for value in (values[0], values[-1]):
             _core.StopTimesOfMu.require(float(value), body_of(body))
-        tables: _core.StopTimesOfMu = _kept(_kept_tables, law, body, drive)
-        mus, us, vs = (np.ascontiguousarray(each, float) for each in (mu, u, v))
-        if len(results) == 1:
-            every = np.empty(u.shape)
-            tables.stop_times(mus, us, vs, every)
-            results[0][...] = every
-            return
-        for result, found in zip(results, tables.gradients(mus, us, vs).reshape(7, *u.shape)):
-            result[...] = found
+        _write_stop_times(_kept(_kept_tables, law, body, drive), (u, v, mu), results)
         return
     for i, value in enumerate(values):
         rows = group == i
         parts = [np.empty(np.count_nonzero(rows)) for _ in results]
-        _write_stop_times(Flow(float(value), law, body, drive), threads, u[rows], v[rows], *parts)
+        _write_stop_times(Flow(float(value), law, body, drive)._core, (u[rows], v[rows]), parts, threads)
         for result, part in zip(results, parts):
             result[rows] = part
 
