@@ -11,8 +11,6 @@ namespace contensou::reduction {
 
 namespace {
 
-State scaled(State state, double factor) { return {factor * state.u, factor * state.v}; }
-
 double size(Rate rate) { return std::hypot(rate.u, rate.v); }
 
 }  // namespace
@@ -20,7 +18,7 @@ double size(Rate rate) { return std::hypot(rate.u, rate.v); }
 double generator_residual(const std::function<Rate(State)>& field, int degree, State state) {
   // Fourth-order central difference of F(exp(h) x) in h: truncation 1e-11, rounding 1e-13.
   constexpr double h = 1e-3;
-  const auto along = [&](double step) { return field(scaled(state, std::exp(step))); };
+  const auto along = [&](double step) { return field({std::exp(step) * state.u, std::exp(step) * state.v}); };
   const Rate far_ahead = along(2 * h), ahead = along(h), behind = along(-h), far_behind = along(-2 * h);
   const Rate here = field(state);
   const auto residual = [&](double Rate::*part) {

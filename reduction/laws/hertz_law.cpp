@@ -22,13 +22,13 @@ using std::numbers::pi;
 
 /// Below this k the printed form is accurate to 7e-16. At this k the series needs 56 terms, at larger k fewer terms.
 constexpr double series_from = 1.25;
-constexpr std::size_t series_terms = 64;
+constexpr std::size_t hertz_series_terms = 64;
 
 /// Returns the Taylor coefficients of 2F1(a, b; c; x); each coefficient is rounded once.
-constexpr std::array<double, series_terms> gauss_coefficients(long double a, long double b, long double c) {
-  std::array<double, series_terms> coefficients{};
+constexpr std::array<double, hertz_series_terms> gauss_coefficients(long double a, long double b, long double c) {
+  std::array<double, hertz_series_terms> coefficients{};
   long double coefficient = 1;
-  for (std::size_t n = 0; n < series_terms; ++n) {
+  for (std::size_t n = 0; n < hertz_series_terms; ++n) {
     coefficients[n] = static_cast<double>(coefficient);
     const auto i = static_cast<long double>(n);
     coefficient *= (a + i) * (b + i) / ((c + i) * (1 + i));
@@ -42,7 +42,7 @@ constexpr auto moment_series = gauss_coefficients(0.5, 0.5, 3.5);
 /// Returns the number of terms of a series that are not negligible at x.
 std::size_t terms_at(double x) {
   std::size_t terms = 1;
-  for (double power = x; power > 1e-18 && terms < series_terms; power *= x) ++terms;
+  for (double power = x; power > 1e-18 && terms < hertz_series_terms; power *= x) ++terms;
   return terms;
 }
 
@@ -94,7 +94,7 @@ double HertzLaw::force_deficit(Slip slip) const {
   require_slip("HertzLaw", slip);
   const double inverse_k = slip.pivoting / slip.sliding, x = inverse_k * inverse_k;
   double sum = 0;
-  for (std::size_t n = std::min(terms_at(x) + 1, series_terms); n-- > 1;) sum = sum * x - force_series[n];
+  for (std::size_t n = std::min(terms_at(x) + 1, hertz_series_terms); n-- > 1;) sum = sum * x - force_series[n];
   return sum * x;
 }
 

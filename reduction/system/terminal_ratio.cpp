@@ -24,7 +24,7 @@ constexpr double without_sign = TerminalRatios::tolerance;
 /// Largest |ln k|; beyond this, the law equals its limit.
 constexpr double max_x = 60;
 
-struct Sample {
+struct Excess {
   double ln_k;
   double excess;
   int sign() const { return excess > without_sign ? 1 : excess < -without_sign ? -1 : 0; }
@@ -68,9 +68,9 @@ class Search {
 
   /// Adds the extrema of E that come near to 0, and those whose sign differs from that of both neighbouring samples.
   void sharpen() {
-    std::vector<Sample> extrema;
+    std::vector<Excess> extrema;
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
-      const Sample &before = samples_[i - 1], &here = samples_[i], &after = samples_[i + 1];
+      const Excess &before = samples_[i - 1], &here = samples_[i], &after = samples_[i + 1];
       const int sign = here.sign();
       if (sign == 0 || before.sign() != sign || after.sign() != sign) continue;
       const double fall = sign * (before.excess - here.excess);
@@ -81,13 +81,13 @@ class Search {
       if (least < without_sign) extrema.push_back({at, sign * least});
     }
     samples_.insert(samples_.end(), extrema.begin(), extrema.end());
-    std::ranges::sort(samples_, {}, &Sample::ln_k);
+    std::ranges::sort(samples_, {}, &Excess::ln_k);
   }
 
   void collect() {
-    const Sample* last = nullptr;  // last sample with a reliable sign
-    const Sample* zero = nullptr;  // since `last`, the sample with the smallest |E| of those without a reliable sign
-    for (const Sample& here : samples_) {
+    const Excess* last = nullptr;  // last sample with a reliable sign
+    const Excess* zero = nullptr;  // since `last`, the sample with the smallest |E| of those without a reliable sign
+    for (const Excess& here : samples_) {
       if (here.sign() == 0) {
         if (!zero || std::abs(here.excess) < std::abs(zero->excess)) zero = &here;
         continue;
@@ -104,7 +104,7 @@ class Search {
     }
   }
 
-  double root(const Sample& left, const Sample& right) const {
+  double root(const Excess& left, const Excess& right) const {
     return root_between([&](double x) { return excess(x); }, left.ln_k, right.ln_k, left.excess, right.excess);
   }
 
@@ -118,7 +118,7 @@ class Search {
 
   const Law& law_;
   double r_, drive_;
-  std::vector<Sample> samples_;
+  std::vector<Excess> samples_;
 };
 
 std::vector<TerminalRatio> ends_of(const std::vector<InvariantRay>& rays, const std::vector<int>& signs) {

@@ -87,7 +87,7 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
 }
 
 TEST_CASE("films of the ball itself fit, with errors and without", "[invariant]") {
-  constexpr int films = CONTENSOU_FULL_TESTS ? 1000 : 40;
+  constexpr int films = CONTENSOU_FULL_TESTS ? 1000 : 10;
   std::mt19937_64 random(1);
   for (Eigen::Index rows : {20, 60, 240}) {
     const Track film = track_of({pool_ball()}, ArrayXd::LinSpaced(rows, 0, 0.5), slip_and_spin, false);

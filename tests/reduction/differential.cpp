@@ -269,12 +269,12 @@ class ByTheRay {
 
 TEST_CASE("every door has one answer, within the accuracy that it states", "[differential][route]") {
   Questions questions(20'261'122);
-  ask(questions, &Questions::system, CONTENSOU_FULL_TESTS ? 500 : 100);
+  ask(questions, &Questions::system, CONTENSOU_FULL_TESTS ? 500 : 40);
 }
 
 TEST_CASE("with a drive, too", "[differential][route][drive]") {
   Questions questions(28'261'123);
-  ask(questions, &Questions::driven_system, CONTENSOU_FULL_TESTS ? 300 : 60);
+  ask(questions, &Questions::driven_system, CONTENSOU_FULL_TESTS ? 300 : 30);
 }
 
 TEST_CASE("random drives by quadrature and by steps from the ray", "[differential][route][drive]") {

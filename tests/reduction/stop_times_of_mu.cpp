@@ -63,7 +63,7 @@ struct Rows {
 };
 
 std::vector<Law> laws_and_tables() {
-  std::vector<Law> laws = named_laws();
+  std::vector<Law> laws = CONTENSOU_FULL_TESTS ? named_laws() : paper_laws();
   laws.push_back(*find_law("annulus:0.65"));
   return laws;
 }

@@ -156,7 +156,7 @@ TEST_CASE("random balls and pucks on slopes: without steps and in steps one moti
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   const std::vector<reduction::Law> laws{*reduction::find_law("exact"), *reduction::find_law("pade"),
                                          *reduction::find_law("uniform"), *reduction::find_law("paraboloid")};
-  constexpr int shots = CONTENSOU_FULL_TESTS ? 4000 : 600;
+  constexpr int shots = CONTENSOU_FULL_TESTS ? 4000 : 200;
   int several = 0, held_first = 0;
   for (int i = 0; i < shots; ++i) {
     const bool flat = i % 5 == 0;

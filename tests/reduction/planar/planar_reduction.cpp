@@ -48,7 +48,8 @@ TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law
   std::vector<Law> laws = named_laws();
   laws.push_back(*find_law("pressure:0.3"));
   laws.push_back(*find_law("elliptic:0.7"));
-  for (int i = 0; i < 250; ++i) {
+  constexpr int systems = CONTENSOU_FULL_TESTS ? 250 : 50;
+  for (int i = 0; i < systems; ++i) {
     const Law& law = laws[static_cast<std::size_t>(i) % laws.size()];
     const Inertia body = bodies[static_cast<std::size_t>(i / 7) % bodies.size()];
     const double mu = std::pow(10, uniform(-4, 0.5));
@@ -74,7 +75,7 @@ TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law
       points.add(wanted.v, got[1], size, where + fmt::format(", at {}", at / tau));
     }
   }
-  CHECK(times.count() == 1000);
+  CHECK(times.count() == 4 * systems);
   CHECK_WITHIN_EPS(times, 2000);
   CHECK_WITHIN_EPS(points, 4500);  // 4500 eps are 1e-12
 }
@@ -89,7 +90,8 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
   laws.push_back(*find_law("pressure:0.3"));
   laws.push_back(*find_law("elliptic:0.7"));
   int with_rays = 0;
-  for (int i = 0; i < 120; ++i) {
+  constexpr int systems = CONTENSOU_FULL_TESTS ? 120 : 30;
+  for (int i = 0; i < systems; ++i) {
     const Law& law = laws[static_cast<std::size_t>(i) % laws.size()];
     const Inertia body = bodies[static_cast<std::size_t>(i / 5) % bodies.size()];
     const double mu = std::pow(10, uniform(-2, 0.4)), drive = i % 3 == 0 ? 0.9 * uniform(0.01, 1) : 0;
@@ -163,7 +165,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
     CHECK(by_flow.end_time({0, 0}) == 0);
     CHECK(by_flow.end_time_error(around) < 1e-13);
   }
-  CHECK(with_rays > 20);
+  CHECK(with_rays > systems / 6);
   CHECK_WITHIN_EPS(radial, 100);
   CHECK_WITHIN_EPS(angular, 1e7);  // less accurate next to the kink of a law
   CHECK_WITHIN_EPS(times, 200);
