@@ -128,27 +128,27 @@ void fill_panel(Figure& figure) {
 }
 
 /// The direction of the paths, and whether they are straight.
-struct Course {
+struct PathShape {
   Point along{1, 0};  ///< direction of the farthest point of the path
   double reach = 0;   ///< distance of that point from the start; 0: the ball spins in place
   bool bends = false;
 };
 
-Course course_of(const RollPicture& picture) {
+PathShape path_shape(const RollPicture& picture) {
   const Polyline path = path_of(picture.ball, shown_time(picture));
   const Polyline textbook = path_of(picture.textbook, shown_time(picture));
-  Course course;
+  PathShape shape;
   for (const Point& point : path) {
     const double distance = std::hypot(point.x, point.y);
-    if (distance > course.reach) course = {{point.x / distance, point.y / distance}, distance};
+    if (distance > shape.reach) shape = {{point.x / distance, point.y / distance}, distance};
   }
   for (const Polyline* line : {&path, &textbook}) {
     for (const Point& point : *line) {
-      const double off = std::abs(course.along.x * point.y - course.along.y * point.x);
-      course.bends = course.bends || off > straight * course.reach;
+      const double off = std::abs(shape.along.x * point.y - shape.along.y * point.x);
+      shape.bends = shape.bends || off > straight * shape.reach;
     }
   }
-  return course;
+  return shape;
 }
 
 /// Draws the distance along a straight path against time.
@@ -330,7 +330,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
       path.marks.insert(path.marks.begin(), {Marks{{line.back()}, colour, 1.6}, rolls});
     }
   }
-  if (!course_of(picture).bends) return frames;
+  if (!path_shape(picture).bends) return frames;
   fill_panel(frames.front());
   const Panel& first = frames.front().panels.front();
   for (Figure& frame : frames) {
@@ -343,19 +343,19 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
 Figure roll_figure(const RollPicture& picture) {
   require_columns(picture.ball);
   require_columns(picture.textbook);
-  const Course course = course_of(picture);
+  const PathShape shape = path_shape(picture);
   Figure figure;
   figure.title = picture.title;
   figure.subtitle = picture.subtitle;
-  const bool stays = course.reach == 0;
+  const bool stays = shape.reach == 0;
   const double film_width = picture.size.width_mm.value_or(160);
   const double film_shape = panel_columns(film_width, 4) == 1 ? 2.2 : stays ? 0.45 : 0.75;
   figure.size = picture.slow > 0 ? PaperSize{film_width, picture.size.height_mm.value_or(film_shape * film_width)}
                 : stays          ? fitted({usual.width_mm / 2 + 25, usual.height_mm}, 1, picture.size)
                                  : fitted(usual, 2, picture.size);
-  if (!stays) figure.panels.push_back(course.bends ? path_panel(picture) : distance_panel(picture, course.along));
+  if (!stays) figure.panels.push_back(shape.bends ? path_panel(picture) : distance_panel(picture, shape.along));
   figure.panels.push_back(speed_panel(picture));
-  if (course.bends && picture.slow == 0) fill_panel(figure);
+  if (shape.bends && picture.slow == 0) fill_panel(figure);
   return figure;
 }
 
