@@ -347,7 +347,7 @@ std::string separated_integral(const SmoothField& field, const Polynomial& v, co
   const Index count = 40;
   VectorXd us(count), vs(count), of_u(count), of_v(count);
   const auto divided = [&](const Vector2d& x) -> std::optional<Vector2d> {
-    const auto f = value_of(field, x);
+    const auto f = value_of(field.value, x);
     if (!f || v(x) == 0) return std::nullopt;
     return Vector2d(*f / v(x));
   };

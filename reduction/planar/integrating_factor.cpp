@@ -78,11 +78,11 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
           fmt::format("FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", x[0], x[1],
                       start[0], start[1], fit.box().radii[0], fit.box().radii[1]));
     }
-    const auto f = value_of(smooth, x);
+    const auto f = value_of(smooth.value, x);
     std::optional<Jet> of_form;
     if (fit.form() == FactorForm::basis) {
       of_form = jet_of(fitted, x);
-    } else if (const auto g = cleared ? value_of(fitted, x) : f) {
+    } else if (const auto g = cleared ? value_of(fitted.value, x) : f) {
       of_form = {*g, Eigen::Matrix2d::Zero()};
     }
     if (!f || !of_form) {
@@ -130,7 +130,7 @@ void FactorReduction::Solved::look_for_factor() {
 }
 
 FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
-  const auto value = value_of(field, start);
+  const auto value = value_of(field.value, start);
   if (!start.allFinite() || !value) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
@@ -215,7 +215,7 @@ FactorFormula FactorReduction::formula() const {
 }
 
 PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_parts) const {
-  if (!from.allFinite() || !value_of(smooth, from)) {
+  if (!from.allFinite() || !value_of(smooth.value, from)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
   return PlanarOrbit(follow(smooth, fitted, found(), from, most_parts));

@@ -69,17 +69,8 @@ double weight(const Box& box, const Jet& jet) {
   return size > 0 ? 1 / size : 0;
 }
 
-std::optional<Vector2d> value_of(const SmoothField& field, const Vector2d& x) {
-  try {
-    const Vector2d f = field.value(x);
-    if (f.allFinite()) return f;
-  } catch (const std::exception&) {  // a border of the points at which the field has values
-  }
-  return std::nullopt;
-}
-
 std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
-  const auto f = value_of(field, x);
+  const auto f = value_of(field.value, x);
   if (!f) return std::nullopt;
   Jet jet{*f, Eigen::Matrix2d::Zero()};
   if (field.jacobian) {
@@ -91,8 +82,8 @@ std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
   } else {
     for (int i = 0; i < 2; ++i) {
       constexpr double step = 1. / 32;
-      const auto found =
-          slope([&](const Vector2d& at) { return value_of(field, at); }, x, i, step * std::max(std::abs(x[i]), 1.));
+      const auto found = slope([&](const Vector2d& at) { return value_of(field.value, at); }, x, i,
+                               step * std::max(std::abs(x[i]), 1.));
       if (!found) return std::nullopt;
       jet.slopes.col(i) = found->value;
       jet.error += found->error;
