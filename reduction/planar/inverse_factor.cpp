@@ -107,6 +107,12 @@ SmoothField with_cleared_denominator(const SmoothField& field) {
   return cleared;
 }
 
+Vector2d evenly_spread(int i) {
+  constexpr double plastic = 1.32471795724474602596;
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  return {fraction(i / plastic), fraction(i / (plastic * plastic))};
+}
+
 Box widened(FactorForm form, Box box, double factor) {
   for (int i = 0; i < 2; ++i) {
     if (form != FactorForm::product && !has_term(form, i == 0 ? series_terms - 1 : 0, i == 1 ? series_terms - 1 : 0)) {
@@ -180,12 +186,10 @@ std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
   const auto centre = jet_of(field, box.centre);
   if (!centre || centre->f.isZero(0)) return std::nullopt;
   FieldSamples samples{box, *centre};
-  // The points are a low-discrepancy sequence (M. Roberts' R2), denser at the edges, like Chebyshev points.
-  constexpr double plastic = 1.32471795724474602596;
-  const auto fold = [](double x) { return std::cos(std::numbers::pi * (x - std::floor(x))); };
   int left_out = 0;
   for (int i = 1; i <= tried && 5 * left_out <= tried; ++i) {
-    const Vector2d inside(fold(i / plastic), fold(i / (plastic * plastic)));
+    // The points are denser at the edges, like Chebyshev points.
+    const Vector2d inside = evenly_spread(i).unaryExpr([](double x) { return std::cos(std::numbers::pi * x); });
     const Vector2d x = box.centre + inside.cwiseProduct(box.radii);
     if (const auto jet = jet_of(field, x)) {
       samples.points.push_back(x);

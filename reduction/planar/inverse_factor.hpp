@@ -27,6 +27,9 @@ std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
 /// Returns D f for a field f with a denominator D.
 SmoothField with_cleared_denominator(const SmoothField& field);
 
+/// Returns point i of a sequence of points spread evenly over the square [0, 1] x [0, 1] (M. Roberts' R2).
+Eigen::Vector2d evenly_spread(int i);
+
 struct Box {
   Eigen::Vector2d centre, radii;
 
