@@ -95,17 +95,9 @@ bool begins(const reduction::SimilarityCurve& curve, const ReducedSystem& system
 }
 
 PortraitOrbit columns(const Track& track) {
-  const Eigen::ArrayXd empty(static_cast<Eigen::Index>(track.size()));
-  PortraitOrbit orbit{empty, empty, empty, empty, empty};
-  Eigen::Index row = 0;
-  for (const Instant& at : track) {
-    orbit.u[row] = at.u;
-    orbit.v[row] = at.v;
-    orbit.ln_v[row] = at.ln_v;
-    orbit.ln_k[row] = at.ln_k;
-    orbit.tau_left[row++] = at.tau_left;
-  }
-  return orbit;
+  // An Instant is five doubles in memory, so the track is a matrix of 5 rows.
+  const Eigen::Map<const Eigen::Array<double, 5, Eigen::Dynamic>> rows(&track.front().u, 5, std::ssize(track));
+  return {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)};
 }
 
 class OrbitTracer {

@@ -4,7 +4,6 @@
 
 #include "contensou/reduction/reduced_system.hpp"
 #include "system/balance.hpp"
-#include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
 

@@ -28,34 +28,18 @@ namespace contensou::reduction {
 
 namespace {
 
-/// Several functions of y in [0, 1] that are smooth except at y = 0, stored in one table of polynomials.
+/// The functions A and D of a thin ring (Notation), of y = 1 - q^2. They are smooth except at y = 0. A table stores
+/// polynomials of both.
 ///
 /// A panel is a sixteenth of an octave of y, so its half width is at most 1/33 of its distance from y = 0. One more
 /// panel, the first, begins at y = 0. Terms like y ln y are below the last bit there.
-template <int functions>
-class FunctionTable {
+class RingFunctions {
  public:
-  using Values = std::array<double, functions>;
+  using Values = std::array<double, 2>;
 
-  template <class Function>
-  explicit FunctionTable(Function function) : panels_(panels) {
-    using Matrix = Eigen::Matrix<double, terms, terms>;
-    using Rows = Eigen::Matrix<double, terms, functions, functions == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-    Eigen::Array<double, terms, 1> nodes;  // Chebyshev points
-    for (int j = 0; j < terms; ++j) nodes[j] = std::cos(std::numbers::pi * (2 * j + 1) / (2 * terms));
-    Matrix powers;
-    for (int n = 0; n < terms; ++n) powers.col(n) = nodes.pow(terms - 1 - n);
-    const Eigen::PartialPivLU<Matrix> solver(powers);
-    for (int i = 0; i < panels; ++i) {
-      const auto [left, right] = edges(i);
-      Rows values;
-      for (int j = 0; j < terms; ++j) {
-        const Values at = function(left + (right - left) / 2 * (1 + nodes[j]));
-        values.row(j) = Eigen::Map<const Eigen::Matrix<double, 1, functions>>(at.data());
-      }
-      const Rows coefficients = solver.solve(values);
-      Eigen::Map<Rows>(panels_[static_cast<std::size_t>(i)].front().data()) = coefficients;
-    }
+  static const RingFunctions& table() {
+    static const RingFunctions instance;
+    return instance;
   }
 
   Values operator()(double y) const {
@@ -77,6 +61,27 @@ class FunctionTable {
   static constexpr int cuts = 1 << cut_bits;
   static constexpr int panels = 60 * cuts + 1;
 
+  RingFunctions() : panels_(panels) {
+    const GaussFunction weaker(0.5L, 0.5L, 2), stronger(-0.5L, 0.5L, 1);
+    using Matrix = Eigen::Matrix<double, terms, terms>;
+    using Rows = Eigen::Matrix<double, terms, 2, Eigen::RowMajor>;
+    Eigen::Array<double, terms, 1> nodes;  // Chebyshev points
+    for (int j = 0; j < terms; ++j) nodes[j] = std::cos(std::numbers::pi * (2 * j + 1) / (2 * terms));
+    Matrix powers;
+    for (int n = 0; n < terms; ++n) powers.col(n) = nodes.pow(terms - 1 - n);
+    const Eigen::PartialPivLU<Matrix> solver(powers);
+    for (int i = 0; i < panels; ++i) {
+      const auto [left, right] = edges(i);
+      Rows values;
+      for (int j = 0; j < terms; ++j) {
+        const double y = left + (right - left) / 2 * (1 + nodes[j]);
+        values.row(j) << weaker(1 - y, y), stronger.deficit(1 - y, y);
+      }
+      const Rows coefficients = solver.solve(values);
+      Eigen::Map<Rows>(panels_[static_cast<std::size_t>(i)].front().data()) = coefficients;
+    }
+  }
+
   /// Returns the edges of panel i; panel 0 is (0, lowest).
   static std::pair<double, double> edges(int i) {
     if (i == 0) return {0, lowest};
@@ -87,23 +92,12 @@ class FunctionTable {
 
   Values polynomial(std::size_t panel, double t) const {
     Values sum{};
-    for (const Values& coefficient : panels_[panel]) {
-      for (std::size_t f = 0; f < functions; ++f) sum[f] = sum[f] * t + coefficient[f];
-    }
+    for (const auto& [a, d] : panels_[panel]) sum = {sum[0] * t + a, sum[1] * t + d};
     return sum;
   }
 
   std::vector<std::array<Values, terms>> panels_;  ///< powers of (distance from the centre)/(half width), highest first
 };
-
-/// Returns the table of the functions A and D of a thin ring (Notation), of y = 1 - q^2.
-const FunctionTable<2>& ring_functions() {
-  static const GaussFunction weaker(0.5L, 0.5L, 2), stronger(-0.5L, 0.5L, 1);
-  static const FunctionTable<2> table([](double y) {
-    return std::array{weaker(1 - y, y), stronger.deficit(1 - y, y)};
-  });
-  return table;
-}
 
 /// The integrals of (R34) over rings whose radii are close to k; u = s/k^2 - 1.
 class NearRings {
@@ -446,27 +440,16 @@ class TabulatedPressureLaw::Rings {
   }
 
   static void add_far(const Rule& rule, double k, Sum& total) {
-    const FunctionTable<2>& functions = ring_functions();
-    if (k <= rule.front().radius) {
-      for (const auto& [radius, load] : rule) {
-        const double q = k / radius;
-        const auto [a, d] = functions((1 - q) * (1 + q));
-        const double loss = q * q * d;
-        total.force += load * (q / 2 * a);
-        total.missing += load * (1 - q / 2 * a);
-        total.moment += load * radius * (1 - loss);
-        total.deficit += load * radius * loss;
-      }
-    } else {
-      for (const auto& [radius, load] : rule) {
-        const double q = radius / k;
-        const auto [a, d] = functions((1 - q) * (1 + q));
-        const double moment = q / 2 * a;
-        total.force += load * (1 - q * q * d);
-        total.missing += load * (q * q * d);
-        total.moment += load * radius * moment;
-        total.deficit += load * radius * (1 - moment);
-      }
+    const RingFunctions& functions = RingFunctions::table();
+    const bool inside = k <= rule.front().radius;  // k lies within all rings, else outside all
+    for (const auto& [radius, load] : rule) {
+      const double q = inside ? k / radius : radius / k;
+      const auto [a, d] = functions((1 - q) * (1 + q));
+      const double half = q / 2 * a, loss = q * q * d;
+      total.force += load * (inside ? half : 1 - loss);
+      total.missing += load * (inside ? 1 - half : loss);
+      total.moment += load * radius * (inside ? 1 - loss : half);
+      total.deficit += load * radius * (inside ? loss : 1 - half);
     }
   }
 

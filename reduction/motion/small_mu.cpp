@@ -1,27 +1,26 @@
-// Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi, q = k Psi/Phi; m0 = first, m1 = second of the expansion:
-//   k m0 = integral of g dk over (0, k),   k m1 = integral of q (g - m0) dk over (0, k)
-// and of (R46) I = integral of Psi/(Psi(0) Phi) dk, here 0 at min_ln_k. In y = ln k each integrand gains a factor k.
+// Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi; m0 = first, m1 = second of the expansion. For r -> 0 the
+// equation (R19) of m becomes that of m0, and its derivative by r, (R58), that of m1:
+//   Phi (m0' + m0) = 1 - Psi/Psi(0),   Phi (m1' + m1) = k Psi m0',   ' = d/d ln k,   m0' = g - m0
+// The integral I of (R46) is the limit of ln w/(r Psi(0)), (R2).
 #include "contensou/reduction/small_mu.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/quadrature_curve.hpp"
 #include "contensou/reduction/root.hpp"
-#include "numerics/legendre_series.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {
 
 namespace {
 
-using std::numbers::pi;
-using Samples = LegendreSeries::Samples;
+/// An r that changes no digit of Phi - r k Psi at any k of the library. Curves of this r have the values for r -> 0.
+constexpr double vanishing_r = 0x1p-200;
 
 void require_free(const char* function, const ReducedSystem& system) {
   if (system.drive() == 0) return;
@@ -33,30 +32,9 @@ double coefficient_rate(const Law& law, double k) {
   return law.moment_deficit(slip) / law(slip).force;
 }
 
-/// Returns the edges of panels of width 1, halved repeatedly towards y = 0 (k = 1), at which a law can have a kink.
-std::vector<double> panel_edges(double low, double high) {
-  constexpr int halvings = 40;
-  std::vector<double> edges{low};
-  const auto add = [&](double edge) {
-    if (edge > edges.back() && edge < high) edges.push_back(edge);
-  };
-  for (double edge = std::ceil(low); edge <= -1; ++edge) add(edge);
-  for (int i = 1; i <= halvings; ++i) add(-std::exp2(-i));
-  add(0);
-  for (int i = halvings; i >= 1; --i) add(std::exp2(-i));
-  for (double edge = 1; edge < high; ++edge) add(edge);
-  edges.push_back(high);
-  return edges;
-}
-
-/// Calls visit(y, half) with the Gauss points and the half width of every panel between low and high, in order.
-template <class Visit>
-void for_each_panel(double low, double high, Visit visit) {
-  const std::vector<double> edges = panel_edges(low, high);
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    const double half = (edges[i] - edges[i - 1]) / 2;
-    visit(Samples(edges[i - 1] + half * (1 + LegendreSeries::points())), half);
-  }
+/// Returns m0 for all k.
+RegularSolution first_coefficient(const Law& law) {
+  return sliding_solution(law, vanishing_r, TerminalChart::to_zero(), 0);
 }
 
 }  // namespace
@@ -65,32 +43,12 @@ CoefficientExpansion coefficient_expansion(const Law& law, double ln_k) {
   if (!std::isfinite(ln_k)) {
     throw std::domain_error(fmt::format("coefficient_expansion: ln k must be finite, got {}", ln_k));
   }
-  const double top = std::min(ln_k, max_ln_k);
-  // Below min_ln_k the derivative of the integral by k counts as constant, because the integral is so small.
-  const double k_low = std::exp(std::clamp(top, std::log(std::numeric_limits<double>::min()), min_ln_k));
-  double first = k_low * coefficient_rate(law, k_low);
-  double second = 0;
-  if (top <= min_ln_k) return {first / k_low, 0};
-
-  for_each_panel(min_ln_k, top, [&](const Samples& y, double half) {
-    const Samples k = y.exp();
-    Samples rate, moment_over_force;
-    for (int i = 0; i < LegendreSeries::order; ++i) {
-      const Slip slip = slip_of_ratio(k[i]);
-      const auto [force, moment] = law(slip);
-      rate[i] = law.moment_deficit(slip) / force;
-      moment_over_force[i] = k[i] * moment / force;
-    }
-    LegendreSeries gain = LegendreSeries::through(k * rate).antiderivative();
-    gain *= half;
-    LegendreSeries change =
-        LegendreSeries::through(moment_over_force * (k * rate - (first + gain.samples()))).antiderivative();
-    change *= half;
-    first += gain(1);
-    second += change(1);
-  });
-  const double k = std::exp(top);
-  return {first / k, second / k};
+  const RegularSolution first = first_coefficient(law);
+  const auto source = [&](double k) {
+    return k * law(slip_of_ratio(k)).moment * (coefficient_rate(law, k) - first(std::log(k)));
+  };
+  const RegularSolution second = sliding_equation(law, vanishing_r, TerminalChart::to_zero(), 0, false, source);
+  return {first(ln_k), second(ln_k)};
 }
 
 std::optional<FarCoefficient> far_coefficient(const Law& law) {
@@ -99,18 +57,10 @@ std::optional<FarCoefficient> far_coefficient(const Law& law) {
   constexpr double fastest = 0x1p100;
   const double c = fastest * law(slip_of_ratio(fastest)).moment / law.pivoting_moment();
 
-  // From this k on, g - 1 + c/k equals its leading term, in 1/k^2. At smaller k the rounding of the sum is negligible.
-  constexpr double ln_top = 11;
-  const auto rest = [&](double k) { return coefficient_rate(law, k) - 1 + c / k; };
-  double integral = 0;
-  for_each_panel(0, ln_top, [&](const Samples& y, double half) {
-    Samples integrand;
-    for (int i = 0; i < LegendreSeries::order; ++i) integrand[i] = std::exp(y[i]) * rest(std::exp(y[i]));
-    integral += half * LegendreSeries::through(integrand).antiderivative()(1);
-  });
-  const double top = std::exp(ln_top);
-  integral += top * rest(top);
-  return FarCoefficient{c, 1 - coefficient_expansion(law, 0).first - integral};
+  // From this k on, g - 1 + c/k equals its leading term, in 1/k^2. At a larger k the difference 1 - m0 loses digits.
+  constexpr double ln_k = 11;
+  const double k = std::exp(ln_k), rest = coefficient_rate(law, k) - 1 + c / k;
+  return FarCoefficient{c, k * (1 - first_coefficient(law)(ln_k) - rest) - c * ln_k};
 }
 
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start) {
@@ -144,34 +94,10 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   return estimates;
 }
 
-/// k m0 and the integral I of (R46) for all k up to k0, and the inverse of the function k m0 + I of k.
+/// k m0 and the integral I of (R46) for all k, and the inverse of the function k m0 + I of k, for k up to k0.
 class SmallMuMotion::Layer {
  public:
-  Layer(const Law& law, double ln_k0)
-      : ln_k0_(ln_k0), force_slope_(law.force_slope()), rate_low_(coefficient_rate(law, std::exp(min_ln_k))) {
-    Values sum = below(min_ln_k);
-    if (ln_k0 > min_ln_k) {
-      for_each_panel(min_ln_k, ln_k0, [&](const Samples& y, double half) {
-        Samples gain, pivoting;
-        for (int i = 0; i < LegendreSeries::order; ++i) {
-          const Slip slip = slip_of_ratio(std::exp(y[i]));
-          const auto [force, moment] = law(slip);
-          gain[i] = std::exp(y[i]) * law.moment_deficit(slip) / force;
-          pivoting[i] = std::exp(y[i]) * moment / (law.pivoting_moment() * force);
-        }
-        const auto from = [half](double start, const Samples& rate) {
-          LegendreSeries integral = LegendreSeries::through(rate).antiderivative();
-          integral *= half;
-          return integral += start;
-        };
-        panels_.push_back(
-            {(y[0] + y[LegendreSeries::order - 1]) / 2, half, from(sum.gain, gain), from(sum.pivoting, pivoting)});
-        sum = panels_.back().at_end();
-      });
-    }
-    start_ = panels_.empty() ? below(ln_k0) : sum;
-    start_coefficient_ = panels_.empty() ? rate_low_ : std::exp(-ln_k0) * sum.gain;
-  }
+  Layer(const Law& law, double ln_k0) : curve_(law, vanishing_r), law_(law), ln_k0_(ln_k0), start_(at(ln_k0)) {}
 
   struct Values {
     double gain;      ///< the product k m0
@@ -181,7 +107,7 @@ class SmallMuMotion::Layer {
 
   const Values& start() const { return start_; }
 
-  double start_coefficient() const { return start_coefficient_; }  ///< m0(k0)
+  double start_coefficient() const { return curve_.sliding_coefficient(ln_k0_); }  ///< m0(k0)
 
   struct Point {
     double ln_k;
@@ -190,35 +116,23 @@ class SmallMuMotion::Layer {
 
   Point where(double both) const {
     if (both >= start_.both()) return {ln_k0_, start_};
-    if (panels_.empty() || both <= below(min_ln_k).both()) {
-      const double ln_k = min_ln_k + force_slope_ * both;
-      return {ln_k, below(ln_k)};
-    }
-    const auto panel = std::lower_bound(panels_.begin(), panels_.end(), both,
-                                        [](const Panel& each, double value) { return each.at_end().both() < value; });
-    const auto excess = [&](double t) { return panel->at(t).both() - both; };
-    const double t = root_between(excess, -1, 1);
-    return {panel->ln_k(t), panel->at(t)};
+    // Below this k, Psi = Psi(0) and Phi is linear, so I is linear in ln k and k m0 is negligible.
+    const double linear_below = std::min(min_ln_k, ln_k0_), beyond = both - at(linear_below).both();
+    const double ln_k = beyond <= 0 ? linear_below + law_.force_slope() * beyond
+                                    : root_between([&](double x) { return at(x).both() - both; }, linear_below, ln_k0_);
+    return {ln_k, at(ln_k)};
   }
 
  private:
-  struct Panel {
-    double middle, half;
-    LegendreSeries gain, pivoting;
-    double ln_k(double t) const { return middle + half * t; }
-    Values at(double t) const { return {gain(t), pivoting(t)}; }
-    Values at_end() const { return {gain.at_end(), pivoting.at_end()}; }
-  };
+  Values at(double ln_k) const {
+    return {std::exp(ln_k) * curve_.sliding_coefficient(ln_k),
+            curve_.ln_w(ln_k) / (vanishing_r * law_.pivoting_moment())};
+  }
 
-  /// Returns the values at a k so small that Psi = Psi(0) and Phi is linear.
-  Values below(double ln_k) const { return {std::exp(ln_k) * rate_low_, (ln_k - min_ln_k) / force_slope_}; }
-
+  QuadratureCurve curve_;
+  Law law_;
   double ln_k0_;
-  double force_slope_;
-  double rate_low_;  ///< d(k m0)/dk at small k
-  std::vector<Panel> panels_;
-  Values start_{};
-  double start_coefficient_;
+  Values start_;
 };
 
 SmallMuMotion::SmallMuMotion(const ReducedSystem& system, State start)

@@ -33,6 +33,19 @@ VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right) {
   return svd.solution(right, (svd.values.array() > smallest).count());
 }
 
+MatrixXd echelon(MatrixXd basis) {
+  for (Eigen::Index i = 0; i < basis.cols(); ++i) {
+    Eigen::Index row = 0, column = 0;
+    basis.rightCols(basis.cols() - i).cwiseAbs().maxCoeff(&row, &column);
+    basis.col(i).swap(basis.col(i + column));
+    basis.col(i) /= basis(row, i);
+    for (Eigen::Index j = 0; j < basis.cols(); ++j) {
+      if (j != i) basis.col(j) -= basis(row, j) * basis.col(i);
+    }
+  }
+  return basis;
+}
+
 MatrixXd product(const MatrixXd& left, const MatrixXd& right) { return left * right; }
 VectorXd product(const MatrixXd& left, const VectorXd& right) { return left * right; }
 

@@ -23,6 +23,10 @@ Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& r
 /// Returns the least-squares solution of matrix x = right; if there are several, the one of least norm.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
+/// Returns a basis of the same space with as many zeros as elimination can produce. Vectors are columns. In the result
+/// each vector has an entry 1 at which all others are 0. The largest entries are taken as pivots.
+Eigen::MatrixXd echelon(Eigen::MatrixXd basis);
+
 Eigen::MatrixXd product(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);
 Eigen::VectorXd product(const Eigen::MatrixXd& left, const Eigen::VectorXd& right);
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 #include <Eigen/Core>
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -45,10 +49,6 @@ class LegendreSeries {
   /// Returns through(samples).tail().
   static double tail(const Samples& samples);
 
-  LegendreSeries& operator*=(double factor) {
-    coefficients_ *= factor;
-    return *this;
-  }
   LegendreSeries& operator+=(double shift) {
     coefficients_[0] += shift;
     return *this;
@@ -57,5 +57,36 @@ class LegendreSeries {
  private:
   Eigen::Array<double, order + 1, 1> coefficients_ = Eigen::Array<double, order + 1, 1>::Zero();
 };
+
+/// An interval of x on which a function is a series in t, -1 <= t <= 1.
+struct SeriesPanel {
+  double left, right;
+
+  double half() const { return (right - left) / 2; }
+  double x(double t) const { return left + half() * (1 + t); }
+  double t(double x) const { return (x - left) / half() - 1; }
+};
+
+/// Returns the panel that contains x, or the nearest one.
+/// @param panels  SeriesPanels with series, in the order of x; not empty
+template <class Panel>
+const Panel& panel_at(const std::vector<Panel>& panels, double x) {
+  const auto after = std::ranges::upper_bound(panels, x, {}, &Panel::left);
+  return after == panels.begin() ? panels.front() : *std::prev(after);
+}
+
+/// Makes one continuous function of the antiderivatives on all panels. Each is 0 at the left end of its panel; the
+/// function is 0 at `zero`, an end of a panel.
+template <class Panel>
+void join(std::vector<Panel>& panels, LegendreSeries Panel::*part, double zero) {
+  const auto first = std::ranges::lower_bound(panels, zero, {}, &Panel::left);
+  double level = 0;
+  for (auto panel = first; panel != panels.end(); ++panel) level = ((*panel).*part += level).at_end();
+  level = 0;
+  for (auto panel = std::make_reverse_iterator(first); panel != panels.rend(); ++panel) {
+    level -= ((*panel).*part).at_end();
+    (*panel).*part += level;
+  }
+}
 
 }  // namespace contensou::reduction

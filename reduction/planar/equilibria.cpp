@@ -18,13 +18,6 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Returns point i of a sequence of points spread evenly over the square [-1, 1] x [-1, 1] (M. Roberts' R2).
-Vector2d spread(int i) {
-  constexpr double plastic = 1.32471795724474602596;
-  const auto side = [](double x) { return 2 * (x - std::floor(x)) - 1; };
-  return {side(i / plastic), side(i / (plastic * plastic))};
-}
-
 /// Returns true if other zeros lie arbitrarily near to `zero`, at which the Jacobian has the null vector `along`.
 bool on_curve_of_zeros(const SmoothField& field, const Vector2d& zero, const Vector2d& along) {
   // Newton's method reaches a simple zero in a few steps, but a multiple zero only in many.
@@ -55,7 +48,8 @@ std::vector<Reversor> find_reversors(const SmoothField& field, const Vector2d& a
   for (const Reversor& reversor : known) {
     int compared = 0;
     const auto holds = [&](int i) {
-      const Vector2d x = (i % 2 == 0 || small == 0 ? large : small) * spread(i), image = reversor.matrix * x;
+      const double size = i % 2 == 0 || small == 0 ? large : small;
+      const Vector2d x = size * (2 * evenly_spread(i) - Vector2d::Ones()), image = reversor.matrix * x;
       const auto here = jet_of(field, x), there = jet_of(field, image);
       if (!here || !there) return !here && !there;
       ++compared;

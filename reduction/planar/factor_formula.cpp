@@ -235,23 +235,13 @@ std::optional<Coefficients> null_combination(const Functions& functions, const F
   const double mean = std::sqrt(static_cast<double>(rows.rows()));
   const Index nullity = (svd.values.array() <= exact * mean).count();
   if (nullity == 0) return std::nullopt;
-  // Elimination to echelon form, with the largest entries as pivots.
-  MatrixXd basis = svd.V.rightCols(nullity).transpose();
-  for (Index row = 0; row < nullity; ++row) {
-    Index pivot_row = 0, pivot = 0;
-    basis.bottomRows(nullity - row).cwiseAbs().maxCoeff(&pivot_row, &pivot);
-    basis.row(row).swap(basis.row(row + pivot_row));
-    basis.row(row) /= basis(row, pivot);
-    for (Index other = 0; other < nullity; ++other) {
-      if (other != row) basis.row(other) -= basis(other, pivot) * basis.row(row);
-    }
-  }
+  const MatrixXd basis = echelon(svd.V.rightCols(nullity));
   std::optional<Coefficients> best;
   const auto terms = [](const Coefficients& all) {
     return std::ranges::count_if(all.above, [](Whole x) { return x != 0; });
   };
-  for (Index row = 0; row < nullity; ++row) {
-    VectorXd factors = basis.row(row).transpose();
+  for (Index i = 0; i < nullity; ++i) {
+    VectorXd factors = basis.col(i);
     for (double& factor : factors) factor = std::abs(factor) <= exact ? 0 : factor;
     factors = factors.cwiseQuotient(sizes);
     for (const double unit : VectorXd(factors)) {
@@ -259,8 +249,7 @@ std::optional<Coefficients> null_combination(const Functions& functions, const F
       auto found = rational(factors / unit, exact * std::max(1., (factors / unit).lpNorm<Eigen::Infinity>()));
       if (!found) continue;
       VectorXd rounded(factors.size());
-      for (Index i = 0; i < rounded.size(); ++i)
-        rounded[i] = static_cast<double>(found->above[static_cast<std::size_t>(i)]);
+      std::ranges::transform(found->above, rounded.begin(), [](Whole x) { return static_cast<double>(x); });
       const double size = rounded.cwiseProduct(sizes).lpNorm<Eigen::Infinity>();
       if ((rows * rounded).lpNorm<Eigen::Infinity>() > exact * size) continue;
       const Whole common = std::accumulate(found->above.begin(), found->above.end(), Whole{0}, std::gcd<Whole, Whole>);
@@ -358,7 +347,7 @@ std::string separated_integral(const SmoothField& field, const Polynomial& v, co
   const Index count = 40;
   VectorXd us(count), vs(count), of_u(count), of_v(count);
   const auto divided = [&](const Vector2d& x) -> std::optional<Vector2d> {
-    const auto f = value_of(field, x);
+    const auto f = value_of(field.value, x);
     if (!f || v(x) == 0) return std::nullopt;
     return Vector2d(*f / v(x));
   };

@@ -248,7 +248,7 @@ class Follower {
     constexpr double singular = 1e4, short_way = 0.01;
     const Vector2d way = rounding * here.f;
     if (!(way.norm() < short_way * size_)) return false;
-    if (!value_of(field_, x_ + way)) return true;
+    if (!value_of(field_.value, x_ + way)) return true;
     // At a pole the field changes by its own size within rounding, even if the orbit is smooth there: v' = -v tan u.
     if (here.slopes.norm() * way.norm() > here.f.norm()) return true;
     // A speed that grows only over a longer way is no pole: the orbit can go to infinity like a logarithm.
@@ -276,7 +276,7 @@ class Follower {
     for (int i = 0; i < 2; ++i) {
       const auto ends_have_values = [&] {
         const Vector2d side = box_.radii[i] * Vector2d::Unit(i);
-        return value_of(field_, x_ + side) && value_of(field_, x_ - side);
+        return value_of(field_.value, x_ + side) && value_of(field_.value, x_ - side);
       };
       while (!ends_have_values() && box_.radii[i] > eps * std::abs(x_[i])) box_.radii[i] /= 2;
     }
@@ -350,7 +350,7 @@ class Follower {
         std::optional<Jet> here;
         if (linearised) {
           here = jet_of(field_, x);
-        } else if (const auto f = value_of(field_, x)) {
+        } else if (const auto f = value_of(field_.value, x)) {
           here = {*f, Matrix2d::Zero()};
         }
         if (!here) return false;

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "numerics/legendre_series.hpp"
 #include "planar/factor_formula.hpp"
 #include "planar/factor_orbit.hpp"
 #include "planar/solution.hpp"
@@ -59,10 +59,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
   }
   PlanarOrbit followed(const Vector2d& from, int most_parts) const;
   double end_time_error(const Vector2d&) const override { return 1e-12; }
-  std::optional<double> first_integral(const Vector2d& x) const override {
-    constexpr int halvings = 12;
-    return integral(start, x, at(start).first, halvings);
-  }
+  std::optional<double> first_integral(const Vector2d& x) const override { return integral(x); }
   std::shared_ptr<const Solution> reversed() const override;
 
   const InverseFactor& found() const {
@@ -78,11 +75,11 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
           fmt::format("FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", x[0], x[1],
                       start[0], start[1], fit.box().radii[0], fit.box().radii[1]));
     }
-    const auto f = value_of(smooth, x);
+    const auto f = value_of(smooth.value, x);
     std::optional<Jet> of_form;
     if (fit.form() == FactorForm::basis) {
       of_form = jet_of(fitted, x);
-    } else if (const auto g = cleared ? value_of(fitted, x) : f) {
+    } else if (const auto g = cleared ? value_of(fitted.value, x) : f) {
       of_form = {*g, Eigen::Matrix2d::Zero()};
     }
     if (!f || !of_form) {
@@ -92,23 +89,18 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
     return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
   }
 
-  /// Returns the integral of dH along a straight line between two points.
-  double integral(const Vector2d& from, const Vector2d& to, double sign, int depth) const {
-    const Vector2d way = to - from;
-    LegendreSeries::Samples samples;
-    for (int i = 0; i < LegendreSeries::order; ++i) {
-      const auto [here, f] = at(from + (1 + LegendreSeries::points()[i]) / 2 * way);
-      if (!(here * sign > 0)) {
-        throw std::domain_error("FactorReduction: V = 0 between the start and the point, where H is infinite");
-      }
-      samples[i] = (f[0] * way[1] - f[1] * way[0]) / here / 2;
-    }
-    constexpr double accurate = 1e-14;
-    if (depth == 0 || LegendreSeries::tail(samples) <= accurate * samples.abs().maxCoeff()) {
-      return LegendreSeries::through(samples).antiderivative().at_end();
-    }
-    const Vector2d middle = from + way / 2;
-    return integral(from, middle, sign, depth - 1) + integral(middle, to, sign, depth - 1);
+  /// Returns the integral of dH along a straight line from the start.
+  double integral(const Vector2d& to) const {
+    const double sign = at(start).first;
+    const Vector2d way = to - start;
+    const auto rate = [&](double share) {
+      const auto [here, f] = at(start + share * way);
+      if (here * sign > 0) return cross(f, way) / here;
+      throw std::domain_error("FactorReduction: V = 0 between the start and the point, where H is infinite");
+    };
+    using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
+    constexpr unsigned halvings = 12;
+    return Rule::integrate(rate, 0, 1, halvings, 1e-14);
   }
 };
 
@@ -130,7 +122,7 @@ void FactorReduction::Solved::look_for_factor() {
 }
 
 FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
-  const auto value = value_of(field, start);
+  const auto value = value_of(field.value, start);
   if (!start.allFinite() || !value) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
   }
@@ -215,7 +207,7 @@ FactorFormula FactorReduction::formula() const {
 }
 
 PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_parts) const {
-  if (!from.allFinite() || !value_of(smooth, from)) {
+  if (!from.allFinite() || !value_of(smooth.value, from)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
   return PlanarOrbit(follow(smooth, fitted, found(), from, most_parts));

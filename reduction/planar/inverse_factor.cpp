@@ -69,17 +69,8 @@ double weight(const Box& box, const Jet& jet) {
   return size > 0 ? 1 / size : 0;
 }
 
-std::optional<Vector2d> value_of(const SmoothField& field, const Vector2d& x) {
-  try {
-    const Vector2d f = field.value(x);
-    if (f.allFinite()) return f;
-  } catch (const std::exception&) {  // a border of the points at which the field has values
-  }
-  return std::nullopt;
-}
-
 std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
-  const auto f = value_of(field, x);
+  const auto f = value_of(field.value, x);
   if (!f) return std::nullopt;
   Jet jet{*f, Eigen::Matrix2d::Zero()};
   if (field.jacobian) {
@@ -91,8 +82,8 @@ std::optional<Jet> jet_of(const SmoothField& field, const Vector2d& x) {
   } else {
     for (int i = 0; i < 2; ++i) {
       constexpr double step = 1. / 32;
-      const auto found =
-          slope([&](const Vector2d& at) { return value_of(field, at); }, x, i, step * std::max(std::abs(x[i]), 1.));
+      const auto found = slope([&](const Vector2d& at) { return value_of(field.value, at); }, x, i,
+                               step * std::max(std::abs(x[i]), 1.));
       if (!found) return std::nullopt;
       jet.slopes.col(i) = found->value;
       jet.error += found->error;
@@ -114,6 +105,12 @@ SmoothField with_cleared_denominator(const SmoothField& field) {
     };
   }
   return cleared;
+}
+
+Vector2d evenly_spread(int i) {
+  constexpr double plastic = 1.32471795724474602596;
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  return {fraction(i / plastic), fraction(i / (plastic * plastic))};
 }
 
 Box widened(FactorForm form, Box box, double factor) {
@@ -189,12 +186,10 @@ std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
   const auto centre = jet_of(field, box.centre);
   if (!centre || centre->f.isZero(0)) return std::nullopt;
   FieldSamples samples{box, *centre};
-  // The points are a low-discrepancy sequence (M. Roberts' R2), denser at the edges, like Chebyshev points.
-  constexpr double plastic = 1.32471795724474602596;
-  const auto fold = [](double x) { return std::cos(std::numbers::pi * (x - std::floor(x))); };
   int left_out = 0;
   for (int i = 1; i <= tried && 5 * left_out <= tried; ++i) {
-    const Vector2d inside(fold(i / plastic), fold(i / (plastic * plastic)));
+    // The points are denser at the edges, like Chebyshev points.
+    const Vector2d inside = evenly_spread(i).unaryExpr([](double x) { return std::cos(std::numbers::pi * x); });
     const Vector2d x = box.centre + inside.cwiseProduct(box.radii);
     if (const auto jet = jet_of(field, x)) {
       samples.points.push_back(x);

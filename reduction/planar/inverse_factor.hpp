@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/integrating_factor.hpp"
+#include "planar/section_field.hpp"
 
 namespace contensou::reduction {
 
@@ -20,12 +21,14 @@ struct Jet {
   Eigen::MatrixX3d basis = {};
 };
 
-/// Return f, or f with its derivatives; empty if the field has no value at x.
-std::optional<Eigen::Vector2d> value_of(const SmoothField& field, const Eigen::Vector2d& x);
+/// Returns f with its derivatives; empty if the field has no value at x.
 std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
 
 /// Returns D f for a field f with a denominator D.
 SmoothField with_cleared_denominator(const SmoothField& field);
+
+/// Returns point i of a sequence of points spread evenly over the square [0, 1] x [0, 1] (M. Roberts' R2).
+Eigen::Vector2d evenly_spread(int i);
 
 struct Box {
   Eigen::Vector2d centre, radii;

@@ -314,26 +314,16 @@ Unknowns normalised(const Unknowns& x, double error) {
   });
 }
 
-/// Returns a basis of the kernel with as many zeros as elimination can produce. The scaling replaces the basis vector
-/// that has the largest part in it.
-std::vector<Generator> basis_of(MatrixXd kernel, double error, const std::optional<Generator>& scaling) {
-  const Eigen::Index count = kernel.cols();
-  for (Eigen::Index i = 0; i < count; ++i) {
-    Eigen::Index row = 0, column = 0;
-    kernel.rightCols(count - i).cwiseAbs().maxCoeff(&row, &column);
-    kernel.col(i).swap(kernel.col(i + column));
-    kernel.col(i) /= kernel(row, i);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      if (j != i) kernel.col(j) -= kernel(row, j) * kernel.col(i);
-    }
-  }
+/// Returns the echelon basis of the kernel. The scaling replaces the basis vector that has the largest part in it.
+std::vector<Generator> basis_of(const MatrixXd& given, double error, const std::optional<Generator>& scaling) {
+  MatrixXd kernel = echelon(given);
   if (scaling) {
     Eigen::Index place = 0;
     least_squares(kernel, unknowns_of(*scaling)).cwiseAbs().maxCoeff(&place);
     kernel.col(place).swap(kernel.col(0));
   }
   std::vector<Generator> basis;
-  for (Eigen::Index i = 0; i < count; ++i) {
+  for (Eigen::Index i = 0; i < kernel.cols(); ++i) {
     basis.push_back(i == 0 && scaling ? *scaling : generator_of(normalised(kernel.col(i), error)));
   }
   return basis;

@@ -16,6 +16,15 @@ namespace contensou::reduction {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+std::optional<Vector2d> value_of(const PlanarField& field, const Vector2d& x) {
+  try {
+    const Vector2d f = field(x);
+    if (f.allFinite()) return f;
+  } catch (const std::exception&) {  // a border of the points at which the field has values
+  }
+  return std::nullopt;
+}
+
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 namespace {
@@ -53,14 +62,9 @@ SectionField::SectionField(PlanarField field, const Generator& scaling, const Ve
 }
 
 std::optional<SectionField::Rates> SectionField::operator()(const Vector2d& n) const {
-  Vector2d f;
-  try {
-    f = field_(centre_ + frame_ * n);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  if (!f.allFinite()) return std::nullopt;
-  const Vector2d g = frame_inverse_ * f, along = matrix_ * n;
+  const auto f = value_of(field_, centre_ + frame_ * n);
+  if (!f) return std::nullopt;
+  const Vector2d g = frame_inverse_ * *f, along = matrix_ * n;
   const double outward = n.dot(along);
   return Rates{g.dot(n) / outward, cross(along, g) / outward, g.stableNorm(),
                (std::abs(g[0] * n[0]) + std::abs(g[1] * n[1])) / outward,
@@ -68,12 +72,8 @@ std::optional<SectionField::Rates> SectionField::operator()(const Vector2d& n) c
 }
 
 bool SectionField::regular() const {
-  try {
-    const Vector2d f = field_(centre_);
-    return f.allFinite() && !f.isZero(0);
-  } catch (const std::exception&) {
-    return false;
-  }
+  const auto f = value_of(field_, centre_);
+  return f && !f->isZero(0);
 }
 
 std::pair<Vector2d, double> SectionField::canonical(const Vector2d& x) const {

@@ -9,6 +9,9 @@
 
 namespace contensou::reduction {
 
+/// Returns the value of a field; empty if the field has no value at x.
+std::optional<Eigen::Vector2d> value_of(const PlanarField& field, const Eigen::Vector2d& x);
+
 /// The field f on the section, the closed curve x_0 + S n(q), which the scaling moves over the plane (README (R42)).
 class SectionField {
  public:

@@ -49,8 +49,6 @@ Strip::Strip(const SectionField& field, const Approach& to, const Approach& from
     const double edge = locate(n).value_or(infinity);
     if (edge > first && edge < last) edges.push_back(edge);
   }
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a < 1e-14; }), edges.end());
   solve(edges, start);
 }
 
@@ -60,8 +58,6 @@ Strip::Strip(const SectionField& field, const std::vector<Vector2d>& breaks, dou
   std::vector<double> edges;
   for (int i = 0; i <= parts; ++i) edges.push_back(2 * pi * i / parts);
   for (const Vector2d& n : breaks) edges.push_back(*locate(n));
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a < 1e-14; }), edges.end());
   solve(edges, 0);
   turn_ = -panels_.back().ln_rho.at_end();
   const double change = field.time_degree() * turn_;
@@ -162,18 +158,12 @@ Strip::Terms Strip::terms(double xi) const {
 }
 
 void Strip::solve(std::vector<double> edges, double first_time) {
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a < 1e-14; }), edges.end());
   panels_.clear();
   last_time_ = first_time;
   for (std::size_t i = 1; i < edges.size(); ++i) march(edges[i - 1], edges[i], 0);
-  // Sum L from xi = 0 to both sides, because L can be large next to the ends.
-  const auto zero = std::ranges::lower_bound(panels_, 0.0, {}, &Panel::left);
-  double level = 0;
-  for (auto panel = zero; panel != panels_.end(); ++panel) level = (panel->ln_rho += level).at_end();
-  level = 0;
-  for (auto panel = std::make_reverse_iterator(zero); panel != panels_.rend(); ++panel) {
-    level -= panel->ln_rho.at_end();
-    panel->ln_rho += level;
-  }
+  join(panels_, &Panel::ln_rho, 0);  // from the middle, because L can be large next to the ends
 }
 
 void Strip::march(double left, double right, int depth) {
@@ -220,7 +210,7 @@ void Strip::march(double left, double right, int depth) {
     return;
   }
   last_time_ = time.at_end();
-  panels_.push_back({left, right, ln_rho, time});
+  panels_.push_back({{left, right}, ln_rho, time});
 }
 
 /// Finds a jump of R or s between two xi by bisection. Each step keeps the half between whose ends R or s differs more.
@@ -243,11 +233,6 @@ std::optional<double> Strip::jump(double left, double right) const {
   return left;
 }
 
-const Strip::Panel& Strip::find(double xi) const {
-  const auto after = std::ranges::upper_bound(panels_, xi, {}, &Panel::left);
-  return after == panels_.begin() ? panels_.front() : *std::prev(after);
-}
-
 double Strip::smooth_from(double xi) const {
   const double turns = closed() ? std::floor(xi / length_) : 0, nearest = xi - 1e-12 * (1 + std::abs(xi));
   for (const double turn : {turns, turns - 1}) {
@@ -265,7 +250,7 @@ double Strip::ln_rho(double xi) const {
     xi -= turns * length_;
     beyond = -turns * turn_;
   }
-  const Panel& panel = find(xi);
+  const Panel& panel = panel_at(panels_, xi);
   const double inside = std::clamp(xi, panel.left, panel.right);
   if (xi != inside) {
     // dL/dz = -R/T or R/T, with the leading powers of R and T.
@@ -280,15 +265,15 @@ double Strip::ln_rho(double xi) const {
       beyond = xi < inside ? -slope * change : slope * change;
     }
   }
-  return beyond + panel.ln_rho(2 * ((inside - panel.left) / (panel.right - panel.left)) - 1);
+  return beyond + panel.ln_rho(panel.t(inside));
 }
 
 double Strip::time_left(double xi) const {
   if (closed()) xi -= std::floor(xi / length_) * length_;
-  const Panel& panel = find(xi);
+  const Panel& panel = panel_at(panels_, xi);
   const double inside = std::clamp(xi, panel.left, panel.right);
   const double beyond = xi < inside && !closed() ? std::exp(time_order_ * (xi - inside)) : 1;
-  return beyond * panel.time(2 * ((inside - panel.left) / (panel.right - panel.left)) - 1);
+  return beyond * panel.time(panel.t(inside));
 }
 
 }  // namespace contensou::reduction

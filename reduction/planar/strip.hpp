@@ -78,8 +78,7 @@ class Strip {
     double radial;    ///< R
     double rounding;  ///< relative error of s
   };
-  struct Panel {
-    double left, right;
+  struct Panel : SeriesPanel {
     LegendreSeries ln_rho, time;
   };
 
@@ -89,7 +88,6 @@ class Strip {
   void solve(std::vector<double> edges, double first_time);
   void march(double left, double right, int depth);
   std::optional<double> jump(double left, double right) const;
-  const Panel& find(double xi) const;
 
   const SectionField* field_;
   std::optional<Approach> to_, from_;

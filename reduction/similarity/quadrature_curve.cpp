@@ -28,9 +28,9 @@ constexpr double resolution = 128 * std::numeric_limits<double>::epsilon();
 
 /// The coefficients of the equations at one xi.
 struct CurveCoefficients {
-  double ln_w_slope;    ///< (ln w)'
-  double time;          ///< c
-  double cancellation;  ///< larger term of D divided by D: the factor by which relative errors grow
+  double clearness;   ///< D divided by its larger term, with the sign that makes it positive along the chart
+  double ln_w_slope;  ///< (ln w)'
+  double time;        ///< c
 };
 
 }  // namespace
@@ -46,33 +46,21 @@ class QuadratureCurve::Panels {
   double limit() const { return panels_.front().left; }
 
   double ln_w(double xi) const {
-    const Panel& panel = find(xi);
-    if (xi < limit()) return panel.ln_w(-1) + lower_slope_ * (xi - limit());
-    if (xi > panel.right) return panel.ln_w(1) + upper_slope_ * (xi - panel.right);
-    return panel.ln_w(panel.t(xi));
+    const Panel& panel = panel_at(panels_, xi);
+    const double inside = std::clamp(xi, panel.left, panel.right);
+    return panel.ln_w(panel.t(inside)) + (xi < inside ? lower_slope_ : upper_slope_) * (xi - inside);
   }
 
   double time_rate(double xi) const {
-    const Panel& panel = find(xi);
+    const Panel& panel = panel_at(panels_, xi);
     return panel.time_rate(panel.t(std::clamp(xi, panel.left, panel.right)));
   }
 
  private:
-  struct Panel {
-    double left;
-    double right;
+  struct Panel : SeriesPanel {
     Samples ln_w_slope;
     LegendreSeries ln_w, time_rate;
-
-    double half() const { return (right - left) / 2; }
-    double xi(double t) const { return left + half() * (1 + t); }
-    double t(double xi) const { return (xi - left) / half() - 1; }
   };
-
-  const Panel& find(double xi) const {
-    const auto after = std::ranges::upper_bound(panels_, xi, {}, &Panel::left);
-    return after == panels_.begin() ? panels_.front() : *std::prev(after);
-  }
 
   /// Makes panels of width 1 over the range in which D has a correct digit, with edges at k = 1 and at the law's kinks.
   /// @return the edge at which D has the most digits
@@ -90,7 +78,7 @@ class QuadratureCurve::Panels {
     double anchor = edge;
     double clearest = 0;
     for (double xi = edge + std::ceil(near - edge); xi < most; xi += 1) {
-      const double clear = clearness(xi);
+      const double clear = coefficients(xi).clearness;
       if (clear <= clearest) continue;
       clearest = clear;
       anchor = xi;
@@ -113,33 +101,14 @@ class QuadratureCurve::Panels {
     return anchor;
   }
 
-  struct Drag {
-    double k;
-    double rate;        ///< (ln k)', ' = d/dxi
-    double drag;        ///< r k Psi, the last term of D
-    double larger;      ///< larger of the two terms of D
-    double difference;  ///< D, with the sign that makes it positive along the chart
-  };
-  Drag drag_at(double xi) const {
+  CurveCoefficients coefficients(double xi) const {
     const double k = std::exp(chart_.log_ratio(xi));
-    const double rate = chart_.log_ratio_rate(xi);
+    const double rate = chart_.log_ratio_rate(xi);  // (ln k)'
     const Balance balance = Balance::of(law_, r_, drive_, k);
-    return {k, rate, balance.drag, balance.larger(), rate > 0 ? balance.difference() : -balance.difference()};
-  }
-
-  double clearness(double xi) const {
-    const Drag at = drag_at(xi);
-    return at.difference / at.larger;
-  }
-
-  /// @return false if D is only rounding
-  bool coefficients(double xi, CurveCoefficients& at) const {
-    const auto [k, rate, drag, larger, difference] = drag_at(xi);
-    if (!frozen_ && !(difference > resolution * larger)) return false;
+    const double larger = balance.larger(), difference = rate > 0 ? balance.difference() : -balance.difference();
     // If D has no correct digit on the whole curve, use the rounding of D in place of D: it bounds the rate of k.
     const double q = frozen_ ? 1 / (resolution * larger) : std::abs(rate) / difference;
-    at = {.ln_w_slope = drag * q, .time = k * q / (1 + k), .cancellation = frozen_ ? 1 : larger / difference};
-    return true;
+    return {.clearness = frozen_ ? 1 : difference / larger, .ln_w_slope = balance.drag * q, .time = k * q / (1 + k)};
   }
 
   /// Adds the panels between two values of xi.
@@ -156,18 +125,18 @@ class QuadratureCurve::Panels {
     panel.left = std::min(from, to);
     panel.right = std::max(from, to);
     Samples time;
-    double cancellation = 1;
+    double clearness = 1;
     for (int i = 0; i < LegendreSeries::order; ++i) {
-      CurveCoefficients at{};
-      if (!coefficients(panel.xi(LegendreSeries::points()[i]), at)) return false;
+      const CurveCoefficients at = coefficients(panel.x(LegendreSeries::points()[i]));
+      if (!(at.clearness > resolution)) return false;
       panel.ln_w_slope[i] = at.ln_w_slope;
       time[i] = at.time;
-      cancellation = std::max(cancellation, at.cancellation);
+      clearness = std::min(clearness, at.clearness);
     }
 
     // The error of a panel's series, relative to that of a panel of width 1. Cancellation in D limits the accuracy.
     const auto left_out = [&](const Samples& samples) {
-      return LegendreSeries::through(samples).tail() / (samples.maxCoeff() * cancellation) * (panel.right - panel.left);
+      return LegendreSeries::tail(samples) / samples.maxCoeff() * clearness * (panel.right - panel.left);
     };
     const double worst = std::max(left_out(panel.ln_w_slope), left_out(time));
     if (worst > panel_tolerance && depth < max_depth && panels_.size() < max_panels) {
@@ -185,18 +154,7 @@ class QuadratureCurve::Panels {
     upper_slope_ = panels_.back().ln_w_slope[last];
     // The sum starts where ln w changes least, because ln w can grow without bound at either end.
     for (Panel& panel : panels_) panel.ln_w = LegendreSeries::through(panel.half() * panel.ln_w_slope).antiderivative();
-    const auto middle = std::ranges::lower_bound(panels_, anchor, {}, &Panel::left);
-    double ln_w = 0;
-    for (auto panel = middle; panel != panels_.end(); ++panel) {
-      panel->ln_w += ln_w;
-      ln_w = panel->ln_w(1);
-    }
-    ln_w = 0;
-    for (auto panel = middle; panel != panels_.begin();) {
-      --panel;
-      panel->ln_w += ln_w - panel->ln_w(1);
-      ln_w = panel->ln_w(-1);
-    }
+    join(panels_, &Panel::ln_w, anchor);
   }
 
   const Law& law_;

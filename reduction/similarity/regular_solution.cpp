@@ -164,15 +164,14 @@ void RegularSolution::march(const std::function<Terms(double)>& equation, double
   }
   truncation_ = std::max(truncation_, left_out);
   last_ = y_end;
-  panels_.push_back({left, right, std::move(y)});
+  panels_.push_back({{left, right}, std::move(y)});
 }
 
 double RegularSolution::operator()(double ln_k) const {
   const double z = direction_ * ln_k;
   if (panels_.empty() || z <= begin_) return first_;
-  const auto after = std::ranges::upper_bound(panels_, z, {}, &Panel::left);
-  const Panel& panel = *std::prev(after);
-  return panel.y(std::min(2 * ((z - panel.left) / (panel.right - panel.left)) - 1, 1.0));
+  const Panel& panel = panel_at(panels_, z);
+  return panel.y(std::min(panel.t(z), 1.0));
 }
 
 RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,

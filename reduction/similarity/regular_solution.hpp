@@ -61,8 +61,7 @@ class RegularSolution {
   friend RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive,
                                           bool to_rest, const std::function<double(double k)>& source);
 
-  struct Panel {
-    double left, right;
+  struct Panel : SeriesPanel {
     LegendreSeries y;
   };
 

@@ -1,10 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <numbers>
 
 #include "contensou/reduction/friction_law.hpp"
 
 namespace contensou::reduction {
+
+/// Returns dtau/dbeta, the weight of the regularised equations (2.7) and (2.8), at scaled speeds w = mu |u| and v.
+inline double regularising_weight(double w, double v) {
+  using std::numbers::pi;
+  return (16 * w + 15 * pi * v) * (8 * w + 3 * pi * v);
+}
 
 /// Returns true if friction minus drive is to be computed from 1 - Phi. For rho >= 1/2 the difference 1 - rho is exact.
 inline bool by_deficit(const Law& law, double drive) { return drive >= 0.5 && law.states_force_deficit(); }

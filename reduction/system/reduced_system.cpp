@@ -10,7 +10,6 @@
 
 #include "contensou/reduction/infinity.hpp"
 #include "system/balance.hpp"
-#include "system/regularising_weight.hpp"
 
 namespace contensou::reduction {
 

@@ -16,13 +16,13 @@ struct CoefficientExpansion {
   double second;
 };
 
-/// Computes both coefficients at one k, for any law, by two nested integrals (README (R21)).
+/// Computes both coefficients at one k, for any law, as m and its derivative by r in the limit r -> 0 (README (R21)).
 ///
 /// @param ln_k  any finite number
 /// @throws std::domain_error  if ln_k is not finite
 ///
-/// Accuracy  first 1e-13 relative, second 1e-12 of its maximum (2e-3 to 0.3), for a law whose only kink is k = 1.
-/// Cost      up to 3000 calls of the law.
+/// Accuracy  first 1e-13 relative for k above 4e-18, second 1e-12 of its maximum (2e-3 to 0.3).
+/// Cost      that of two curves.
 CoefficientExpansion coefficient_expansion(const Law& law, double ln_k);
 
 /// Constants of the expansion k first(k) = k - logarithm ln k - constant + O(1/k) as k -> infinity (README (R23)).
@@ -73,7 +73,7 @@ class SmallMuMotion {
     double ln_v;  ///< natural logarithm of v in the unit of the start
   };
 
-  /// Computes the constants of the motion, with as many calls of the law as coefficient_expansion.
+  /// Computes the constants of the motion, at the cost of coefficient_expansion.
   /// @throws std::domain_error  if start is not a state, or with a drive
   SmallMuMotion(const ReducedSystem& system, State start);
 
