@@ -39,7 +39,7 @@ double factor_of(const std::string& unit, std::string_view si_unit) {
   const bool angle = si_unit == "rad";
   const si::Dimension& dimension = *si::find_dimension(angle ? "deg" : si_unit);
   const auto value = si::parse_quantity("1 " + unit, dimension);
-  if (!value) throw BadInput(fmt::format("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension)));
+  if (!value) throw BadInput("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension));
   return angle ? *value * (std::numbers::pi / 180) : *value;
 }
 

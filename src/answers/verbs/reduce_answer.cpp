@@ -407,8 +407,8 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
     }
   };
   if (!has_value()) {
-    throw BadInput(fmt::format("the field has no value at the start u = {}, v = {}: give a start where it has one",
-                               start[0], start[1]));
+    throw BadInput("the field has no value at the start u = {}, v = {}: give a start where it has one", start[0],
+                   start[1]);
   }
   const PlanarSymmetries found = reduction::find_symmetries(field.value, start);
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}, .text = [=](const Digits& digits) {

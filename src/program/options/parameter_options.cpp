@@ -2,8 +2,6 @@
 
 #include <string_view>
 
-#include <fmt/format.h>
-
 namespace contensou::program {
 
 namespace {
@@ -24,9 +22,7 @@ void ParameterOptions::add(CLI::App& app) {
 std::map<std::string, double> ParameterOptions::read() const {
   std::map<std::string, double> parameters;
   for (const auto& [name, value] : parameters_.all()) {
-    if (!parameters.emplace(name, value).second) {
-      throw BadInput(fmt::format("--param: {} is given twice", quotation(name)));
-    }
+    if (!parameters.emplace(name, value).second) throw BadInput("--param: {} is given twice", quotation(name));
   }
   return parameters;
 }

@@ -108,8 +108,7 @@ OrbitColumns motion_at_time_left(const ReducedSystem& system, State start, Route
   OrbitColumns columns(lefts.size());
   for (Eigen::Index i = 0; i < lefts.size(); ++i) {
     if (!(lefts[i] <= orbit.stop_time())) {
-      throw BadInput(
-          fmt::format("--time-left: {} is before the start, which is {} before the stop", lefts[i], orbit.stop_time()));
+      throw BadInput("--time-left: {} is before the start, which is {} before the stop", lefts[i], orbit.stop_time());
     }
     columns.set(i, orbit.at_time_left(lefts[i]));
   }

@@ -25,7 +25,7 @@ Body parse_body(const std::string& typed) {
       for (const Body& body : si::bodies()) named.emplace_back(body.name, body);
       return one_of(named, "body")(typed);
     } catch (const NotAllowed& error) {
-      throw NotAllowed(fmt::format("{}, or two numbers CHI,GAMMA", error.what()));
+      throw NotAllowed("{}, or two numbers CHI,GAMMA", error.what());
     }
   }
   const std::vector<double> ratios = numbers(typed, 2, "CHI,GAMMA");
@@ -69,14 +69,14 @@ void BodyOptions::add_drive(CLI::App& app) {
                if (drive < 0)
                  throw NotAllowed("a drive against the slip turns it round, which is no orbit: 0 or more is needed");
                if (drive > 0 && drive < reduction::ReducedSystem::least_drive)
-                 throw NotAllowed(fmt::format("0, or {} or more is needed", reduction::ReducedSystem::least_drive));
+                 throw NotAllowed("0, or {} or more is needed", reduction::ReducedSystem::least_drive);
                return drive;
              });
 }
 
 reduction::ReducedSystem BodyOptions::read(const reduction::Law& law, const std::string& ways) const {
   if (!mu_.given() && !body().patch_ratio) {
-    throw BadInput(fmt::format("--mu missing: give {}, or a --body that lies flat, disc or ring", ways));
+    throw BadInput("--mu missing: give {}, or a --body that lies flat, disc or ring", ways);
   }
   const double mu = mu_.given() ? *mu_ : *body().patch_ratio;
   if (const std::string complaint = body().complaint(mu); !complaint.empty()) mu_.reject(complaint);
@@ -158,9 +158,9 @@ void StartOptions::require_one_kind() const {
   const std::string reduced = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
     throw BadInput(
-        fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
-                    "drive --rolling-friction or --slope",
-                    ball_.typed(), reduced));
+        "{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
+        "drive --rolling-friction or --slope",
+        ball_.typed(), reduced);
   }
   if (ball_.given() && body_argument().given()) {
     body_argument().reject(
@@ -168,8 +168,8 @@ void StartOptions::require_one_kind() const {
         "('contensou balls puck' prints one); without --ball give --mu, --u0 and --v0");
   }
   if (!ball_.given() && !override_names().empty()) {
-    throw BadInput(fmt::format("{} changes a ball, or a puck: add --ball NAME|FILE.toml ('contensou balls' lists them)",
-                               override_names()));
+    throw BadInput("{} changes a ball, or a puck: add --ball NAME|FILE.toml ('contensou balls' lists them)",
+                   override_names());
   }
 }
 
@@ -198,8 +198,7 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     if (!argument->given()) missing.push_back(argument->name());
   }
   if (!missing.empty()) {
-    throw BadInput(
-        fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
+    throw BadInput("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", "));
   }
   if (*v0_ < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
   return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
@@ -219,16 +218,15 @@ std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) co
 void StartOptions::require_point_or_none() const {
   const std::string others = names_given({&body_.mu(), &body_.argument(), &body_.drive(), &ball_});
   if (!others.empty() || !override_names().empty()) {
-    throw BadInput(fmt::format("--system and {} exclude each other: its numbers are in the formulas, or --param",
-                               others.empty() ? override_names() : others));
+    throw BadInput("--system and {} exclude each other: its numbers are in the formulas, or --param",
+                   others.empty() ? override_names() : others);
   }
 }
 
 Eigen::Vector2d StartOptions::read_point() const {
   require_point_or_none();
   for (const Argument* argument : {&u0_, &v0_}) {
-    if (!argument->given())
-      throw BadInput(fmt::format("{} missing: a start of --system is --u0 U --v0 V", argument->name()));
+    if (!argument->given()) throw BadInput("{} missing: a start of --system is --u0 U --v0 V", argument->name());
   }
   return {*u0_, *v0_};
 }
@@ -314,7 +312,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
 
 void StartOptions::reject_ball(const std::string& message) const {
   const std::string others = override_names();
-  if (!ball_.given()) throw BadInput(fmt::format("{}: {}", others, message));
+  if (!ball_.given()) throw BadInput("{}: {}", others, message);
   ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + message);
 }
 

@@ -3,8 +3,6 @@
 #include <map>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "answers/asked/planar_system.hpp"
 #include "contensou/reduction/planar_steps.hpp"
 
@@ -31,7 +29,7 @@ reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) co
     if (basis_.given()) smooth.basis = parse_basis(basis_.text(), field, known);
     return smooth;
   } catch (const BadInput& error) {
-    throw BadInput(fmt::format("{}: {}", reading->name(), error.what()));
+    throw BadInput("{}: {}", reading->name(), error.what());
   }
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "answers/figures/aim_figure.hpp"
 #include "answers/verbs/aim_answer.hpp"
 #include "options/figure_options.hpp"
@@ -16,8 +14,7 @@ namespace {
 auto at_least_0(const char* unit, bool above = false) {
   return [=](const std::string& typed) {
     const double value = parse_quantity(typed, unit);
-    if (!(above ? value > 0 : value >= 0))
-      throw NotAllowed(fmt::format("a value {} 0 is needed, in {}", above ? ">" : ">=", unit));
+    if (!(above ? value > 0 : value >= 0)) throw NotAllowed("a value {} 0 is needed, in {}", above ? ">" : ">=", unit);
     return value;
   };
 }
@@ -62,15 +59,14 @@ class AimCommand final : public Verb {
       const std::string others = names_given({&distance_, &turns_, &time_});
       if (!others.empty() && !rolls_at_.given() && !rolling_speed_.given()) {
         throw BadInput(
-            fmt::format("{} goes with --rolls-at and --rolling-speed; with {} leave it out, two of --distance, "
-                        "--turns and --time decide the start",
-                        names, others));
+            "{} goes with --rolls-at and --rolling-speed; with {} leave it out, two of --distance, "
+            "--turns and --time decide the start",
+            names, others);
       }
-      if (!others.empty()) throw BadInput(fmt::format("{} and {} exclude each other: leave one out", others, names));
+      if (!others.empty()) throw BadInput("{} and {} exclude each other: leave one out", others, names);
       if (!rolls_at_.given() || !rolling_speed_.given())
-        throw BadInput(fmt::format("{}: --rolls-at and --rolling-speed are needed together", names));
-      if (output.picture())
-        throw BadInput(fmt::format("{}: a picture needs two of --distance, --turns and --time", names));
+        throw BadInput("{}: --rolls-at and --rolling-speed are needed together", names);
+      if (output.picture()) throw BadInput("{}: a picture needs two of --distance, --turns and --time", names);
       output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
       return ExitStatus::done;
     }

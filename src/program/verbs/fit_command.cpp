@@ -51,8 +51,8 @@ NoiseByName parse_noise(const std::string& typed) {
     const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
-    if (!(sd > 0)) throw NotAllowed(fmt::format("a standard deviation is > 0, in {}", unit));
-    if (!noise.emplace(name, sd).second) throw NotAllowed(fmt::format("{} is given twice; once is allowed", name));
+    if (!(sd > 0)) throw NotAllowed("a standard deviation is > 0, in {}", unit);
+    if (!noise.emplace(name, sd).second) throw NotAllowed("{} is given twice; once is allowed", name);
   }
   return noise;
 }
@@ -72,7 +72,7 @@ fit::Free parse_free(const std::string& typed) {
 auto positive(const char* what, const char* unit) {
   return [=](const std::string& typed) {
     const double value = parse_quantity(typed, unit);
-    if (!(value > 0)) throw NotAllowed(fmt::format("a {} > 0 is needed, in {}", what, unit));
+    if (!(value > 0)) throw NotAllowed("a {} > 0 is needed, in {}", what, unit);
     return value;
   };
 }
@@ -140,9 +140,9 @@ class FitCommand final : public Verb {
     fit::FitRequest request{.ball = start_.read_ball(laws.front()), .law = laws.front(), .tracks = {}};
     if (const double slope = request.ball.environment.slope; slope != 0)
       throw BadInput(
-          fmt::format("fit needs a level plane, and this one has a slope of {} degrees; --slope 0 "
-                      "leaves it out",
-                      slope));
+          "fit needs a level plane, and this one has a slope of {} degrees; --slope 0 "
+          "leaves it out",
+          slope);
     request.robust = robust_;
     request.tracks = plan_ ? planned_tracks(request) : read_tracks();
     const bool only_stop = request.tracks.size() == 1 && request.tracks[0].series.empty();
@@ -155,7 +155,7 @@ class FitCommand final : public Verb {
     try {
       fits = plan_ ? std::vector{fit::plan(request)} : fit::fit_laws(request, laws);
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what()));
+      throw BadInput("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what());
     }
     progress.erase();
     if (output.picture() && !plan_) {
@@ -249,7 +249,7 @@ class FitCommand final : public Verb {
     if (!start_.ball_given() && std::ranges::none_of(of_patch, is_given)) missing.emplace_back("--patch-radius LENGTH");
     if (si::slip_at_start(request.ball) == 0 && si::spin_at_start(request.ball) == 0)
       missing.emplace_back("a start, --slip V, --spin W or both");
-    if (!missing.empty()) throw BadInput(fmt::format("--plan needs {}", fmt::join(missing, " and ")));
+    if (!missing.empty()) throw BadInput("--plan needs {}", fmt::join(missing, " and "));
     const double end = until_.given() ? *until_ : si::Motion::reduced(request.ball, request.law).stop_time();
     const double frames = std::floor(end * *fps_ * (1 + 1e-12)) + 1;
     constexpr double most = 1e7;

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "answers/input/csv.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -76,7 +74,7 @@ class LawCommand final : public Verb {
   static std::vector<double> parse_ratios(const std::string& typed) {
     std::vector<double> ratios = parse_numbers(typed, Infinity::allowed);
     for (double k : ratios) {
-      if (!(k >= 0)) throw NotAllowed(fmt::format("{} is not a ratio: k >= 0 or inf is required", k));
+      if (!(k >= 0)) throw NotAllowed("{} is not a ratio: k >= 0 or inf is required", k);
     }
     return ratios;
   }

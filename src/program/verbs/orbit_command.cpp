@@ -119,8 +119,7 @@ class OrbitCommand final : public Verb {
     const reduction::Route route = route_.read(system);
     for (const Argument* other : std::initializer_list<const Argument*>{&time_left_, &beta_}) {
       if (!other->given() || !instants_.given()) continue;
-      throw BadInput(
-          fmt::format("{} and --samples, --equidistant exclude each other: give one of them", other->name()));
+      throw BadInput("{} and --samples, --equidistant exclude each other: give one of them", other->name());
     }
     if (time_left_.given() && beta_.given())
       throw BadInput("--time-left and --beta exclude each other: give one of them");
@@ -168,11 +167,10 @@ class OrbitCommand final : public Verb {
   /// @throws BadInput  for options that need a single orbit, if rolling friction divides the motion into several orbits
   void require_one_orbit(reduction::Route route) const {
     const char* const why = " needs one orbit, and rolling friction divides this motion into several";
-    if (route != reduction::Route::quadrature)
-      throw BadInput(fmt::format("--route {}{}: leave it out", name(route), why));
-    if (beta_.given()) throw BadInput(fmt::format("--beta{}: leave it out, or give --at", why));
-    if (estimate_) throw BadInput(fmt::format("--estimate{}: leave it out", why));
-    if (reduction_) throw BadInput(fmt::format("--reduction{}: leave it out", why));
+    if (route != reduction::Route::quadrature) throw BadInput("--route {}{}: leave it out", name(route), why);
+    if (beta_.given()) throw BadInput("--beta{}: leave it out, or give --at", why);
+    if (estimate_) throw BadInput("--estimate{}: leave it out", why);
+    if (reduction_) throw BadInput("--reduction{}: leave it out", why);
   }
 
   /// Returns the states at the given times, or at the given times left, or else at equidistant times.

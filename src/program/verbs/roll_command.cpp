@@ -170,10 +170,10 @@ class RollCommand final : public Verb {
       throw BadInput("--gradient: not in a picture, and not with a load that changes; leave it out");
     if ((gradient_ || roll.uncertainty) && output.format == "text" && (instants_.given() || until_.given()))
       throw BadInput(
-          fmt::format("{} is of the events, and with {} the text is a table of instants: leave one out, or take "
-                      "--format csv or json, which have both",
-                      gradient_ ? "--gradient" : "--uncertainty",
-                      with_name(instants_.names(), until_.given() ? until_.name() : "")));
+          "{} is of the events, and with {} the text is a table of instants: leave one out, or take "
+          "--format csv or json, which have both",
+          gradient_ ? "--gradient" : "--uncertainty",
+          with_name(instants_.names(), until_.given() ? until_.name() : ""));
     if (gradient_) roll.gradient = gradient_of(roll);
     if (output.picture()) {
       if (roll.uncertainty) throw BadInput("--uncertainty: not in a picture; leave it out");
@@ -182,7 +182,7 @@ class RollCommand final : public Verb {
         throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
       }
       if (instants_.asked() > max_frames) {
-        throw BadInput(fmt::format("a film has at most {} frames, got --samples {}", max_frames, *instants_.asked()));
+        throw BadInput("a film has at most {} frames, got --samples {}", max_frames, *instants_.asked());
       }
       if (const auto [centre, body] = si::velocities_of(roll.experiment.start); centre.isZero(0) && body.isZero(0)) {
         throw BadInput("the ball is at rest, there is nothing to draw: give it a --slip, a --spin or a --velocity");
@@ -223,7 +223,7 @@ class RollCommand final : public Verb {
     try {
       return si::event_gradient(si::EventNumbers(roll.experiment, roll.law, roll.rolling_below));
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("--gradient: {}: leave it out", error.what()));
+      throw BadInput("--gradient: {}: leave it out", error.what());
     }
   }
 
@@ -306,13 +306,12 @@ class RollCommand final : public Verb {
   si::Experiment read_shot(const reduction::Law& law) const {
     const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
-      if (!of_stroke.empty()) throw BadInput(fmt::format("{} belongs to a stroke: add --strike SPEED", of_stroke));
+      if (!of_stroke.empty()) throw BadInput("{} belongs to a stroke: add --strike SPEED", of_stroke);
       const si::Experiment experiment = start_.read_ball(law);
       require_rolling_options(experiment);
       return experiment;
     }
-    if (start_.overrides_start())
-      throw BadInput(fmt::format("--strike is a start of its own: leave out {}", start_.start_names()));
+    if (start_.overrides_start()) throw BadInput("--strike is a start of its own: leave out {}", start_.start_names());
     si::Experiment experiment = start_.read_rolling_ball(
         law, "leave out --strike: 'contensou roll' gives its motion from --slip and --spin", at_rest(strike_.name()));
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
@@ -323,7 +322,7 @@ class RollCommand final : public Verb {
                                                       .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
                                                       .mass = cue_mass_.value_or(si::standard_cue_mass)});
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("{}: {}", names_given({&strike_, &tip_, &elevation_, &cue_mass_}), error.what()));
+      throw BadInput("{}: {}", names_given({&strike_, &tip_, &elevation_, &cue_mass_}), error.what());
     }
     si::require_experiment(experiment);
     return experiment;

@@ -82,7 +82,7 @@ class StopCommand final : public Verb {
 
   static double sliding(const char* name, double speed) {
     if (speed >= 0) return speed;
-    throw BadInput(fmt::format("{0}: {0} >= 0 is required, got {1}", name, speed));
+    throw BadInput("{0}: {0} >= 0 is required, got {1}", name, speed);
   }
 
   ExitStatus run_many() const {
@@ -103,7 +103,7 @@ class StopCommand final : public Verb {
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long line) {
                                if (const std::string wrong = start_.body().complaint(row[0]); !wrong.empty()) {
-                                 throw BadInput(fmt::format("mu: {}, got {}", wrong, row[0]));
+                                 throw BadInput("mu: {}, got {}", wrong, row[0]);
                                }
                                const reduction::State start{.u = row[1], .v = sliding("v0", row[2])};
                                for (std::size_t i = 0; i < results.size(); ++i)

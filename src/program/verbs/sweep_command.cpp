@@ -225,8 +225,7 @@ class Sweep {
 void sweep(const SweepRequest& request, OutputFile& output) {
   const SweepGrid& grid = request.grid;
   if (grid.points() > max_points) {
-    throw BadInput(
-        fmt::format("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points()));
+    throw BadInput("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points());
   }
   std::string begins = heading(request);
   if (request.format == SweepFormat::npy) {
@@ -241,20 +240,17 @@ void sweep(const SweepRequest& request, OutputFile& output) {
 Range parse_range(const std::string& typed, std::string_view unit) {
   const std::vector<std::string> parts = split(typed, ':');
   if (parts.size() == 1) return {.min = parse_quantity(typed, unit), .max = parse_quantity(typed, unit)};
-  if (parts.size() != 3) {
-    throw BadInput(fmt::format("{} is not a range; write it MIN:MAX:N, as in 0:2:201", quotation(typed)));
-  }
+  if (parts.size() != 3) throw BadInput("{} is not a range; write it MIN:MAX:N, as in 0:2:201", quotation(typed));
   const std::vector<double> ends = parse_quantities({parts[0], parts[1]}, unit);
   const Range range{
       .min = ends[0], .max = ends[1], .count = parse_integer(parts[2], 1, std::numeric_limits<long>::max())};
   const auto& [min, max, count, in_ratios] = range;
-  if (min > max) throw BadInput(fmt::format("MIN = {} exceeds MAX = {}: put the smaller one first", min, max));
+  if (min > max) throw BadInput("MIN = {} exceeds MAX = {}: put the smaller one first", min, max);
   if (count == 1 && min != max) {
-    throw BadInput(fmt::format("one value cannot be both MIN = {} and MAX = {}: give N = 2 or more", min, max));
+    throw BadInput("one value cannot be both MIN = {} and MAX = {}: give N = 2 or more", min, max);
   }
   if (count > 1 && min == max) {
-    throw BadInput(
-        fmt::format("all {} values would be {}: give different MIN and MAX, or the number alone", count, min));
+    throw BadInput("all {} values would be {}: give different MIN and MAX, or the number alone", count, min);
   }
   return range;
 }
@@ -321,9 +317,9 @@ class SweepCommand final : public Verb {
   Range range_of(const ArgumentOf<Range>& argument) const {
     if (!argument.given()) {
       throw BadInput(
-          fmt::format("{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N, or --ball NAME --spin "
-                      "MIN:MAX:N --slip MIN:MAX:N",
-                      argument.name()));
+          "{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N, or --ball NAME --spin "
+          "MIN:MAX:N --slip MIN:MAX:N",
+          argument.name());
     }
     Range range = *argument;
     range.in_ratios = log_;
@@ -342,7 +338,7 @@ class SweepCommand final : public Verb {
   SweepGrid read_grid_of_ball(const reduction::Law& law) const {
     if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument(), &body_.drive()});
         !others.empty()) {
-      throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
+      throw BadInput("--ball and {} exclude each other: with --ball, use --spin and --slip", others);
     }
     const si::Experiment experiment = ball_.read_ball(law, at_rest("--slip and --spin"));
     const double mu = si::patch_ratio(experiment, law);
@@ -378,8 +374,8 @@ class SweepCommand final : public Verb {
       if ((*axis)->count < 2) axis->reject("a picture needs a range, MIN:MAX:N");
     }
     if (grid.points() > max_drawn) {
-      throw BadInput(fmt::format("a picture shows at most {:g} starts, not {:g}: reduce N, or write npy or csv",
-                                 max_drawn, grid.points()));
+      throw BadInput("a picture shows at most {:g} starts, not {:g}: reduce N, or write npy or csv", max_drawn,
+                     grid.points());
     }
     const auto values = [](const Range& range) -> Eigen::ArrayXd {
       return Eigen::ArrayXd::NullaryExpr(range.count, [&](Eigen::Index i) { return range[static_cast<long>(i)]; });
