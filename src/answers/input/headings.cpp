@@ -69,4 +69,9 @@ std::optional<SiColumn> find_column(const CsvReader& table, std::string_view nam
   return found;
 }
 
+SiColumn require_column(const CsvReader& table, std::string_view name, std::string_view si_unit) {
+  if (const auto found = find_column(table, name, si_unit)) return *found;
+  return {table.column(name)};  // throws, because there is no such column
+}
+
 }  // namespace contensou::answers

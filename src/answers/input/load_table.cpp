@@ -12,11 +12,7 @@ namespace contensou::answers {
 
 si::LoadHistory read_load_history(const std::string& path) {
   CsvReader table(path);
-  const auto column = [&](std::string_view name, std::string_view unit) {
-    const auto found = find_column(table, name, unit);
-    return found ? *found : SiColumn{table.column(std::string(name))};  // throws if there is no such column
-  };
-  const SiColumn time = column("t", "s"), load = column("load", "N");
+  const SiColumn time = require_column(table, "t", "s"), load = require_column(table, "load", "N");
   std::vector<double> t, newtons;
   long last = table.header_line();
   table.for_each_row([&](const CsvRow& row) {
