@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/si/scaling.hpp"
 #include "fit/report.hpp"
 #include "fit/search.hpp"
 #include "fit/turns.hpp"

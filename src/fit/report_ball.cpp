@@ -5,7 +5,6 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::fit {
 

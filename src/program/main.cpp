@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <system_error>

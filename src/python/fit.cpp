@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "contensou/si/scaling.hpp"
 #include "values.hpp"
 
 namespace contensou::python {

@@ -1,12 +1,10 @@
 // The symmetries of any planar field, and its motions.
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>

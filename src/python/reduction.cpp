@@ -1,5 +1,4 @@
 // contensou::reduction in Python: laws, flows, orbits, checks.
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>

@@ -1,6 +1,5 @@
 #include "answers/asked/formula_law.hpp"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

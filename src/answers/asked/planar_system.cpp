@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <utility>
 
 #include "answers/input/errors.hpp"
 #include "answers/input/message.hpp"

@@ -8,7 +8,6 @@
 #include "answers/asked/formula_law.hpp"
 #include "answers/asked/law_forms.hpp"
 #include "answers/input/pressure_profile.hpp"
-#include "contensou/reduction/laws.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::program {

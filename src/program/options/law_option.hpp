@@ -3,7 +3,6 @@
 #include <string>
 
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/si/body.hpp"
 #include "options/argument.hpp"
 #include "options/parameter_options.hpp"
 

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/integrating_factor.hpp"
-#include "contensou/reduction/planar_symmetry.hpp"
 #include "options/argument.hpp"
 #include "options/parameter_options.hpp"
 

@@ -1,7 +1,5 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "answers/table/text_table.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"

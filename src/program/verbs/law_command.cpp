@@ -4,6 +4,7 @@
 #include "answers/input/csv.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/si/body.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
