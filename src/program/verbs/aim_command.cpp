@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "answers/figures/aim_figure.hpp"
 #include "answers/verbs/aim_answer.hpp"
 #include "options/figure_options.hpp"
@@ -10,13 +12,8 @@ namespace contensou::program {
 
 namespace {
 
-/// Reads a quantity >= 0, or > 0 if `above` is true.
-auto at_least_0(const char* unit, bool above = false) {
-  return [=](const std::string& typed) {
-    const double value = parse_quantity(typed, unit);
-    if (!(above ? value > 0 : value >= 0)) throw NotAllowed("a value {} 0 is needed, in {}", above ? ">" : ">=", unit);
-    return value;
-  };
+auto at_least_0(const char* unit) {
+  return checked(quantity(unit), is_not_negative, fmt::format("a value >= 0 is needed, in {}", unit));
 }
 
 class AimCommand final : public Verb {
@@ -35,7 +32,7 @@ class AimCommand final : public Verb {
     rolls_at_.add(app, "--rolls-at", "LENGTH",
                   "distance from the start to the place where a ball begins to roll (slip below 1 mm/s), instead of "
                   "--distance, --turns, --time. Only starts with forward slip are found",
-                  at_least_0("m", true));
+                  checked(quantity("m"), is_positive, "a value > 0 is needed, in m"));
     rolling_speed_.add(
         app, "--rolling-speed", "SPEED",
         "speed of rolling after the spin has ended, for --rolls-at; with 0 the ball stops where it would begin to roll",

@@ -33,11 +33,7 @@ class CheckCommand final : public Verb {
     tolerance_.add(app, "--tolerance", "SHARE",
                    fmt::format("largest difference that passes, divided by slip and spin at the start (default {})",
                                standard_tolerance),
-                   [](const std::string& typed) {
-                     const double share = parse_number(typed);
-                     if (!(share > 0)) throw NotAllowed("a share above 0 is needed");
-                     return share;
-                   });
+                   checked(number, is_positive, "a share above 0 is needed"));
     figure_.add(app);
     output_.add(app);
   }

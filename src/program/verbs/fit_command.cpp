@@ -67,21 +67,6 @@ fit::Free parse_free(const std::string& typed) {
   return free;
 }
 
-/// Reads a time or a length that is above zero.
-auto positive(const char* what, const char* unit) {
-  return [=](const std::string& typed) {
-    const double value = parse_quantity(typed, unit);
-    if (!(value > 0)) throw NotAllowed("a {} > 0 is needed, in {}", what, unit);
-    return value;
-  };
-}
-
-double parse_rate(const std::string& typed) {
-  const double rate = parse_number(typed);
-  if (!(rate > 0)) throw NotAllowed("pictures in a second > 0 are needed");
-  return rate;
-}
-
 class FitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
@@ -104,9 +89,9 @@ class FitCommand final : public Verb {
                parse_noise);
     stop_time_.add(app, "--stop-time", "TIME",
                    "measured end of slip and spin, in seconds after the start; needs --noise stop=SD",
-                   positive("time", "s"));
+                   checked(quantity("s"), is_positive, "a time > 0 is needed, in s"));
     pixel_.add(app, "--pixel", "LENGTH", "length that one pixel shows, for columns such as 'x [px]'",
-               positive("length", "m"));
+               checked(quantity("m"), is_positive, "a length > 0 is needed, in m"));
     start_.add_ball(app, "real ball with the values that are not fitted; with --radius no ball is needed");
     start_.take_radius_for_ball();
     law_.add_several(
@@ -120,7 +105,8 @@ class FitCommand final : public Verb {
     app.add_flag("--robust", robust_, "give outliers less weight, by Huber's loss");
     app.add_flag("--plan", plan_,
                  "predict the standard errors that a film with --fps and --noise would give; without FILE");
-    fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame", parse_rate);
+    fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame",
+             checked(number, is_positive, "pictures in a second > 0 are needed"));
     figure_.add(app);
     output_.add(app);
   }

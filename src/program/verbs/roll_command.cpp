@@ -68,17 +68,6 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
   return picture;
 }
 
-double not_negative(double value) {
-  if (value < 0) throw NotAllowed("0 or more is needed");
-  return value;
-}
-
-double parse_end(const std::string& typed) {
-  const double end = parse_quantity(typed, "s");
-  if (!(end > 0)) throw NotAllowed("a time after the start is needed, in s");
-  return end;
-}
-
 constexpr long max_frames = 1000;  ///< largest number of frames of a film: 40 s
 
 /// Columns of the tables that --batch reads.
@@ -128,7 +117,7 @@ class RollCommand final : public Verb {
                        fmt::format("slip below which the ball counts as rolling, in metres per second (default {}). It "
                                    "also applies to the uncoupled model",
                                    si::rolling_slip),
-                       [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
+                       checked(quantity("m/s"), is_not_negative, "0 or more is needed"));
     app.add_flag("--gradient", gradient_,
                  "also print the derivatives of each event with respect to each number of the ball and its start");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
@@ -137,7 +126,7 @@ class RollCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_
         .add(app, "--until", "TIME", "last instant, in seconds (default: 1.1 times the time of the last event)",
-             parse_end)
+             checked(quantity("s"), is_positive, "a time after the start is needed, in s"))
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
