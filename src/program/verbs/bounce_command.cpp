@@ -62,9 +62,8 @@ class BounceCommand final : public Verb {
                  "widens\n",
                  si::patch_radius_of(experiment, law));
     }
-    output.write(
+    return output.write(
         answers::bounce_answer(experiment, law, impact, drop_.optional(), rolling_below_.value_or(si::rolling_slip)));
-    return ExitStatus::done;
   }
 
  private:

@@ -17,7 +17,6 @@
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 
@@ -107,7 +106,6 @@ class FitCommand final : public Verb {
                  "predict the standard errors that a film with --fps and --noise would give; without FILE");
     fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame",
              checked(number, is_positive, "pictures in a second > 0 are needed"));
-    figure_.add(app);
     output_.add(app);
   }
 
@@ -145,7 +143,7 @@ class FitCommand final : public Verb {
     progress.erase();
     if (output.picture() && !plan_) {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
-      output.write({figure_.apply(fit_figure(fits.front(), laws, request.tracks, figure_.size()), output.format)});
+      output_.write(fit_figure(fits.front(), laws, request.tracks, output_.size()), output);
     } else if (output.format == "toml") {
       Fit& fitted = fits.front();
       if (is_formula_law(fitted.law)) fitted.ball.contact.law = fitted.law;
@@ -257,8 +255,7 @@ class FitCommand final : public Verb {
   bool robust_ = false, plan_ = false;
   StartOptions start_;
   LawOption law_;
-  FigureOptions figure_;
-  OutputOptions output_{
+  PictureOptions output_{
       {{"a fit", with_pictures(answer_formats("text"), {"toml"})}, {"a plan", answer_formats("text")}}};
 };
 

@@ -159,8 +159,8 @@ class OrbitCommand final : public Verb {
       report.t = given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds));
     }
     if (reduction_) add_canonical(report);
-    output.write(Answer{.members = members_of(orbit_fields, report), .columns = columns_of(orbit_columns, report)});
-    return ExitStatus::done;
+    return output.write(
+        Answer{.members = members_of(orbit_fields, report), .columns = columns_of(orbit_columns, report)});
   }
 
  private:

@@ -234,12 +234,8 @@ class PortraitCommand final : public Verb {
   /// @param draw  returns the figure of the portraits
   template <class Portraits, class Draw>
   ExitStatus write(const Output& output, const Portraits& all, const portraits::PortraitSource& source, Draw draw) {
-    if (output.picture()) {
-      output.write({figure_.apply(draw(), output.format)});
-    } else {
-      output.write(output.format == "csv" ? to_csv(all, source) : to_json(all, source));
-    }
-    return ExitStatus::done;
+    if (output.picture()) return figure_.write(draw(), output);
+    return output.write(output.format == "csv" ? to_csv(all, source) : to_json(all, source));
   }
 
   /// Throws for a window or a point that lies outside the half-plane.
@@ -348,8 +344,7 @@ class PortraitCommand final : public Verb {
       throw BadInput("--facts and {} exclude each other: facts describe the whole plane, without a picture", names);
     }
     if (route_.given()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
-    output_.read(1).write(phase_plane_answer(system));
-    return ExitStatus::done;
+    return output_.read(1).write(phase_plane_answer(system));
   }
 
   SystemOption system_;

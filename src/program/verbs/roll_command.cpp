@@ -17,7 +17,6 @@
 #include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/batch.hpp"
 #include "verb.hpp"
@@ -134,7 +133,6 @@ class RollCommand final : public Verb {
                "The output adds columns with the events");
     app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its results empty");
     bulk_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
@@ -143,7 +141,6 @@ class RollCommand final : public Verb {
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
-    figure_.require_picture(output);
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment experiment = read_shot(law);
     Roll roll{experiment, law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
@@ -181,19 +178,17 @@ class RollCommand final : public Verb {
       const auto [film_times, slow] = portraits::film_pace(film_end, instants_.asked());
       portraits::RollPicture picture =
           picture_of(roll, moves ? film_times : end * Eigen::ArrayXd::LinSpaced(500, 0, 1).cube());
-      picture.size = figure_.size();
+      picture.size = output_.size();
       picture.slow = moves ? slow : 0;
       picture.whole_path = until_.given();
       std::vector<portraits::Figure> figures =
           moves ? portraits::roll_film(picture) : std::vector{portraits::roll_figure(picture)};
-      for (portraits::Figure& figure : figures) figure = figure_.apply(std::move(figure), output.format);
-      output.write(figures);
-    } else if (output.format == "text" && !instants_.given() && !until_.given()) {
-      output.write(answers::roll_text(roll, output.digits));
-    } else {
-      output.write(answers::roll_answer(roll, instants_.between(roll.whole.rolls(roll.rolling_below), end)));
+      for (portraits::Figure& figure : figures) figure = output_.apply(std::move(figure), output.format);
+      return output.write(figures);
     }
-    return ExitStatus::done;
+    if (output.format == "text" && !instants_.given() && !until_.given())
+      return output.write(answers::roll_text(roll, output.digits));
+    return output.write(answers::roll_answer(roll, instants_.between(roll.whole.rolls(roll.rolling_below), end)));
   }
 
  private:
@@ -326,8 +321,8 @@ class RollCommand final : public Verb {
   Argument batch_, uncertainty_;
   bool keep_going_ = false, gradient_ = false;
   BulkOptions bulk_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
+  PictureOptions output_{
+      {{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
 };
 
 const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",

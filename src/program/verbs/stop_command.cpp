@@ -64,8 +64,8 @@ class StopCommand final : public Verb {
     const auto load = start_.load_history();
     if (load && uncertainty_.given()) uncertainty_.reject("needs a constant load: give --load a number");
     if (load) fmt::print(stderr, "{}", require_load_alone(*start.experiment, start.system.law()));
-    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start), load));
-    return ExitStatus::done;
+    return output.write(
+        stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start), load));
   }
 
  private:

@@ -19,7 +19,6 @@
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/ordered_work.hpp"
 #include "output/progress.hpp"
@@ -282,7 +281,6 @@ class SweepCommand final : public Verb {
     slip_.add(app, "--slip", "MIN:MAX:N", "N values of the sliding speed, in metres per second", read(si::slip.unit));
     law_.add(app);
     bulk_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
@@ -295,11 +293,8 @@ class SweepCommand final : public Verb {
     const double drive = grid.ball ? ball_.drive_along_x(*grid.ball) : body_.drive().value_or(0);
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture has few starts, leave it out");
-      out.write(
-          {figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out.format)});
-      return ExitStatus::done;
+      return output_.write(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out);
     }
-    figure_.require_picture(out);
     OutputFile output(out.path);
     sweep({.law = law,
            .body = inertia,
@@ -397,7 +392,7 @@ class SweepCommand final : public Verb {
     }
     return portraits::draw(
         portraits::stop_time_map(flow, {caption.u_unit * values(grid.u0), values(grid.v0), log_}, caption.time_unit),
-        caption, figure_.size());
+        caption, output_.size());
   }
 
   ArgumentOf<Range> mu_, u0_, v0_, spin_, slip_;
@@ -406,8 +401,7 @@ class SweepCommand final : public Verb {
   LawOption law_;
   BodyOptions body_;
   BulkOptions bulk_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
+  PictureOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
 };
 
 const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep", "Compute stop times on a grid of starts",
