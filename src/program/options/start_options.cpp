@@ -74,7 +74,7 @@ void BodyOptions::add_drive(CLI::App& app) {
              });
 }
 
-reduction::ReducedSystem BodyOptions::read(const reduction::Law& law, const std::string& ways) const {
+reduction::ReducedSystem BodyOptions::read_system(const reduction::Law& law, const std::string& ways) const {
   if (!mu_.given() && !body().patch_ratio) {
     throw BadInput("--mu missing: give {}, or a --body that lies flat, disc or ring", ways);
   }
@@ -94,10 +94,10 @@ std::string ball_group() { return shared_group("Values that replace those of --b
 
 void StartOptions::add(CLI::App& app) {
   app.option_defaults()->group("Start");
-  body_.add_mu(app);
+  add_mu(app);
   u0_.add(app, "--u0", "U", "u at the start, of either sign, in any unit of speed", number);
   v0_.add(app, "--v0", "V", "v at the start, 0 or more, in the unit of --u0", number);
-  body_.add_body(app);
+  add_body(app);
   add_ball(app);
 }
 
@@ -148,14 +148,14 @@ std::string StartOptions::start_names() const {
   return names_given(arguments);
 }
 
-std::string StartOptions::given_names() const { return with_name(names_of_one_start(), names_given({&body_.drive()})); }
+std::string StartOptions::given_names() const { return with_name(names_of_one_start(), names_given({&drive()})); }
 
 std::string StartOptions::names_of_one_start() const {
-  return with_name(names_given({&body_.mu(), &u0_, &v0_, &ball_}), override_names());
+  return with_name(names_given({&mu(), &u0_, &v0_, &ball_}), override_names());
 }
 
 void StartOptions::require_one_kind() const {
-  const std::string reduced = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_});
+  const std::string reduced = names_given({&mu(), &drive(), &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
     throw BadInput(
         "{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
@@ -193,7 +193,7 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     }
   }
   std::vector<std::string> missing;
-  if (!body_.mu().given() && !body().patch_ratio) missing.push_back(body_.mu().name());
+  if (!mu().given() && !body().patch_ratio) missing.push_back(mu().name());
   for (const Argument* argument : {&u0_, &v0_}) {
     if (!argument->given()) missing.push_back(argument->name());
   }
@@ -201,22 +201,22 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     throw BadInput("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", "));
   }
   if (*v0_ < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-  return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
+  return {read_system(law), {.u = *u0_, .v = *v0_}, std::nullopt};
 }
 
 std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) const {
   std::vector<GivenStart> starts{without_motion() ? GivenStart{read_body(law), {}, std::nullopt} : read(law)};
-  for (double mu : body_.more_mu()) {
-    if (const std::string complaint = body().complaint(mu); !complaint.empty()) body_.mu().reject(complaint);
+  for (double ratio : more_mu()) {
+    if (const std::string complaint = body().complaint(ratio); !complaint.empty()) mu().reject(complaint);
     GivenStart other = starts.front();
-    other.system = {law, mu, other.system.inertia(), other.system.drive()};
+    other.system = {law, ratio, other.system.inertia(), other.system.drive()};
     starts.push_back(std::move(other));
   }
   return starts;
 }
 
 void StartOptions::require_point_or_none() const {
-  const std::string others = names_given({&body_.mu(), &body_.argument(), &body_.drive(), &ball_});
+  const std::string others = names_given({&mu(), &body_argument(), &drive(), &ball_});
   if (!others.empty() || !override_names().empty()) {
     throw BadInput("--system and {} exclude each other: its numbers are in the formulas, or --param",
                    others.empty() ? override_names() : others);
@@ -234,7 +234,7 @@ Eigen::Vector2d StartOptions::read_point() const {
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
   require_one_kind();
   if (ball_.given()) return read(law).system;
-  return body_.read(law, "--mu M, --ball NAME|FILE.toml");
+  return read_system(law, "--mu M, --ball NAME|FILE.toml");
 }
 
 const si::Description& StartOptions::ball_of_its_own() const {

@@ -114,7 +114,7 @@ class StopCommand final : public Verb {
                          .progress = bulk_.progress(out.path)};
     for (const reduction::Law& law : laws) {
       stop_times.emplace_back(law, ball ? ball->ball.body.inertia : start_.body().inertia,
-                              ball ? start_.drive_along_x(*ball) : start_.drive(), route_);
+                              ball ? start_.drive_along_x(*ball) : start_.drive().value_or(0), route_);
       if (ball && ball->contact.rolling_friction != 0) stop_times.back().resist(*ball);
       if (ball) mu.push_back(si::patch_ratio(*ball, law));
       const std::string result = has_ball ? "t_stop" : "tau_stop";

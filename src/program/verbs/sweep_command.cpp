@@ -271,9 +271,9 @@ class SweepCommand final : public Verb {
     u0_.add(app, "--u0", "MIN:MAX:N", "N values of u at the start, from MIN to MAX", read(""));
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of v at the start, from MIN >= 0 to MAX", read(""));
     app.add_flag("--log", log_, "neighbouring values have equal ratios, not equal steps (MIN must be above 0)");
-    body_.add_body(app);
-    body_.add_drive(app);
-    ball_.add_ball(
+    start_.add_body(app);
+    start_.add_drive(app);
+    start_.add_ball(
         app, "real body in SI units, instead of the options above. It needs --spin and --slip; times are in seconds",
         StartOptions::no_start);
     spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
@@ -285,12 +285,11 @@ class SweepCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    const Body body = body_.body();
     const Output out = output_.read();
-    const reduction::Law law = law_.read(ball_.ball_given() ? ball_.standard_law() : std::string(body.law));
-    const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
-    const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : body.inertia;
-    const double drive = grid.ball ? ball_.drive_along_x(*grid.ball) : body_.drive().value_or(0);
+    const reduction::Law law = law_.read(start_.standard_law());
+    const SweepGrid grid = start_.ball_given() ? read_grid_of_ball(law) : read_grid(start_.body());
+    const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : start_.body().inertia;
+    const double drive = grid.ball ? start_.drive_along_x(*grid.ball) : start_.drive().value_or(0);
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture has few starts, leave it out");
       return output_.write(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out);
@@ -331,17 +330,17 @@ class SweepCommand final : public Verb {
   }
 
   SweepGrid read_grid_of_ball(const reduction::Law& law) const {
-    if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument(), &body_.drive()});
+    if (const std::string others = names_given({&mu_, &u0_, &v0_, &start_.body_argument(), &start_.drive()});
         !others.empty()) {
       throw BadInput("--ball and {} exclude each other: with --ball, use --spin and --slip", others);
     }
-    const si::Experiment experiment = ball_.read_ball(law, at_rest("--slip and --spin"));
+    const si::Experiment experiment = start_.read_ball(law, at_rest("--slip and --spin"));
     const double mu = si::patch_ratio(experiment, law);
     return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = experiment};
   }
 
   SweepGrid read_grid(const Body& body) const {
-    if (ball_.given() || spin_.given() || slip_.given()) {
+    if (!start_.names_of_one_start().empty() || spin_.given() || slip_.given()) {
       throw BadInput("without --ball NAME|FILE.toml, its options and --spin and --slip mean nothing: add --ball");
     }
     if (!mu_.given() && !body.patch_ratio) {
@@ -396,10 +395,9 @@ class SweepCommand final : public Verb {
   }
 
   ArgumentOf<Range> mu_, u0_, v0_, spin_, slip_;
-  StartOptions ball_;
+  StartOptions start_;
   bool log_ = false;
   LawOption law_;
-  BodyOptions body_;
   BulkOptions bulk_;
   PictureOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
 };
