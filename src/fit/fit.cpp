@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/si/scaling.hpp"
 #include "fit/report.hpp"
 #include "fit/search.hpp"
 #include "fit/turns.hpp"
@@ -145,7 +144,7 @@ Fit fit(const FitRequest& asked) {
   VectorXd solution = search.solve();
   constexpr int most = 10;  // largest number of restarts from a better solution that a likelihood profile found
   for (int i = 0;; ++i) {
-    Report report = report_on(search, with_signs(request, solution), false);
+    Report report = Reporter(search, with_signs(request, solution), false).report();
     if (report.better && i < most) {
       solution = search.settled(*report.better);
       continue;
@@ -179,7 +178,7 @@ Fit plan(const FitRequest& asked) {
   require(request);
   const Search search(request);
   require_limits(search, true);
-  Fit result = report_on(search, search.given(), true).fit;
+  Fit result = Reporter(search, search.given(), true).report().fit;
   for (const Track& track : request.tracks) result.turns.push_back({half_turn_spin(track)});
   return result;
 }

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/infinity.hpp"
-#include "fit/reporter.hpp"
 
 namespace contensou::fit {
 
@@ -158,10 +157,6 @@ void Reporter::require_numbers() const {
       continue;
     throw std::runtime_error(fmt::format("fit: no number was found for {}", kind_of(estimate.parameter).name));
   }
-}
-
-Report report_on(const Search& search, const VectorXd& solution, bool planned) {
-  return Reporter(search, solution, planned).report();
 }
 
 }  // namespace contensou::fit

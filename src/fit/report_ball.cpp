@@ -1,11 +1,10 @@
-#include "fit/reporter.hpp"
+#include "fit/report.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::fit {
 

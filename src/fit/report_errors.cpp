@@ -1,4 +1,4 @@
-#include "fit/reporter.hpp"
+#include "fit/report.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "contensou/si/scaling.hpp"
 #include "fit/search.hpp"
 
 namespace contensou::fit {

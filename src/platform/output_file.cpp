@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "platform/descriptor.hpp"
-#include "platform/file_failure.hpp"
 #include "platform/interruption.hpp"
 #include "platform/path_text.hpp"
 #include "platform/unfinished_file.hpp"

@@ -1,10 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace contensou::platform {
+
+/// Thrown if a file cannot be read or written, or gnuplot is missing or fails. The message contains name and reason.
+struct FileFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// A file for results. Either the whole file appears or nothing: the file is written under another name in the same
 /// folder, then renamed. A link stays and leads to the new file, which has the permissions of the old one. Standard

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "answers/input/errors.hpp"
-#include "platform/file_failure.hpp"
+#include "platform/output_file.hpp"
 
 /// The program: it reads words of a command line and writes answers.
 namespace contensou::program {

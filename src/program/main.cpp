@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -120,11 +119,10 @@ void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::strin
     }
     const std::string hint =
         others.empty() ? suggestion(option, options) : fmt::format(": it is an option of {}", fmt::join(others, ", "));
-    throw BadInput(fmt::format("unknown option {}{}", quotation(option), hint));
+    throw BadInput("unknown option {}{}", quotation(option), hint);
   }
-  if (names.empty()) throw BadInput(fmt::format("unexpected argument {}", quotation(typed)));
-  throw BadInput(
-      fmt::format("unknown verb {}{}; verbs: {}", quotation(typed), suggestion(typed, names), fmt::join(names, ", ")));
+  if (names.empty()) throw BadInput("unexpected argument {}", quotation(typed));
+  throw BadInput("unknown verb {}{}; verbs: {}", quotation(typed), suggestion(typed, names), fmt::join(names, ", "));
 }
 
 /// Throws for two uses that CLI11 accepts although they have no meaning: a value of a flag, and -- as the last word.
@@ -133,7 +131,7 @@ void reject_what_means_nothing(const CLI::App& app, const std::vector<std::strin
     if (option->get_items_expected_max() > 0) continue;
     for (const std::string& typed : arguments) {
       if (!typed.starts_with(option->get_name() + "=")) continue;
-      throw BadInput(fmt::format("{}: {} takes no value", quotation(typed), option->get_name()));
+      throw BadInput("{}: {} takes no value", quotation(typed), option->get_name());
     }
   }
   if (!arguments.empty() && arguments.back() == "--") throw BadInput("unexpected argument '--'");
@@ -145,7 +143,7 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
     app.parse(std::move(arguments));
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();
-    throw BadInput(fmt::format("{} needs a value", message.substr(0, message.find(':'))));
+    throw BadInput("{} needs a value", message.substr(0, message.find(':')));
   } catch (const CLI::ExcludesError& error) {
     std::string message = error.what();
     message.replace(message.find(" excludes "), 10, " and ");
@@ -187,9 +185,7 @@ ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
     throw BadInput(error.what());
   }
   reject_extras(app, all, all.names());
-  if (app.get_subcommands().empty()) {
-    throw BadInput(fmt::format("a verb is missing; verbs: {}", fmt::join(all.names(), ", ")));
-  }
+  if (app.get_subcommands().empty()) throw BadInput("a verb is missing; verbs: {}", fmt::join(all.names(), ", "));
   reject_extras(*app.get_subcommands().front(), all, {});
   return all.complete(verb).run();
 }

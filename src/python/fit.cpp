@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "contensou/si/scaling.hpp"
 #include "values.hpp"
 
 namespace contensou::python {
@@ -29,10 +28,6 @@ class InterruptibleLaw {
   std::shared_ptr<Interruption> interruption_ = std::make_shared<Interruption>();
 };
 
-Eigen::ArrayXd column_of(const Numbers& numbers) {
-  return Eigen::Map<const Eigen::ArrayXd>(numbers.data(), numbers.size());
-}
-
 py::dict found_of(const fit::Fit& found) {
   py::dict estimates, noise, result;
   for (const fit::Estimate& estimate : found.estimates) {
@@ -40,26 +35,23 @@ py::dict found_of(const fit::Fit& found) {
         py::make_tuple(estimate.value, estimate.standard_error, estimate.interval.low, estimate.interval.high);
   }
   for (const fit::Noise& each : found.noise) noise[py::str(std::string(fit::kind_of(each.observable).name))] = each.sd;
-  py::list names, predicted;
-  for (const fit::Estimate* estimate : found.free_estimates())
-    names.append(std::string(fit::kind_of(estimate->parameter).name));
-  for (const Eigen::ArrayXd& values : found.predicted.front()) {
-    predicted.append(py::array_t<double>(values.size(), values.data()));
-  }
   py::array_t<double> matrix({found.correlation.rows(), found.correlation.cols()});
   for (Eigen::Index i = 0; i < found.correlation.rows(); ++i) {
     for (Eigen::Index j = 0; j < found.correlation.cols(); ++j) matrix.mutable_at(i, j) = found.correlation(i, j);
   }
   result["ball"] = fields_of(si::describe(found.ball));
   result["estimates"] = estimates;
-  result["names"] = names;
+  result["names"] = list_of(found.free_estimates(),
+                            [](const fit::Estimate* estimate) { return fit::kind_of(estimate->parameter).name; });
   result["correlation_matrix"] = matrix;
   result["correlation"] = found.correlation_of_contact();
   result["noise"] = noise;
   result["reduced_chi2"] = found.reduced_chi2();
   result["aic"] = found.aic;
   result["profiled"] = found.profiled;
-  result["predicted"] = predicted;
+  result["predicted"] = list_of(found.predicted.front(), [](const Eigen::ArrayXd& values) {
+    return py::array_t<double>(values.size(), values.data());
+  });
   result["misfits"] = found.misfits;
   result["other_spins"] = found.other_spins(0);
   if (const auto& seen = found.rolling_friction_seen) {
@@ -83,15 +75,15 @@ void bind_fit(py::module_& module) {
   module.def("fit", [](const si::Experiment& ball, const reduction::Law& law, const Numbers& t,
                        const std::vector<std::tuple<std::string, Numbers, Numbers>>& series,
                        const std::optional<std::vector<std::string>>& free, bool robust, bool planned) {
-    std::vector<std::pair<std::string, fit::Observable>> kinds;
-    for (const fit::ObservableKind& kind : fit::observable_kinds())
-      kinds.emplace_back(std::string(kind.name), kind.observable);
     fit::Track track;
     track.name = "t";
     track.t = column_of(t);
     track.start = track.t.size() > 0 ? track.t[0] : 0;
-    for (const auto& [name, values, sd] : series)
-      track.series.push_back({one_of("observable", "observables", kinds, name), column_of(values), column_of(sd)});
+    for (const auto& [name, values, sd] : series) {
+      const auto kind =
+          entry_of("observable", "observables", fit::observable_kinds(), &fit::ObservableKind::name, name);
+      track.series.push_back({kind.observable, column_of(values), column_of(sd)});
+    }
     fit::FitRequest request{.ball = ball,
                             .law = InterruptibleLaw(std::make_shared<const reduction::Law>(law)),
                             .tracks = {track},

@@ -1,12 +1,10 @@
 // The symmetries of any planar field, and its motions.
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -46,10 +44,6 @@ PlanarField field_of(py::function function) {
   };
 }
 
-py::array_t<double> like(const Numbers& given) {
-  return py::array_t<double>(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
-}
-
 double stop_time_of(const PlanarOrbit& orbit) {
   if (orbit.end() == PlanarEnd::border || orbit.end() == PlanarEnd::undecided) return nothing;
   return orbit.end() == PlanarEnd::centre ? orbit.end_time() : infinity;
@@ -58,7 +52,7 @@ double stop_time_of(const PlanarOrbit& orbit) {
 /// Returns the value of a function at each of the points; NaN at points where the function throws an error.
 template <class Function>
 py::array_t<double> at_points(const Numbers& u, const Numbers& v, Function function) {
-  py::array_t<double> result = like(u);
+  auto result = array_like<double>(u);
   for (py::ssize_t i = 0; i < u.size(); ++i) {
     try {
       result.mutable_data()[i] = interruptible([&] { return function(Vector2d(u.data()[i], v.data()[i])); });
@@ -87,11 +81,9 @@ void bind_planar(py::module_& module) {
                   })
       .def_property_readonly("generators",
                              [](const Planar& planar) {
-                               py::list list;
-                               for (const auto& x : planar.symmetries.generators) {
-                                 list.append(py::make_tuple(x.time, x.matrix, x.shift, x.everywhere));
-                               }
-                               return list;
+                               return list_of(planar.symmetries.generators, [](const reduction::Generator& x) {
+                                 return py::make_tuple(x.time, x.matrix, x.shift, x.everywhere);
+                               });
                              })
       .def_property_readonly("verdict",
                              [](const Planar& planar) {
@@ -108,11 +100,10 @@ void bind_planar(py::module_& module) {
                              })
       .def_property_readonly("tried",
                              [](const Planar& planar) {
-                               py::list list;
-                               for (const auto& [form, value, gap, residual, cleared] : planar.solved_plane.tried) {
-                                 list.append(py::make_tuple(form, value, gap, residual, cleared));
-                               }
-                               return list;
+                               return list_of(planar.solved_plane.tried, [](const reduction::TriedForm& tried) {
+                                 const auto& [form, value, gap, residual, cleared] = tried;
+                                 return py::make_tuple(form, value, gap, residual, cleared);
+                               });
                              })
       .def("factor",
            [](const Planar& planar, const Numbers& u, const Numbers& v) {
@@ -121,25 +112,20 @@ void bind_planar(py::module_& module) {
            })
       .def_property_readonly("equilibria",
                              [](const Planar& planar) {
-                               py::list list;
                                const auto found = interruptible([&] {
                                  auto zeros = reduction::find_equilibria(planar.field, planar.start);
                                  if (planar.solved_plane.plane) prove_centers(zeros, planar.solved());
                                  return zeros;
                                });
-                               for (const auto& each : found) {
-                                 list.append(py::make_tuple(each.x[0], each.x[1], each.kind(), each.eigenvalues()));
-                               }
-                               return list;
+                               return list_of(found, [](const reduction::Equilibrium& each) {
+                                 return py::make_tuple(each.x[0], each.x[1], each.kind(), each.eigenvalues());
+                               });
                              })
       .def_property_readonly("reversors",
                              [](const Planar& planar) {
-                               std::vector<std::string> names;
-                               for (const auto& [name, matrix] : interruptible(
-                                        [&] { return reduction::find_reversors(planar.field, planar.start); })) {
-                                 names.emplace_back(name);
-                               }
-                               return names;
+                               return list_of(
+                                   interruptible([&] { return reduction::find_reversors(planar.field, planar.start); }),
+                                   &reduction::Reversor::name);
                              })
       .def_property_readonly("solved", [](const Planar& planar) { return planar.solved_plane.plane.has_value(); })
       .def_property_readonly("kind",
@@ -148,15 +134,12 @@ void bind_planar(py::module_& module) {
                                if (kind.empty()) return std::nullopt;
                                return std::string(kind);
                              })
-      .def_property_readonly(
-          "rays",
-          [](const Planar& planar) {
-            py::list list;
-            for (const auto& ray : planar.solved().rays()) {
-              list.append(py::make_tuple(ray.q, ray.attracts, ray.to_centre, ray.radial, ray.angular));
-            }
-            return list;
-          })
+      .def_property_readonly("rays",
+                             [](const Planar& planar) {
+                               return list_of(planar.solved().rays(), [](const reduction::PlanarRay& ray) {
+                                 return py::make_tuple(ray.q, ray.attracts, ray.to_centre, ray.radial, ray.angular);
+                               });
+                             })
       .def_property_readonly("turn",
                              [](const Planar& planar) -> std::optional<std::pair<double, double>> {
                                const auto* turn = planar.solved().turn();
@@ -193,7 +176,7 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("stop_time", &stop_time_of)
       .def_property_readonly("period", &PlanarOrbit::period)
       .def("at", [](const PlanarOrbit& orbit, const Numbers& times) {
-        py::array_t<double> us = like(times), vs = like(times);
+        auto us = array_like<double>(times), vs = array_like<double>(times);
         for (py::ssize_t i = 0; i < times.size(); ++i) {
           const double time = times.data()[i];
           Vector2d x(nothing, nothing);

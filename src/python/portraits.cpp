@@ -35,13 +35,6 @@ py::array_t<double> array_of(const std::vector<Point>& points) {
 
 std::string colour_of(portraits::Colour colour) { return fmt::format("#{:06x}", colour.rgb); }
 
-template <class Range, class Function>
-py::list list_of(const Range& range, Function value) {
-  py::list list;
-  for (const auto& entry : range) list.append(value(entry));
-  return list;
-}
-
 /// Returns the runs of a text, each (words, italic, level).
 py::tuple text_of(const portraits::Text& text) {
   return list_of(text.runs(),
@@ -183,9 +176,8 @@ Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optio
                               .style = style_of(arrows, axes, colour, style, size)};
   if (start) asked.start = reduction::State{start->first, start->second};
   if (experiment) asked.start = si::reduced_start(*experiment);
-  std::vector<std::pair<std::string, portraits::View>> views;
-  for (portraits::View choice : portraits::views()) views.emplace_back(name(choice), choice);
-  if (view) asked.request.view = one_of("view", "views", views, *view);
+  const auto name_of_view = [](portraits::View each) { return name(each); };
+  if (view) asked.request.view = entry_of("view", "views", portraits::views(), name_of_view, *view);
   asked.request.comparison = against;
   asked.request.linear = one_of<bool>("scale", "scales", {{"bent", false}, {"linear", true}}, scale);
   asked.style.field =

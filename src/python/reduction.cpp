@@ -1,5 +1,4 @@
 // contensou::reduction in Python: laws, flows, orbits, checks.
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -65,24 +64,18 @@ class FunctionLaw {
 
 Law law_of_name(const std::string& name) {
   if (auto law = answers::find_law_or_formulas(name)) return *law;
-  std::vector<std::pair<std::string, Law>> laws;
-  for (const Law& law : reduction::named_laws()) laws.emplace_back(law.name(), law);
   std::vector<std::string> families;
   for (const auto& family : reduction::law_families()) {
     families.push_back(fmt::format("{}:{}", family.name, family.letter));
   }
-  return one_of("law", "laws", laws, name, families);
+  return entry_of("law", "laws", reduction::named_laws(), &Law::name, name, families);
 }
-
-Eigen::ArrayXd column(const Numbers& values) { return Eigen::Map<const Eigen::ArrayXd>(values.data(), values.size()); }
 
 si::Body body_of(const std::variant<std::string, std::pair<double, double>>& given) {
   if (const auto* ratios = std::get_if<1>(&given)) {
     return {"", {.chi = ratios->first, .gamma = ratios->second}, std::nullopt, false};
   }
-  std::vector<std::pair<std::string, si::Body>> named;
-  for (const si::Body& body : si::bodies()) named.emplace_back(body.name, body);
-  return one_of("body", "bodies", named, std::get<0>(given), {"(chi, gamma)"});
+  return entry_of("body", "bodies", si::bodies(), &si::Body::name, std::get<0>(given), {"(chi, gamma)"});
 }
 
 reduction::ReducedSystem system_of(const std::optional<Law>& law, std::optional<double> mu,
@@ -147,24 +140,21 @@ void stop_times_of_mus(const reduction::StopTimesOfMu& stop_time, const Numbers&
 
 py::tuple terminal(const Flow& flow) {
   const reduction::TerminalRatios& ratios = flow.terminal();
-  constexpr const char* regimes[] = {"zero", "ray", "infinity"};
-  py::list rays, ends;
-  for (const reduction::InvariantRay& ray : ratios.rays) {
-    rays.append(py::make_tuple(ray.k, ray.attracts(), ray.accuracy));
-  }
-  for (const reduction::TerminalRatio& end : ratios.ends) {
-    ends.append(py::make_tuple(regimes[static_cast<int>(end.regime)], end.k, end.from, end.to));
-  }
-  return py::make_tuple(flow.system().r(), ratios.low, ratios.high, rays, ends);
+  static constexpr const char* regimes[] = {"zero", "ray", "infinity"};
+  return py::make_tuple(
+      flow.system().r(), ratios.low, ratios.high,
+      list_of(ratios.rays,
+              [](const reduction::InvariantRay& ray) { return py::make_tuple(ray.k, ray.attracts(), ray.accuracy); }),
+      list_of(ratios.ends, [](const reduction::TerminalRatio& end) {
+        return py::make_tuple(regimes[static_cast<int>(end.regime)], end.k, end.from, end.to);
+      }));
 }
 
 py::list facts(const Flow& flow) {
-  py::list points;
-  for (const reduction::SingularPoint& point : reduction::phase_plane(flow).points) {
-    points.append(py::make_tuple(name(point.direction), name(point.place), point.k, point.q, point.radial,
-                                 point.angular, point.kind));
-  }
-  return points;
+  return list_of(reduction::phase_plane(flow).points, [](const reduction::SingularPoint& point) {
+    return py::make_tuple(name(point.direction), name(point.place), point.k, point.q, point.radial, point.angular,
+                          point.kind);
+  });
 }
 
 }  // namespace
@@ -179,7 +169,7 @@ void bind_reduction(py::module_& module) {
         return Law(FunctionLaw(std::move(function), std::move(name), std::move(kinks)));
       }))
       .def(py::init([](std::string name, const Numbers& rho, const Numbers& pressure) {
-        return Law(reduction::TabulatedPressureLaw(std::move(name), column(rho), column(pressure)));
+        return Law(reduction::TabulatedPressureLaw(std::move(name), column_of(rho), column_of(pressure)));
       }))
       .def_property_readonly("name", &Law::name)
       .def_property_readonly("pivoting_moment", &Law::pivoting_moment)

@@ -403,15 +403,10 @@ void bind_si(py::module_& module) {
   });
 
   module.def("ball", [](const std::string& name) {
-    std::vector<std::pair<std::string, si::Experiment>> balls;
-    for (const si::CatalogueEntry& entry : si::catalogue()) balls.emplace_back(entry.name, entry.experiment);
-    return fields_of_ball(si::describe(one_of("ball", "balls", balls, name)));
+    const auto entry = entry_of("ball", "balls", si::catalogue(), &si::CatalogueEntry::name, name);
+    return fields_of_ball(si::describe(entry.experiment));
   });
-  module.attr("balls") = [] {
-    py::list names;
-    for (const si::CatalogueEntry& entry : si::catalogue()) names.append(entry.name);
-    return names;
-  }();
+  module.attr("balls") = list_of(si::catalogue(), &si::CatalogueEntry::name);
   module.def("run_file", [](si::Experiment experiment, const std::string& law) {
     experiment.contact.law = law;
     return si::run_file(experiment);
@@ -422,11 +417,7 @@ void bind_si(py::module_& module) {
   module.def("changed", [](const py::dict& fields, const py::dict& changes) {
     return fields_of(described_by(fields).under(described_by(changes)));
   });
-  module.attr("quantities") = [] {
-    py::list names;
-    for (const si::Quantity* quantity : si::quantities()) names.append(py::str(std::string(quantity->name)));
-    return names;
-  }();
+  module.attr("quantities") = list_of(si::quantities(), &si::Quantity::name);
   module.def("wrenches", &wrenches);
   module.def(
       "engines",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <Eigen/Core>
 
 #include "contensou/si/description.hpp"
 #include "text/nearest_name.hpp"
@@ -45,10 +47,28 @@ class Interruption {
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 
+inline Eigen::ArrayXd column_of(const Numbers& values) {
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), values.size());
+}
+
+/// Returns a list with the value of the function for each entry of a range.
+template <class Range, class Function>
+py::list list_of(const Range& range, Function value) {
+  py::list list;
+  for (const auto& entry : range) list.append(std::invoke(value, entry));
+  return list;
+}
+
+/// Returns an array of the shape of `given`.
+template <class Value>
+py::array_t<Value> array_like(const Numbers& given) {
+  return py::array_t<Value>(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
+}
+
 /// Returns an array of the shape of `given` with the value of the function for each number.
 template <class Value, class Function>
 py::array_t<Value> mapped(const Numbers& given, Function function) {
-  py::array_t<Value> result(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
+  auto result = array_like<Value>(given);
   const double* const from = given.data();
   Value* const to = result.mutable_data();
   const py::ssize_t size = given.size();
@@ -61,20 +81,29 @@ py::array_t<Value> mapped(const Numbers& given, Function function) {
   return result;
 }
 
-/// Returns the value that a name stands for.
+/// Returns the entry of a range that a name stands for.
 /// @param kinds  plural of the kind of names, such as "laws"
+/// @param name   returns the name of an entry
+/// @param more   names for the message that no entry has
 /// @throws std::domain_error  with a list of the names, if the name is not among them
-template <class Value>
-Value one_of(std::string_view kind, std::string_view kinds, const std::vector<std::pair<std::string, Value>>& choices,
-             const std::string& typed, const std::vector<std::string>& more = {}) {
+template <class Range, class Name>
+auto entry_of(std::string_view kind, std::string_view kinds, const Range& range, Name name, const std::string& typed,
+              const std::vector<std::string>& more = {}) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : choices) {
-    if (name == typed) return value;
-    names.push_back(name);
+  for (const auto& entry : range) {
+    names.emplace_back(std::invoke(name, entry));
+    if (names.back() == typed) return entry;
   }
   names.insert(names.end(), more.begin(), more.end());
   throw std::domain_error(
       fmt::format("no such {} '{}'{}; {}: {}", kind, typed, suggestion(typed, names), kinds, fmt::join(names, ", ")));
+}
+
+/// Returns the value that a name stands for. Throws as entry_of.
+template <class Value>
+Value one_of(std::string_view kind, std::string_view kinds, const std::vector<std::pair<std::string, Value>>& choices,
+             const std::string& typed) {
+  return entry_of(kind, kinds, choices, &std::pair<std::string, Value>::first, typed).second;
 }
 
 /// Returns the fields of Python's Ball.

@@ -1,6 +1,5 @@
 #include "answers/asked/formula_law.hpp"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -55,9 +54,9 @@ class FormulaLaw {
       const auto [phi, psi] = formulas_({k});
       if (phi > 0 && psi > 0 && std::isfinite(phi) && std::isfinite(psi)) continue;
       throw BadInput(
-          fmt::format("friction resists: phi and psi must be positive and finite for every k > 0, but phi = {} and psi "
-                      "= {} at k = {:.6g}",
-                      phi, psi, k));
+          "friction resists: phi and psi must be positive and finite for every k > 0, but phi = {} and psi "
+          "= {} at k = {:.6g}",
+          phi, psi, k);
     }
   }
 

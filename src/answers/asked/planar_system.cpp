@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "answers/input/errors.hpp"
 #include "answers/input/message.hpp"
@@ -47,8 +44,8 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
                            known);
   }
   if (functions.empty() || functions.size() > reduction::Basis::most) {
-    throw BadInput(fmt::format("1 to {} functions are a basis, such as \"1; u; v; exp(u)\", not {}",
-                               reduction::Basis::most, functions.size()));
+    throw BadInput("1 to {} functions are a basis, such as \"1; u; v; exp(u)\", not {}", reduction::Basis::most,
+                   functions.size());
   }
   basis.values = [functions](const Eigen::Vector2d& x) {
     Eigen::MatrixX3d all(std::ssize(functions), 3);

@@ -195,7 +195,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_of_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_'; }
 
 [[noreturn]] void reject_at(std::size_t place, const std::string& text, const std::string& message) {
-  throw BadInput(fmt::format("{}, at character {} of {}", message, place + 1, quotation(text)));
+  throw BadInput("{}, at character {} of {}", message, place + 1, quotation(text));
 }
 
 /// Characters that papers and word processors use in place of ASCII, each with the ASCII text that replaces it.
@@ -519,8 +519,8 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
   };
   for (const auto& [name, value] : parameters) {
     if (may_be_parameter(name)) continue;
-    throw BadInput(fmt::format("{} cannot name a parameter: letters, digits and _ that are not {}, pi or a function",
-                               quotation(name), fmt::join(shape.variables, ", ")));
+    throw BadInput("{} cannot name a parameter: letters, digits and _ that are not {}, pi or a function",
+                   quotation(name), fmt::join(shape.variables, ", "));
   }
   formula_parts::require_ascii(text);
   std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
@@ -559,8 +559,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     compiled.formulas[i] = formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
   }
   if (!unused.empty()) {
-    throw BadInput(
-        fmt::format("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first)));
+    throw BadInput("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first));
   }
   compiled_ = std::make_shared<Compiled>(std::move(compiled));
 }

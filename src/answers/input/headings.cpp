@@ -39,7 +39,7 @@ double factor_of(const std::string& unit, std::string_view si_unit) {
   const bool angle = si_unit == "rad";
   const si::Dimension& dimension = *si::find_dimension(angle ? "deg" : si_unit);
   const auto value = si::parse_quantity("1 " + unit, dimension);
-  if (!value) throw BadInput(fmt::format("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension)));
+  if (!value) throw BadInput("{} is no unit of it: use {}", quotation(unit), si::units_of(dimension));
   return angle ? *value * (std::numbers::pi / 180) : *value;
 }
 
@@ -67,6 +67,11 @@ std::optional<SiColumn> find_column(const CsvReader& table, std::string_view nam
     }
   }
   return found;
+}
+
+SiColumn require_column(const CsvReader& table, std::string_view name, std::string_view si_unit) {
+  if (const auto found = find_column(table, name, si_unit)) return *found;
+  return {table.column(name)};  // throws, because there is no such column
 }
 
 }  // namespace contensou::answers

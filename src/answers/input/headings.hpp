@@ -36,6 +36,10 @@ struct SiColumn {
 std::optional<SiColumn> find_column(const CsvReader& table, std::string_view name, std::string_view si_unit,
                                     std::optional<double> pixel = std::nullopt);
 
+/// Returns the result of find_column.
+/// @throws BadLine  as find_column, and if there is no such column
+SiColumn require_column(const CsvReader& table, std::string_view name, std::string_view si_unit);
+
 /// Returns true if the unit of a column is px or px/s.
 bool is_in_pixels(const SiColumn& column);
 

@@ -12,11 +12,7 @@ namespace contensou::answers {
 
 si::LoadHistory read_load_history(const std::string& path) {
   CsvReader table(path);
-  const auto column = [&](std::string_view name, std::string_view unit) {
-    const auto found = find_column(table, name, unit);
-    return found ? *found : SiColumn{table.column(std::string(name))};  // throws if there is no such column
-  };
-  const SiColumn time = column("t", "s"), load = column("load", "N");
+  const SiColumn time = require_column(table, "t", "s"), load = require_column(table, "load", "N");
   std::vector<double> t, newtons;
   long last = table.header_line();
   table.for_each_row([&](const CsvRow& row) {
@@ -35,14 +31,14 @@ std::string require_load_alone(const si::Experiment& experiment, const reduction
   const std::string no = "--load with a table";
   if (std::holds_alternative<si::HertzModuli>(experiment.contact.patch)) {
     throw BadInput(
-        fmt::format("{}: the patch by Hertz's formula grows with the load, and the motion is then no other "
-                    "one's copy; --patch-radius {:.6g} keeps it as it is under the first load",
-                    no, si::patch_radius_of(experiment, law)));
+        "{}: the patch by Hertz's formula grows with the load, and the motion is then no other "
+        "one's copy; --patch-radius {:.6g} keeps it as it is under the first load",
+        no, si::patch_radius_of(experiment, law));
   }
   const auto add = [&](const std::string& other) { others += (others.empty() ? "" : ", ") + other; };
   if (experiment.contact.rolling_friction > 0) add("the rolling friction");
   if (experiment.environment.slope != 0) add("the slope");
-  if (!others.empty()) throw BadInput(fmt::format("{} allows friction alone: leave out {}", no, others));
+  if (!others.empty()) throw BadInput("{} allows friction alone: leave out {}", no, others);
   if (experiment.ball.body.lies_flat()) return "";
   return fmt::format(
       "note: the patch stays at {:.6g} m while the load changes; that of an elastic ball goes with its cube root\n",

@@ -50,14 +50,13 @@ double parse_number(std::string_view text, Infinity infinity) {
   double value = 0;
   const std::errc error = read(text, value);
   if (error == std::errc::invalid_argument) {
-    throw BadInput(
-        fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3{}", quotation(text), decimal_hint(text)));
+    throw BadInput("{} is not a number; write it like 0.1, -5 or 1e-3{}", quotation(text), decimal_hint(text));
   }
   if (error == std::errc::result_out_of_range) {
-    throw BadInput(fmt::format("{} does not fit a double (5e-324 to 1.8e308)", quotation(text)));
+    throw BadInput("{} does not fit a double (5e-324 to 1.8e308)", quotation(text));
   }
   const bool infinite = infinity == Infinity::allowed && std::isinf(value);
-  if (!std::isfinite(value) && !infinite) throw BadInput(fmt::format("{} is not a finite number", quotation(text)));
+  if (!std::isfinite(value) && !infinite) throw BadInput("{} is not a finite number", quotation(text));
   return value;
 }
 
@@ -80,7 +79,7 @@ std::vector<double> parse_numbers(std::string_view text, Infinity infinity) {
 long parse_integer(std::string_view text, long lowest, long highest) {
   long value = 0;
   if (read(text, value) != std::errc() || value < lowest || value > highest) {
-    throw BadInput(fmt::format("{} is not a whole number from {} to {}", quotation(text), lowest, highest));
+    throw BadInput("{} is not a whole number from {} to {}", quotation(text), lowest, highest);
   }
   return value;
 }

@@ -147,7 +147,7 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
       if (sd) deviations[i].push_back(error);
     }
   });
-  if (t.empty()) throw BadInput(fmt::format("{}: no row has a time between --from and --until", escaped(track_name)));
+  if (t.empty()) throw BadInput("{}: no row has a time between --from and --until", escaped(track_name));
   const auto array = [](const std::vector<double>& numbers) {
     return Eigen::ArrayXd(Eigen::Map<const Eigen::ArrayXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
   };

@@ -43,6 +43,7 @@ struct Answer {
   std::vector<std::string> beside = {};  ///< names in rows that TeX leaves out, because a paper has no room for them
   std::function<std::string(const Digits&)> text = {};  ///< text for people; empty: the columns, or the rows as in CSV
   std::function<Answer()> numbers = {};  ///< returns the answer for every format except text; empty: this answer
+  bool passed = true;                    ///< false: a check failed, or nothing was found
 };
 
 /// Returns the formats of an answer, the default first.

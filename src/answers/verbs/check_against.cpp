@@ -24,7 +24,7 @@ class MotionColumns {
  public:
   /// @throws BadLine  if a column is missing
   MotionColumns(const CsvReader& table, const si::Ball& ball)
-      : table_(table), radius_(ball.radius), time_(needed("t", "s")) {
+      : table_(table), radius_(ball.radius), time_(require_column(table, "t", "s")) {
     const auto time = find_column(table, "time", "s");
     if (time && time->column.place != time_.column.place)
       fail("columns t and time are both there: leave one of them out");
@@ -36,11 +36,12 @@ class MotionColumns {
           "vy, wx, wy, wz");
     }
     if (rigid_) {
-      velocity_ = {needed("vx", "m/s"), needed("vy", "m/s")};
-      if (!ball.body.lies_flat()) turning_ = {needed("wx", "rad/s"), needed("wy", "rad/s")};
+      velocity_ = {require_column(table, "vx", "m/s"), require_column(table, "vy", "m/s")};
+      if (!ball.body.lies_flat())
+        turning_ = {require_column(table, "wx", "rad/s"), require_column(table, "wy", "rad/s")};
     }
     const auto spin = find_column(table, "spin", "rad/s"), wz = find_column(table, "wz", "rad/s");
-    spin_ = spin ? *spin : wz ? *wz : needed(rigid_ ? "wz" : "spin", "rad/s");
+    spin_ = spin ? *spin : wz ? *wz : require_column(table, rigid_ ? "wz" : "spin", "rad/s");
     if (spin) same_ = wz;
   }
 
@@ -72,11 +73,6 @@ class MotionColumns {
 
  private:
   [[noreturn]] void fail(const std::string& message) const { throw table_.complaint(table_.header_line(), message); }
-
-  SiColumn needed(std::string_view name, std::string_view unit) const {
-    if (const auto column = find_column(table_, name, unit)) return *column;
-    return {table_.column(name)};  // throws if there is no such column
-  }
 
   const CsvReader& table_;
   double radius_;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "answers/input/csv.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "contensou/si/description.hpp"

@@ -129,6 +129,12 @@ std::string as_text(const MotionsBeside& motions, const Digits& digits) {
                      deviation_text("spin", "rad/s", own.spin, digits), table.text(), label(motions.nearest().name));
 }
 
+Answer answer_of_checks(const std::vector<CheckedLaw>& rows) {
+  Answer answer = answer_of_rows("checks", row_fields, rows);
+  answer.passed = std::ranges::all_of(rows, [](const CheckedLaw& row) { return row.check.passed(); });
+  return answer;
+}
+
 }  // namespace
 
 void take_worse(std::vector<Check>& worst, const std::vector<Check>& others) {
@@ -157,12 +163,12 @@ std::vector<Check> built_in_checks(const reduction::Law& law) {
 }
 
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in) {
-  Answer answer = answer_of_rows("checks", row_fields, rows);
+  Answer answer = answer_of_checks(rows);
   answer.text = [=](const Digits& digits) { return (built_in ? heading() : "") + as_text(rows, digits); };
   return answer;
 }
 
-BesideAnswer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance) {
+Answer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance) {
   const auto row = [&](const char* name, const Deviation& off) {
     return CheckedLaw{law, {name, off.relative, tolerance}, off};
   };
@@ -170,11 +176,11 @@ BesideAnswer check_against_answer(const MotionsBeside& motions, const std::strin
   const std::vector<CheckedLaw> rows{
       row(motions.start.slip > 0 ? "slip error / slip at start" : "slip error / R spin at start", slip),
       row(motions.start.spin != 0 ? "spin error / spin at start" : "R spin error / slip at start", spin)};
-  Answer answer = answer_of_rows("checks", row_fields, rows);
+  Answer answer = answer_of_checks(rows);
   answer.members.update(members_of(beside_fields, motions));
   for (Json& line : answer.rows) line.update(row_of(beside_fields, motions));
   answer.text = [=](const Digits& digits) { return as_text(rows, digits) + as_text(motions, digits); };
-  return {std::move(answer), rows[0].check.passed() && rows[1].check.passed()};
+  return answer;
 }
 
 std::vector<FieldText> check_fields() {

@@ -28,15 +28,11 @@ void take_worse(std::vector<reduction::Check>& worst, const std::vector<reductio
 /// @param built_in  true for rows of built_in_checks; the text then names the starts of built_in_checks
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);
 
-/// The answer for a table and the motions of a ball: two checks of the motion under the law, and errors of other models
-struct BesideAnswer {
-  Answer answer;
-  bool passed;
-};
-
+/// Returns the answer for a table and the motions of a ball: two checks of the motion under the law, and the errors of
+/// other models.
 /// @param law        name of the law, the first of the models
 /// @param tolerance  largest error that passes, as a share of the start
-BesideAnswer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance);
+Answer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance);
 
 /// Returns the fields of both answers, of check_answer and of check_against_answer.
 std::vector<FieldText> check_fields();

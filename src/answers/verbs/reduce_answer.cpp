@@ -123,7 +123,7 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
 
 /// Adds the row of CSV: the members that are one number or text, and the first generator. Only formats other than text
 /// need the lists that `numbers` computes.
-ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved) {
+Answer finished(Answer answer, const PlanarSymmetries& found, bool solved) {
   Json& row = answer.rows.emplace_back();
   for (const auto& [name, value] : answer.members.items()) {
     if (value.is_primitive() && !value.is_null()) row[name] = value;
@@ -145,7 +145,8 @@ ReduceAnswer finished(Answer answer, const PlanarSymmetries& found, bool solved)
       return all;
     };
   }
-  return {std::move(answer), solved || !found.generators.empty()};
+  answer.passed = solved || !found.generators.empty();
+  return answer;
 }
 
 /// Returns the orbit of the start in the strip (q, p), and the starts of its copies: the same curve with p shifted.
@@ -397,7 +398,7 @@ std::vector<std::string_view> named_ends() {
   return names;
 }
 
-ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Vector2d& start) {
+Answer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Vector2d& start) {
   if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
   const auto has_value = [&] {
     try {
@@ -407,8 +408,8 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
     }
   };
   if (!has_value()) {
-    throw BadInput(fmt::format("the field has no value at the start u = {}, v = {}: give a start where it has one",
-                               start[0], start[1]));
+    throw BadInput("the field has no value at the start u = {}, v = {}: give a start where it has one", start[0],
+                   start[1]);
   }
   const PlanarSymmetries found = reduction::find_symmetries(field.value, start);
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}, .text = [=](const Digits& digits) {
@@ -446,7 +447,7 @@ ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::strin
   return finished(answer, found, solved.plane.has_value());
 }
 
-ReduceAnswer reduce_answer(const GivenStart& given) {
+Answer reduce_answer(const GivenStart& given) {
   const auto& [system, state, experiment, motion] = given;
   if (given.is_in_pieces()) {
     throw BadInput(

@@ -13,19 +13,15 @@
 
 namespace contensou::answers {
 
-/// Symmetries, canonical coordinates and solution of a system at a start.
-struct ReduceAnswer {
-  Answer answer;
-  bool found;  ///< true if a generator or an inverse integrating factor was found
-};
-
-/// Reduces the equations of motion (2.6), and adds the results of the other routes to the stop time.
+/// Reduces the equations of motion (2.6), and adds the results of the other routes to the stop time. The answer
+/// contains symmetries, canonical coordinates and the solution at the start.
 /// @throws BadInput  for a start at rest
-ReduceAnswer reduce_answer(const GivenStart& given);
+Answer reduce_answer(const GivenStart& given);
 
-/// Reduces any planar field.
+/// Reduces any planar field. The answer has not passed if neither a generator nor an inverse integrating factor was
+/// found.
 /// @param text  formulas of the field, for the answer
-ReduceAnswer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
+Answer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
 
 /// Returns every name that the member `end` of an answer can contain. For an orbit whose end has no name, it is null.
 std::vector<std::string_view> named_ends();

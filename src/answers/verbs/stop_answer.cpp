@@ -528,10 +528,10 @@ Answer stop_answer(const GivenStart& start, reduction::Route route, bool estimat
   const auto pieces = start.pieces();
   if (pieces.size() > 1) {
     if (route != reduction::Route::quadrature) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "--route {}: with this rolling friction the motion is {} orbits, one after the other, which quadrature alone "
           "joins; 'contensou roll --route integrated' gives them in steps of time",
-          name(route), pieces.size()));
+          name(route), pieces.size());
     }
     if (estimate)
       throw BadInput("--estimate is of a motion without rolling friction and without a slope: leave it out");

@@ -75,7 +75,7 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
 
   const auto require_smooth = [](const Spreadable& each) {
     if (each.number.value == 0 && !each.corner.empty())
-      throw BadInput(fmt::format("{1} no derivative at {0} = 0; leave {0} out", each.number.name, each.corner));
+      throw BadInput("{1} no derivative at {0} = 0; leave {0} out", each.number.name, each.corner);
   };
   std::vector<Spread> named, numbers;
   bool with_own = false;
@@ -94,14 +94,13 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
       continue;
     }
     if (equals == std::string::npos)
-      throw BadInput(fmt::format("{}: NAME=SPREAD is needed, such as {}=1%, or fit", quotation(part), names.back()));
+      throw BadInput("{}: NAME=SPREAD is needed, such as {}=1%, or fit", quotation(part), names.back());
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
-      throw BadInput(fmt::format("no such number {}{}; numbers of this start: {}", quotation(name),
-                                 suggestion(name, names), fmt::join(names, ", ")));
+      throw BadInput("no such number {}{}; numbers of this start: {}", quotation(name), suggestion(name, names),
+                     fmt::join(names, ", "));
     }
-    if (std::ranges::find(named, name, &Spread::name) != named.end())
-      throw BadInput(fmt::format("{} is given twice", name));
+    if (std::ranges::find(named, name, &Spread::name) != named.end()) throw BadInput("{} is given twice", name);
     const Spreadable& of = known[static_cast<std::size_t>(found - names.begin())];
     require_smooth(of);
     Spread number = of.number;
@@ -110,17 +109,16 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
       const auto read = is_number(spread) ? parse_number(spread) : si::parse_spread(spread, of.unit, number.value);
       if (!read) {
         const si::Dimension* const dimension = si::find_dimension(of.unit);
-        throw BadInput(fmt::format("{}: {} is no number with %{}{} behind it", name, quotation(spread),
-                                   dimension ? ", " : "", dimension ? si::units_of(*dimension) : ""));
+        throw BadInput("{}: {} is no number with %{}{} behind it", name, quotation(spread), dimension ? ", " : "",
+                       dimension ? si::units_of(*dimension) : "");
       }
       number.standard = *read;
     } catch (const BadInput&) {
       throw;
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("{} {}", name, error.what()));
+      throw BadInput("{} {}", name, error.what());
     }
-    if (!(number.standard >= 0))
-      throw BadInput(fmt::format("{}: a spread must be >= 0, got {}", name, quotation(spread)));
+    if (!(number.standard >= 0)) throw BadInput("{}: a spread must be >= 0, got {}", name, quotation(spread));
     named.push_back(number);
   }
   const si::Spreads rest = own.of([&](const si::Component& of) {
@@ -129,8 +127,7 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   for (const auto& [of, standard] : rest.numbers) {
     const auto found = std::ranges::find(names, of.name());
     if (found == names.end())
-      throw BadInput(
-          fmt::format("fit: {} is not among the numbers of this start: {}", of.name(), fmt::join(names, ", ")));
+      throw BadInput("fit: {} is not among the numbers of this start: {}", of.name(), fmt::join(names, ", "));
     const Spreadable& each = known[static_cast<std::size_t>(found - names.begin())];
     require_smooth(each);
     numbers.push_back({each.number.name, each.number.value, standard});
@@ -241,7 +238,7 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
     standards[i] = standard;
     if (standard == 0) continue;
     const auto slopes = varied.slopes(place);
-    if (!slopes) throw BadInput(fmt::format("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner));
+    if (!slopes) throw BadInput("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner);
     shares.col(i) = standard * *slopes;
     // A difference quotient suffices: the spread of ln mu only sets the step of FlowsOfMu, 1/8 of this spread.
     constexpr double step = 1e-3;
@@ -293,7 +290,7 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
   try {
     made.emplace(experiment, law, rolling_below);
   } catch (const std::domain_error& error) {
-    throw BadInput(fmt::format("{}: leave it out", error.what()));
+    throw BadInput("{}: leave it out", error.what());
   }
   const si::EventNumbers& events = *made;
   const auto moved = [&](const Varied::Places& places, const VectorXd& values) {

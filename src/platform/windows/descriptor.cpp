@@ -1,6 +1,5 @@
 #include "platform/descriptor.hpp"
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <random>

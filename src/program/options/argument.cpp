@@ -28,26 +28,24 @@ void Argument::accept(const CLI::App& app, const std::vector<std::string>& value
   for (const std::string& value : values) {
     // If the value of an option was forgotten, the next option stands in place of this value.
     if (value.starts_with('-') && app.get_option_no_throw(value) != nullptr) {
-      throw BadInput(fmt::format("{} needs a value before '{}'", name_, value));
+      throw BadInput("{} needs a value before '{}'", name_, value);
     }
   }
-  if (values.size() > 1 && !repeatable) {
-    throw BadInput(fmt::format("{} is given {} times; once is allowed", name_, values.size()));
-  }
+  if (values.size() > 1 && !repeatable) throw BadInput("{} is given {} times; once is allowed", name_, values.size());
   for (const std::string& value : values) {
     try {
       if (take) take(value);
     } catch (const BadLine&) {
       throw;  // the message already names the file
     } catch (const NotAllowed& error) {
-      throw BadInput(fmt::format("{}: {}", typed(value), error.what()));
+      throw BadInput("{}: {}", typed(value), error.what());
     } catch (const BadInput& error) {
-      throw BadInput(fmt::format("{}: {}", name_, error.what()));
+      throw BadInput("{}: {}", name_, error.what());
     }
   }
 }
 
-void Argument::reject(const std::string& message) const { throw BadInput(fmt::format("{}: {}", typed(), message)); }
+void Argument::reject(const std::string& message) const { throw BadInput("{}: {}", typed(), message); }
 
 std::string Argument::typed(const std::string& value) const {
   const std::string quoted = quotation(value);
@@ -86,11 +84,11 @@ double parse_quantity(const std::string& typed, std::string_view symbol) {
   if (size > 0 && decimal_hint(typed)[0] == '\0') {
     parse_number(typed.substr(0, size));  // throws for numbers that do not fit a double
     const std::string unit = typed.substr(std::min(typed.find_first_not_of(' ', size), typed.size()));
-    throw BadInput(fmt::format("{} has the unit {}, which is none of {}", quotation(typed), quotation(unit),
-                               si::units_of(*dimension)));
+    throw BadInput("{} has the unit {}, which is none of {}", quotation(typed), quotation(unit),
+                   si::units_of(*dimension));
   }
-  throw BadInput(fmt::format("{} is not a number; write it like 0.1, -5 or 1e-3, in {}, or with {} behind it{}",
-                             quotation(typed), symbol, si::units_of(*dimension), decimal_hint(typed)));
+  throw BadInput("{} is not a number; write it like 0.1, -5 or 1e-3, in {}, or with {} behind it{}", quotation(typed),
+                 symbol, si::units_of(*dimension), decimal_hint(typed));
 }
 
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol) {
@@ -110,15 +108,15 @@ std::vector<double> parse_quantities(std::vector<std::string> texts, std::string
 std::vector<double> numbers(const std::string& typed, std::size_t count, const std::string& names,
                             std::string_view symbol) {
   std::vector<double> values = parse_quantities(split(typed, ','), symbol);
-  if (values.size() != count) throw NotAllowed(fmt::format("{} numbers are needed, {}", count, names));
+  if (values.size() != count) throw NotAllowed("{} numbers are needed, {}", count, names);
   return values;
 }
 
 NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names) {
   const std::string list = fmt::format("{}", fmt::join(names, ", "));
   const std::string nearest = suggestion(typed, names);
-  if (kind.empty()) return NotAllowed(fmt::format("one of {} is needed{}", list, nearest));
-  return NotAllowed(fmt::format("no such {}{}; {}: {}", kind, nearest, kind == "body" ? "bodies" : kind + "s", list));
+  if (kind.empty()) return NotAllowed("one of {} is needed{}", list, nearest);
+  return NotAllowed("no such {}{}; {}: {}", kind, nearest, kind == "body" ? "bodies" : kind + "s", list);
 }
 
 }  // namespace contensou::program

@@ -101,6 +101,21 @@ inline auto quantity(std::string_view symbol) {
   return [unit = known_unit(symbol)](const std::string& typed) { return parse_quantity(typed, unit); };
 }
 
+/// Reads a number for which a condition holds.
+/// @param read  reads the number, such as quantity("m")
+/// @param holds    condition, such as is_positive
+/// @param message  sentence that says which numbers are allowed
+template <class Read, class Holds>
+auto checked(Read read, Holds holds, std::string message) {
+  return [=](const std::string& typed) {
+    const double value = read(typed);
+    if (!holds(value)) throw NotAllowed(message);
+    return value;
+  };
+}
+inline bool is_positive(double value) { return value > 0; }
+inline bool is_not_negative(double value) { return value >= 0; }
+
 /// Reads each text as parse_quantity. If only the last number has a unit, this unit applies to all numbers.
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol);
 

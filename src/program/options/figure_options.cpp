@@ -27,11 +27,11 @@ portraits::AskedSize parse_size(const std::string& typed) {
   try {
     sides = {parse_number(typed.substr(0, cross)), parse_number(typed.substr(cross + 1))};
   } catch (const BadInput& error) {
-    throw NotAllowed(fmt::format("{}; {}", error.what(), wanted));
+    throw NotAllowed("{}; {}", error.what(), wanted);
   }
   for (double side : sides) {
     if (side >= min_side && side <= max_side) continue;
-    throw NotAllowed(fmt::format("width and height must be {} to {} mm", min_side, max_side));
+    throw NotAllowed("width and height must be {} to {} mm", min_side, max_side);
   }
   return {sides[0], sides[1]};
 }
@@ -65,8 +65,7 @@ void FigureOptions::add(CLI::App& app, bool several) {
 
 void require_picture(const std::string& names, const Output& output) {
   if (names.empty() || output.picture()) return;
-  throw BadInput(
-      fmt::format("{}: {} is no picture; leave that out, or write one, as in -o figure.svg", names, output.format));
+  throw BadInput("{}: {} is no picture; leave that out, or write one, as in -o figure.svg", names, output.format);
 }
 
 portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::string& format) const {

@@ -34,11 +34,38 @@ class FigureOptions {
   /// @throws BadInput  for --dpi with a format other than png; for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;
 
+  /// Writes a figure as `apply` returns it.
+  ExitStatus write(portraits::Figure figure, const Output& output) const {
+    return output.write({apply(std::move(figure), output.format)});
+  }
+
  private:
   ArgumentOf<portraits::AskedSize> size_;
   Argument title_;
   ArgumentOf<std::string> font_;
   ArgumentOf<long> dpi_;
+};
+
+/// The options of a verb that writes an answer or a picture: those of FigureOptions and of OutputOptions.
+class PictureOptions : public FigureOptions {
+ public:
+  explicit PictureOptions(std::vector<OutputKind> kinds) : output_(std::move(kinds)) {}
+
+  void add(CLI::App& app) {
+    FigureOptions::add(app);
+    output_.add(app);
+  }
+
+  /// Reads the options of the output.
+  /// @throws BadInput  as OutputOptions::read and require_picture
+  Output read(std::size_t place = 0) const {
+    Output output = output_.read(place);
+    require_picture(output);
+    return output;
+  }
+
+ private:
+  OutputOptions output_;
 };
 
 }  // namespace contensou::program

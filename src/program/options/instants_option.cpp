@@ -25,7 +25,7 @@ InstantsOption::Times InstantsOption::read_times(const std::string& typed, const
   const std::vector<double> times =
       is_file ? read_column(typed, time, Infinity::forbidden) : parse_quantities(texts, in_seconds ? "s" : unit);
   if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
-    throw NotAllowed(fmt::format("{} is not allowed: {} >= 0 is required", *early, time));
+    throw NotAllowed("{} is not allowed: {} >= 0 is required", *early, time);
   }
   return {Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())), in_seconds};
 }

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/si/body.hpp"
 #include "options/argument.hpp"
-#include "options/parameter_options.hpp"
 
 namespace contensou::program {
 
@@ -23,7 +24,9 @@ class LawOption {
   bool given() const { return law_.given(); }
   const Argument& argument() const { return law_; }
 
-  const ParameterOptions& parameters() const { return parameters_; }
+  /// Returns the values of --param.
+  /// @throws BadInput  for a name that is given twice
+  std::map<std::string, double> parameters() const;
 
   /// Returns the law with a name, with an exponent (pressure:P), with formulas (phi = F; psi = G), or with the
   /// pressures in a file (the name of the file contains / or ends in .csv). Without the option it returns the law
@@ -42,7 +45,7 @@ class LawOption {
   void require_no_parameters() const;
 
   Argument law_;
-  ParameterOptions parameters_;
+  ArgumentOf<std::pair<std::string, double>> parameters_;
 };
 
 }  // namespace contensou::program

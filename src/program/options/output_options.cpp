@@ -44,11 +44,19 @@ std::vector<std::string> with_pictures(std::vector<std::string> first, const std
   return first;
 }
 
-void Output::write(std::string_view content) const { write_output(path, content); }
+ExitStatus Output::write(std::string_view content) const {
+  write_output(path, content);
+  return ExitStatus::done;
+}
 
-void Output::write(const Answer& answer) const { write(render(answer, format, digits)); }
+ExitStatus Output::write(const Answer& answer) const {
+  write(render(answer, format, digits));
+  return answer.passed ? ExitStatus::done : ExitStatus::check_failed;
+}
 
-void Output::write(const std::vector<portraits::Figure>& figures) const { write(drawn(figures, picture().value())); }
+ExitStatus Output::write(const std::vector<portraits::Figure>& figures) const {
+  return write(drawn(figures, picture().value()));
+}
 
 namespace {
 

@@ -30,13 +30,14 @@ struct Output {
 
   std::optional<portraits::PictureFormat> picture() const { return portraits::find_picture_format(format); }
 
+  /// Return the exit status of a verb that writes this: check_failed for an answer that has not passed, else done.
   /// @throws FileFailure  as write_output
-  void write(std::string_view content) const;
-  void write(const Answer& answer) const;
+  ExitStatus write(std::string_view content) const;
+  ExitStatus write(const Answer& answer) const;
 
   /// Writes a picture in its format; several figures are the frames of a gif.
   /// @throws FileFailure  as write_output, and if gnuplot is missing or fails
-  void write(const std::vector<portraits::Figure>& figures) const;
+  ExitStatus write(const std::vector<portraits::Figure>& figures) const;
 };
 
 /// Returns the bytes of a figure, or of a gif with these frames.

@@ -25,7 +25,7 @@ Body parse_body(const std::string& typed) {
       for (const Body& body : si::bodies()) named.emplace_back(body.name, body);
       return one_of(named, "body")(typed);
     } catch (const NotAllowed& error) {
-      throw NotAllowed(fmt::format("{}, or two numbers CHI,GAMMA", error.what()));
+      throw NotAllowed("{}, or two numbers CHI,GAMMA", error.what());
     }
   }
   const std::vector<double> ratios = numbers(typed, 2, "CHI,GAMMA");
@@ -69,14 +69,14 @@ void BodyOptions::add_drive(CLI::App& app) {
                if (drive < 0)
                  throw NotAllowed("a drive against the slip turns it round, which is no orbit: 0 or more is needed");
                if (drive > 0 && drive < reduction::ReducedSystem::least_drive)
-                 throw NotAllowed(fmt::format("0, or {} or more is needed", reduction::ReducedSystem::least_drive));
+                 throw NotAllowed("0, or {} or more is needed", reduction::ReducedSystem::least_drive);
                return drive;
              });
 }
 
-reduction::ReducedSystem BodyOptions::read(const reduction::Law& law, const std::string& ways) const {
+reduction::ReducedSystem BodyOptions::read_system(const reduction::Law& law, const std::string& ways) const {
   if (!mu_.given() && !body().patch_ratio) {
-    throw BadInput(fmt::format("--mu missing: give {}, or a --body that lies flat, disc or ring", ways));
+    throw BadInput("--mu missing: give {}, or a --body that lies flat, disc or ring", ways);
   }
   const double mu = mu_.given() ? *mu_ : *body().patch_ratio;
   if (const std::string complaint = body().complaint(mu); !complaint.empty()) mu_.reject(complaint);
@@ -94,10 +94,10 @@ std::string ball_group() { return shared_group("Values that replace those of --b
 
 void StartOptions::add(CLI::App& app) {
   app.option_defaults()->group("Start");
-  body_.add_mu(app);
+  add_mu(app);
   u0_.add(app, "--u0", "U", "u at the start, of either sign, in any unit of speed", number);
   v0_.add(app, "--v0", "V", "v at the start, 0 or more, in the unit of --u0", number);
-  body_.add_body(app);
+  add_body(app);
   add_ball(app);
 }
 
@@ -148,19 +148,19 @@ std::string StartOptions::start_names() const {
   return names_given(arguments);
 }
 
-std::string StartOptions::given_names() const { return with_name(names_of_one_start(), names_given({&body_.drive()})); }
+std::string StartOptions::given_names() const { return with_name(names_of_one_start(), names_given({&drive()})); }
 
 std::string StartOptions::names_of_one_start() const {
-  return with_name(names_given({&body_.mu(), &u0_, &v0_, &ball_}), override_names());
+  return with_name(names_given({&mu(), &u0_, &v0_, &ball_}), override_names());
 }
 
 void StartOptions::require_one_kind() const {
-  const std::string reduced = names_given({&body_.mu(), &body_.drive(), &u0_, &v0_});
+  const std::string reduced = names_given({&mu(), &drive(), &u0_, &v0_});
   if (ball_.given() && !reduced.empty()) {
     throw BadInput(
-        fmt::format("{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
-                    "drive --rolling-friction or --slope",
-                    ball_.typed(), reduced));
+        "{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
+        "drive --rolling-friction or --slope",
+        ball_.typed(), reduced);
   }
   if (ball_.given() && body_argument().given()) {
     body_argument().reject(
@@ -168,8 +168,8 @@ void StartOptions::require_one_kind() const {
         "('contensou balls puck' prints one); without --ball give --mu, --u0 and --v0");
   }
   if (!ball_.given() && !override_names().empty()) {
-    throw BadInput(fmt::format("{} changes a ball, or a puck: add --ball NAME|FILE.toml ('contensou balls' lists them)",
-                               override_names()));
+    throw BadInput("{} changes a ball, or a puck: add --ball NAME|FILE.toml ('contensou balls' lists them)",
+                   override_names());
   }
 }
 
@@ -193,42 +193,40 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
     }
   }
   std::vector<std::string> missing;
-  if (!body_.mu().given() && !body().patch_ratio) missing.push_back(body_.mu().name());
+  if (!mu().given() && !body().patch_ratio) missing.push_back(mu().name());
   for (const Argument* argument : {&u0_, &v0_}) {
     if (!argument->given()) missing.push_back(argument->name());
   }
   if (!missing.empty()) {
-    throw BadInput(
-        fmt::format("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", ")));
+    throw BadInput("{} missing: a start is --mu M --u0 U --v0 V, or --ball NAME|FILE.toml", fmt::join(missing, ", "));
   }
   if (*v0_ < 0) v0_.reject("a sliding speed is >= 0; turn the axes so that the ball slides along x");
-  return {body_.read(law), {.u = *u0_, .v = *v0_}, std::nullopt};
+  return {read_system(law), {.u = *u0_, .v = *v0_}, std::nullopt};
 }
 
 std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) const {
   std::vector<GivenStart> starts{without_motion() ? GivenStart{read_body(law), {}, std::nullopt} : read(law)};
-  for (double mu : body_.more_mu()) {
-    if (const std::string complaint = body().complaint(mu); !complaint.empty()) body_.mu().reject(complaint);
+  for (double ratio : more_mu()) {
+    if (const std::string complaint = body().complaint(ratio); !complaint.empty()) mu().reject(complaint);
     GivenStart other = starts.front();
-    other.system = {law, mu, other.system.inertia(), other.system.drive()};
+    other.system = {law, ratio, other.system.inertia(), other.system.drive()};
     starts.push_back(std::move(other));
   }
   return starts;
 }
 
 void StartOptions::require_point_or_none() const {
-  const std::string others = names_given({&body_.mu(), &body_.argument(), &body_.drive(), &ball_});
+  const std::string others = names_given({&mu(), &body_argument(), &drive(), &ball_});
   if (!others.empty() || !override_names().empty()) {
-    throw BadInput(fmt::format("--system and {} exclude each other: its numbers are in the formulas, or --param",
-                               others.empty() ? override_names() : others));
+    throw BadInput("--system and {} exclude each other: its numbers are in the formulas, or --param",
+                   others.empty() ? override_names() : others);
   }
 }
 
 Eigen::Vector2d StartOptions::read_point() const {
   require_point_or_none();
   for (const Argument* argument : {&u0_, &v0_}) {
-    if (!argument->given())
-      throw BadInput(fmt::format("{} missing: a start of --system is --u0 U --v0 V", argument->name()));
+    if (!argument->given()) throw BadInput("{} missing: a start of --system is --u0 U --v0 V", argument->name());
   }
   return {*u0_, *v0_};
 }
@@ -236,7 +234,7 @@ Eigen::Vector2d StartOptions::read_point() const {
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
   require_one_kind();
   if (ball_.given()) return read(law).system;
-  return body_.read(law, "--mu M, --ball NAME|FILE.toml");
+  return read_system(law, "--mu M, --ball NAME|FILE.toml");
 }
 
 const si::Description& StartOptions::ball_of_its_own() const {
@@ -314,7 +312,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
 
 void StartOptions::reject_ball(const std::string& message) const {
   const std::string others = override_names();
-  if (!ball_.given()) throw BadInput(fmt::format("{}: {}", others, message));
+  if (!ball_.given()) throw BadInput("{}: {}", others, message);
   ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + message);
 }
 

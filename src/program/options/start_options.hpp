@@ -31,7 +31,7 @@ class BodyOptions {
   const ArgumentOf<double>& mu() const { return mu_; }
   /// Returns the values of --mu after the first.
   const std::vector<double>& more_mu() const { return more_mu_; }
-  const ArgumentOf<Body>& argument() const { return body_; }
+  const ArgumentOf<Body>& body_argument() const { return body_; }
   const ArgumentOf<double>& drive() const { return drive_; }
 
   /// Returns the body; a homogeneous ball if none was given.
@@ -40,7 +40,7 @@ class BodyOptions {
   /// Returns the system of the body under a law. Its mu is the value of --mu, or the only mu of the body.
   /// @param ways  options that set mu, for the message about a missing mu
   /// @throws BadInput  if mu is not given, or impossible for the body
-  reduction::ReducedSystem read(const reduction::Law& law, const std::string& ways = "--mu M") const;
+  reduction::ReducedSystem read_system(const reduction::Law& law, const std::string& ways = "--mu M") const;
 
  private:
   ArgumentOf<double> mu_, drive_;
@@ -54,18 +54,12 @@ class BodyOptions {
 const si::CatalogueEntry& require_ball(const std::string& name);
 
 /// The options --mu, --u0, --v0 and --body, or --ball and the options that replace its values.
-class StartOptions {
+class StartOptions : public BodyOptions {
  public:
   void add(CLI::App& app);
 
-  /// Allows --mu to be a list, for a verb that compares several mu. This must be called before add.
-  void take_several_mu() { body_.take_several_mu(); }
-
   /// Returns a start for each value of --mu under a law; without a motion, the bodies alone. Throws as read.
   std::vector<GivenStart> read_several(const reduction::Law& law) const;
-
-  /// Adds --drive, for a verb that can compute with a drive.
-  void add_drive(CLI::App& app) { body_.add_drive(app); }
 
   /// Predicate on a quantity. It is true if a verb with --ball has an option for this quantity.
   using Offer = bool (*)(const si::Quantity& quantity);
@@ -86,7 +80,6 @@ class StartOptions {
 
   /// Returns the names of the given options, except --body, and except --drive, which may apply to many starts.
   std::string names_of_one_start() const;
-  double drive() const { return body_.drive().value_or(0); }
 
   /// Returns the drive of a ball whose slip points along x. The drive does not depend on the speed. Throws as read.
   double drive_along_x(si::Experiment ball) const;
@@ -156,10 +149,6 @@ class StartOptions {
   /// Returns the body without a motion. This needs --mu, a --body that determines mu, or --ball. Throws as read.
   reduction::ReducedSystem read_body(const reduction::Law& law) const;
 
-  /// Returns the argument --body.
-  const ArgumentOf<Body>& body_argument() const { return body_.argument(); }
-  Body body() const { return body_.body(); }
-
  private:
   const si::Description& ball_of_its_own() const;
 
@@ -170,7 +159,6 @@ class StartOptions {
   void require_one_kind() const;
   std::string override_names() const;
 
-  BodyOptions body_;
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
   const ArgumentOf<std::vector<double>>& value(const si::Quantity& quantity) const;

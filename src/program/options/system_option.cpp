@@ -1,10 +1,5 @@
 #include "options/system_option.hpp"
 
-#include <map>
-#include <string>
-
-#include <fmt/format.h>
-
 #include "answers/asked/planar_system.hpp"
 #include "contensou/reduction/planar_steps.hpp"
 
@@ -21,17 +16,16 @@ void SystemOption::add(CLI::App& app) {
              "that gives a constant of the motion");
 }
 
-reduction::SmoothField SystemOption::read(const ParameterOptions& parameters) const {
+reduction::SmoothField SystemOption::read(const std::map<std::string, double>& parameters) const {
   const Argument* reading = &system_;
   try {
-    const std::map<std::string, double> known = parameters.read();
-    const FormulaField field = parse_planar_system(system_.text(), known);
+    const FormulaField field = parse_planar_system(system_.text(), parameters);
     reduction::SmoothField smooth = field;
     reading = &basis_;
-    if (basis_.given()) smooth.basis = parse_basis(basis_.text(), field, known);
+    if (basis_.given()) smooth.basis = parse_basis(basis_.text(), field, parameters);
     return smooth;
   } catch (const BadInput& error) {
-    throw BadInput(fmt::format("{}: {}", reading->name(), error.what()));
+    throw BadInput("{}: {}", reading->name(), error.what());
   }
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "contensou/reduction/integrating_factor.hpp"
-#include "contensou/reduction/planar_symmetry.hpp"
 #include "options/argument.hpp"
-#include "options/parameter_options.hpp"
 
 namespace contensou::program {
 
@@ -19,7 +18,7 @@ class SystemOption {
   const std::string& text() const { return system_.text(); }
 
   /// @throws BadInput  as parse_planar_system
-  reduction::SmoothField read(const ParameterOptions& parameters) const;
+  reduction::SmoothField read(const std::map<std::string, double>& parameters) const;
 
   /// Returns the system for a portrait: solved if possible; else its orbits are computed by steps in time.
   reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;

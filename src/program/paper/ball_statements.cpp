@@ -5,7 +5,6 @@
 #include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/scaling.hpp"
 #include "paper/statements.hpp"
 #include "paper/zh98.hpp"
 

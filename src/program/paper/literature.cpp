@@ -7,12 +7,10 @@
 #include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::program {
 

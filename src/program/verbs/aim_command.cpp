@@ -4,7 +4,6 @@
 #include "answers/verbs/aim_answer.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 
@@ -12,14 +11,8 @@ namespace contensou::program {
 
 namespace {
 
-/// Reads a quantity >= 0, or > 0 if `above` is true.
-auto at_least_0(const char* unit, bool above = false) {
-  return [=](const std::string& typed) {
-    const double value = parse_quantity(typed, unit);
-    if (!(above ? value > 0 : value >= 0))
-      throw NotAllowed(fmt::format("a value {} 0 is needed, in {}", above ? ">" : ">=", unit));
-    return value;
-  };
+auto at_least_0(const char* unit) {
+  return checked(quantity(unit), is_not_negative, fmt::format("a value >= 0 is needed, in {}", unit));
 }
 
 class AimCommand final : public Verb {
@@ -38,7 +31,7 @@ class AimCommand final : public Verb {
     rolls_at_.add(app, "--rolls-at", "LENGTH",
                   "distance from the start to the place where a ball begins to roll (slip below 1 mm/s), instead of "
                   "--distance, --turns, --time. Only starts with forward slip are found",
-                  at_least_0("m", true));
+                  checked(quantity("m"), is_positive, "a value > 0 is needed, in m"));
     rolling_speed_.add(
         app, "--rolling-speed", "SPEED",
         "speed of rolling after the spin has ended, for --rolls-at; with 0 the ball stops where it would begin to roll",
@@ -48,7 +41,6 @@ class AimCommand final : public Verb {
     start_.add_ball(app, "real body in SI units, built-in or from a run file; its start is not used",
                     StartOptions::no_start);
     law_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
@@ -57,39 +49,31 @@ class AimCommand final : public Verb {
     const si::Experiment ball = start_.read_ball(law, at_rest("aim"));
     start_.tell_left_out();
     const Output output = output_.read();
-    figure_.require_picture(output);
     if (const std::string names = names_given({&rolls_at_, &rolling_speed_, &spin_}); !names.empty()) {
       const std::string others = names_given({&distance_, &turns_, &time_});
       if (!others.empty() && !rolls_at_.given() && !rolling_speed_.given()) {
         throw BadInput(
-            fmt::format("{} goes with --rolls-at and --rolling-speed; with {} leave it out, two of --distance, "
-                        "--turns and --time decide the start",
-                        names, others));
+            "{} goes with --rolls-at and --rolling-speed; with {} leave it out, two of --distance, "
+            "--turns and --time decide the start",
+            names, others);
       }
-      if (!others.empty()) throw BadInput(fmt::format("{} and {} exclude each other: leave one out", others, names));
+      if (!others.empty()) throw BadInput("{} and {} exclude each other: leave one out", others, names);
       if (!rolls_at_.given() || !rolling_speed_.given())
-        throw BadInput(fmt::format("{}: --rolls-at and --rolling-speed are needed together", names));
-      if (output.picture())
-        throw BadInput(fmt::format("{}: a picture needs two of --distance, --turns and --time", names));
-      output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
-      return ExitStatus::done;
+        throw BadInput("{}: --rolls-at and --rolling-speed are needed together", names);
+      if (output.picture()) throw BadInput("{}: a picture needs two of --distance, --turns and --time", names);
+      return output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
     }
     const si::Goal goal{distance_.optional(), turns_.optional(), time_.optional()};
-    if (output.picture()) {
-      start_.require_undriven(ball, "the plane of aims");
-      output.write({figure_.apply(aim_figure(ball, law, goal, figure_.size()), output.format)});
-    } else {
-      output.write(aim_answer(ball, law, goal));
-    }
-    return ExitStatus::done;
+    if (!output.picture()) return output.write(aim_answer(ball, law, goal));
+    start_.require_undriven(ball, "the plane of aims");
+    return output_.write(aim_figure(ball, law, goal, output_.size()), output);
   }
 
  private:
   ArgumentOf<double> distance_, turns_, time_, rolls_at_, rolling_speed_, spin_;
   StartOptions start_;
   LawOption law_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a start", with_pictures(answer_formats("text"))}}};
+  PictureOptions output_{{{"a start", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<AimCommand> aim_verb(Purpose::compute, "aim",

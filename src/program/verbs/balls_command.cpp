@@ -1,7 +1,5 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "answers/table/text_table.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
@@ -79,17 +77,13 @@ class BallsCommand final : public Verb {
   }
 
   ExitStatus run() override {
-    if (ball_.given()) {
-      const Argument& format = output_.format_argument();
-      if (format.given() && format.text() != "text" && format.text() != "toml") {
-        format.reject("a run file is text: leave it out");
-      }
-      const CatalogueEntry& entry = **ball_;
-      output_.read(1).write(si::run_file(entry.experiment, entry.sources));
-    } else {
-      output_.read().write(list());
+    if (!ball_.given()) return output_.read().write(list());
+    const Argument& format = output_.format_argument();
+    if (format.given() && format.text() != "text" && format.text() != "toml") {
+      format.reject("a run file is text: leave it out");
     }
-    return ExitStatus::done;
+    const CatalogueEntry& entry = **ball_;
+    return output_.read(1).write(si::run_file(entry.experiment, entry.sources));
   }
 
  private:

@@ -23,35 +23,20 @@ class BounceCommand final : public Verb {
                "velocity of the centre along x, in metres per second (default: velocity of --ball)", quantity("m/s"));
     CLI::Option* const normal =
         normal_speed_.add(app, "--normal-speed", "SPEED", "speed towards the plane, in metres per second, above 0",
-                          [](const std::string& typed) {
-                            const double speed = parse_quantity(typed, "m/s");
-                            if (!(speed > 0)) throw NotAllowed("a speed above 0 is needed");
-                            return speed;
-                          });
+                          checked(quantity("m/s"), is_positive, "a speed above 0 is needed"));
     drop_
         .add(app, "--drop", "LENGTH",
              "height from which the ball is dropped, in metres, above 0; replaces --normal-speed",
-             [](const std::string& typed) {
-               const double height = parse_quantity(typed, "m");
-               if (!(height > 0)) throw NotAllowed("a height above 0 is needed");
-               return height;
-             })
+             checked(quantity("m"), is_positive, "a height above 0 is needed"))
         ->excludes(normal);
     restitution_.add(app, "--restitution", "E",
                      "coefficient of restitution, 0 to 1: normal speed after the impact divided by normal speed before",
-                     [](const std::string& typed) {
-                       const double part = parse_number(typed);
-                       if (!(part >= 0 && part <= 1)) throw NotAllowed("0 to 1 is needed");
-                       return part;
-                     });
+                     checked(
+                         number, [](double part) { return part >= 0 && part <= 1; }, "0 to 1 is needed"));
     rolling_below_.add(
         app, "--rolling-below", "SPEED",
         fmt::format("slip below which the ball counts as rolling, in metres per second (default {})", si::rolling_slip),
-        [](const std::string& typed) {
-          const double speed = parse_quantity(typed, "m/s");
-          if (speed < 0) throw NotAllowed("0 or more is needed");
-          return speed;
-        });
+        checked(quantity("m/s"), is_not_negative, "0 or more is needed"));
     law_.add(app);
     output_.add(app);
   }
@@ -77,9 +62,8 @@ class BounceCommand final : public Verb {
                  "widens\n",
                  si::patch_radius_of(experiment, law));
     }
-    output.write(
+    return output.write(
         answers::bounce_answer(experiment, law, impact, drop_.optional(), rolling_below_.value_or(si::rolling_slip)));
-    return ExitStatus::done;
   }
 
  private:

@@ -8,7 +8,6 @@
 #include "contensou/reduction/verification.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 
@@ -33,18 +32,12 @@ class CheckCommand final : public Verb {
     tolerance_.add(app, "--tolerance", "SHARE",
                    fmt::format("largest difference that passes, divided by slip and spin at the start (default {})",
                                standard_tolerance),
-                   [](const std::string& typed) {
-                     const double share = parse_number(typed);
-                     if (!(share > 0)) throw NotAllowed("a share above 0 is needed");
-                     return share;
-                   });
-    figure_.add(app);
+                   checked(number, is_positive, "a share above 0 is needed"));
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
-    figure_.require_picture(output);
     if (against_.given()) return compare(output);
     if (output.picture() && output.format != "tex")
       throw BadInput("a picture compares with a table: add --against FILE, or leave it out");
@@ -57,14 +50,11 @@ class CheckCommand final : public Verb {
         rows.push_back({law.name(), std::move(check)});
       }
     }
-    output.write(check_answer(rows, !start_.given()));
-    return status_of(std::ranges::all_of(rows, [](const CheckedLaw& row) { return row.check.passed(); }));
+    return output.write(check_answer(rows, !start_.given()));
   }
 
  private:
   static constexpr double standard_tolerance = 0.01;
-
-  static ExitStatus status_of(bool passed) { return passed ? ExitStatus::done : ExitStatus::check_failed; }
 
   /// Compares the motion in a table with the motion under the law.
   ExitStatus compare(const Output& output) const {
@@ -75,13 +65,10 @@ class CheckCommand final : public Verb {
     const si::Experiment ball = start_.read_ball(law, at_rest(against_.name()));
     const double tolerance = tolerance_.value_or(standard_tolerance);
     const MotionsBeside motions = compare_with_motions(against_.text(), ball, start_.given_values(), law, tolerance);
-    const auto [answer, passed] = check_against_answer(motions, law.name(), tolerance);
-    if (output.picture()) {
-      output.write({figure_.apply(check_figure(motions, ball.ball.name, figure_.size()), output.format)});
-    } else {
-      output.write(answer);
-    }
-    return status_of(passed);
+    const Answer answer = check_against_answer(motions, law.name(), tolerance);
+    if (!output.picture()) return output.write(answer);
+    output_.write(check_figure(motions, ball.ball.name, output_.size()), output);
+    return answer.passed ? ExitStatus::done : ExitStatus::check_failed;
   }
 
   std::vector<Check> checks_of_start(const Law& law) const {
@@ -97,8 +84,7 @@ class CheckCommand final : public Verb {
   LawOption law_;
   Argument against_;
   ArgumentOf<double> tolerance_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a table of checks", with_pictures(answer_formats("text"))}}};
+  PictureOptions output_{{{"a table of checks", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<CheckCommand> check_verb(Purpose::check, "check",

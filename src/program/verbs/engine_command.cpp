@@ -36,8 +36,7 @@ class EngineCommand final : public Verb {
     } catch (const std::domain_error& error) {
       start_.reject_ball(error.what());
     }
-    output_.read().write(engine_answer(ball, law, only));
-    return ExitStatus::done;
+    return output_.read().write(engine_answer(ball, law, only));
   }
 
  private:

@@ -18,8 +18,7 @@ class ExploreCommand final : public Verb {
           "this program was built without its page: install em++, esbuild and range-v3 (Debian: apt-get install "
           "emscripten esbuild librange-v3-dev) and build it again with cmake -DCONTENSOU_PAGE=ON");
     }
-    output.write(page::embedded_page());
-    return ExitStatus::done;
+    return output.write(page::embedded_page());
   }
 
  private:

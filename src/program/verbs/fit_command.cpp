@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -18,7 +17,6 @@
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 
@@ -51,8 +49,8 @@ NoiseByName parse_noise(const std::string& typed) {
     const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
-    if (!(sd > 0)) throw NotAllowed(fmt::format("a standard deviation is > 0, in {}", unit));
-    if (!noise.emplace(name, sd).second) throw NotAllowed(fmt::format("{} is given twice; once is allowed", name));
+    if (!(sd > 0)) throw NotAllowed("a standard deviation is > 0, in {}", unit);
+    if (!noise.emplace(name, sd).second) throw NotAllowed("{} is given twice; once is allowed", name);
   }
   return noise;
 }
@@ -66,21 +64,6 @@ fit::Free parse_free(const std::string& typed) {
                                            {"spin", &fit::Free::spin}};
   for (const std::string& name : split(typed, ',')) free.*one_of(choices, "parameter")(name) = true;
   return free;
-}
-
-/// Reads a time or a length that is above zero.
-auto positive(const char* what, const char* unit) {
-  return [=](const std::string& typed) {
-    const double value = parse_quantity(typed, unit);
-    if (!(value > 0)) throw NotAllowed(fmt::format("a {} > 0 is needed, in {}", what, unit));
-    return value;
-  };
-}
-
-double parse_rate(const std::string& typed) {
-  const double rate = parse_number(typed);
-  if (!(rate > 0)) throw NotAllowed("pictures in a second > 0 are needed");
-  return rate;
 }
 
 class FitCommand final : public Verb {
@@ -105,9 +88,9 @@ class FitCommand final : public Verb {
                parse_noise);
     stop_time_.add(app, "--stop-time", "TIME",
                    "measured end of slip and spin, in seconds after the start; needs --noise stop=SD",
-                   positive("time", "s"));
+                   checked(quantity("s"), is_positive, "a time > 0 is needed, in s"));
     pixel_.add(app, "--pixel", "LENGTH", "length that one pixel shows, for columns such as 'x [px]'",
-               positive("length", "m"));
+               checked(quantity("m"), is_positive, "a length > 0 is needed, in m"));
     start_.add_ball(app, "real ball with the values that are not fitted; with --radius no ball is needed");
     start_.take_radius_for_ball();
     law_.add_several(
@@ -121,8 +104,8 @@ class FitCommand final : public Verb {
     app.add_flag("--robust", robust_, "give outliers less weight, by Huber's loss");
     app.add_flag("--plan", plan_,
                  "predict the standard errors that a film with --fps and --noise would give; without FILE");
-    fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame", parse_rate);
-    figure_.add(app);
+    fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame",
+             checked(number, is_positive, "pictures in a second > 0 are needed"));
     output_.add(app);
   }
 
@@ -140,9 +123,9 @@ class FitCommand final : public Verb {
     fit::FitRequest request{.ball = start_.read_ball(laws.front()), .law = laws.front(), .tracks = {}};
     if (const double slope = request.ball.environment.slope; slope != 0)
       throw BadInput(
-          fmt::format("fit needs a level plane, and this one has a slope of {} degrees; --slope 0 "
-                      "leaves it out",
-                      slope));
+          "fit needs a level plane, and this one has a slope of {} degrees; --slope 0 "
+          "leaves it out",
+          slope);
     request.robust = robust_;
     request.tracks = plan_ ? planned_tracks(request) : read_tracks();
     const bool only_stop = request.tracks.size() == 1 && request.tracks[0].series.empty();
@@ -155,12 +138,12 @@ class FitCommand final : public Verb {
     try {
       fits = plan_ ? std::vector{fit::plan(request)} : fit::fit_laws(request, laws);
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what()));
+      throw BadInput("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what());
     }
     progress.erase();
     if (output.picture() && !plan_) {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
-      output.write({figure_.apply(fit_figure(fits.front(), laws, request.tracks, figure_.size()), output.format)});
+      output_.write(fit_figure(fits.front(), laws, request.tracks, output_.size()), output);
     } else if (output.format == "toml") {
       Fit& fitted = fits.front();
       if (is_formula_law(fitted.law)) fitted.ball.contact.law = fitted.law;
@@ -249,7 +232,7 @@ class FitCommand final : public Verb {
     if (!start_.ball_given() && std::ranges::none_of(of_patch, is_given)) missing.emplace_back("--patch-radius LENGTH");
     if (si::slip_at_start(request.ball) == 0 && si::spin_at_start(request.ball) == 0)
       missing.emplace_back("a start, --slip V, --spin W or both");
-    if (!missing.empty()) throw BadInput(fmt::format("--plan needs {}", fmt::join(missing, " and ")));
+    if (!missing.empty()) throw BadInput("--plan needs {}", fmt::join(missing, " and "));
     const double end = until_.given() ? *until_ : si::Motion::reduced(request.ball, request.law).stop_time();
     const double frames = std::floor(end * *fps_ * (1 + 1e-12)) + 1;
     constexpr double most = 1e7;
@@ -272,8 +255,7 @@ class FitCommand final : public Verb {
   bool robust_ = false, plan_ = false;
   StartOptions start_;
   LawOption law_;
-  FigureOptions figure_;
-  OutputOptions output_{
+  PictureOptions output_{
       {{"a fit", with_pictures(answer_formats("text"), {"toml"})}, {"a plan", answer_formats("text")}}};
 };
 

@@ -13,7 +13,6 @@
 #include "contensou/si/quantity.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
-#include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/help.hpp"

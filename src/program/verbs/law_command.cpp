@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "answers/input/csv.hpp"
 #include "contensou/portraits/law_figure.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "contensou/si/body.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -41,13 +39,11 @@ class LawCommand final : public Verb {
     batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input")->excludes(k);
     app.add_flag("--surface", surface_,
                  "draw the limit surface, force against moment, of --law beside exact, pade, uniform and ring");
-    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
-    figure_.require_picture(output);
     if (surface_) require_picture("--surface", output);
     const reduction::Law law = law_.read(std::string(si::Body{}.law));
     if (output.picture()) {
@@ -59,8 +55,7 @@ class LawCommand final : public Verb {
         laws.push_back(law);
       }
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;
-      output.write({figure_.apply(draw(laws, figure_.size()), output.format)});
-      return ExitStatus::done;
+      return output_.write(draw(laws, output_.size()), output);
     }
     if (!k_.given() && !batch_.given()) {
       throw BadInput(
@@ -68,15 +63,14 @@ class LawCommand final : public Verb {
           "or a picture, -o FILE ending in svg, pdf, png, eps, gp or tex");
     }
     const LawReport report = evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed));
-    output.write(Answer{.members = members_of(law_fields, report), .columns = columns_of(law_columns, report)});
-    return ExitStatus::done;
+    return output.write(Answer{.members = members_of(law_fields, report), .columns = columns_of(law_columns, report)});
   }
 
  private:
   static std::vector<double> parse_ratios(const std::string& typed) {
     std::vector<double> ratios = parse_numbers(typed, Infinity::allowed);
     for (double k : ratios) {
-      if (!(k >= 0)) throw NotAllowed(fmt::format("{} is not a ratio: k >= 0 or inf is required", k));
+      if (!(k >= 0)) throw NotAllowed("{} is not a ratio: k >= 0 or inf is required", k);
     }
     return ratios;
   }
@@ -96,9 +90,8 @@ class LawCommand final : public Verb {
   LawOption law_;
   ArgumentOf<std::vector<double>> k_;
   Argument batch_;
-  FigureOptions figure_;
   bool surface_ = false;
-  OutputOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
+  PictureOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
 };
 
 const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law", "Compute or draw the force and moment of friction",

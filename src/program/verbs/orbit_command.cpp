@@ -1,13 +1,19 @@
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "answers/input/load_table.hpp"
 #include "answers/verbs/ball_answer.hpp"
+#include "contensou/reduction/direct_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/regularised_time.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/instants_option.hpp"
@@ -21,11 +27,105 @@ namespace contensou::program {
 
 namespace {
 
+using reduction::Flow;
+using reduction::OrbitColumns;
+using reduction::Route;
+
+/// The motion from one start, computed by a route.
+class RoutedMotion {
+ public:
+  RoutedMotion(const reduction::ReducedSystem& system, reduction::State start, Route route)
+      : system_(system), start_(start), route_(route), flow_(flow_of(system, route)) {}
+
+  /// Returns the states at times tau >= 0 in any order; the rows have the same order.
+  /// @throws std::runtime_error  if a stepper did not reach the stop
+  OrbitColumns at(const Eigen::ArrayXd& times) const {
+    if (flow_) return flow_->orbit(start_).at_times(times);
+    if (times.size() == 0) return OrbitColumns();
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(times.size()));  // a stepper only goes forwards
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return times[i]; });
+    const reduction::Motion motion = step(times(order));
+    OrbitColumns columns(times.size());
+    for (Eigen::Index row = 0; Eigen::Index i : order) columns.set(i, motion.points.row(row++));
+    return columns;
+  }
+
+  /// Returns the states at times before the stop, accurate to the last digits.
+  /// @throws BadInput  for a time before the start, and for a stepper, which cannot compute these states
+  OrbitColumns at_time_left(const Eigen::ArrayXd& lefts) const {
+    if (!flow_)
+      throw BadInput(
+          "--time-left needs --route closed or quadrature: the other routes do not compute the stop in advance");
+    const reduction::Orbit orbit = flow_->orbit(start_);
+    OrbitColumns columns(lefts.size());
+    for (Eigen::Index i = 0; i < lefts.size(); ++i) {
+      if (!(lefts[i] <= orbit.stop_time())) {
+        throw BadInput("--time-left: {} is before the start, which is {} before the stop", lefts[i], orbit.stop_time());
+      }
+      columns.set(i, orbit.at_time_left(lefts[i]));
+    }
+    return columns;
+  }
+
+  /// Returns the states at regularised times >= 0.
+  /// @throws BadInput  for a stepper, which accepts only tau
+  OrbitColumns at_beta(const Eigen::ArrayXd& betas) const {
+    if (!flow_) throw BadInput("--beta needs --route closed or quadrature: give --at with the other routes");
+    return reduction::at_betas(*flow_, start_, betas);
+  }
+
+  /// Returns the states at instants from the start to the stop, both included.
+  /// @param count        number of instants, >= 2
+  /// @param equidistant  false: half of the instants lie before one of the speeds has fallen to 1e-3 of its start
+  /// @throws std::runtime_error  as `at`, and if the stop time exceeds the largest double
+  OrbitColumns samples(Eigen::Index count, bool equidistant) const {
+    const reduction::Orbit orbit = (flow_ ? *flow_ : Flow(system_)).orbit(start_);
+    const std::optional<reduction::Motion> whole = flow_ ? std::nullopt : std::optional(step({}));
+    const double stop = whole ? whole->stop_time : orbit.stop_time();
+    if (!std::isfinite(stop))
+      throw std::runtime_error("the stop time exceeds the largest double: use a larger unit of speed");
+    const double busy = equidistant ? 0 : busy_time(orbit);
+    if (flow_ && !(2 * busy < stop && busy > 0)) return orbit.sample(count);
+    const Eigen::ArrayXd times = instants(count, busy, stop);
+    OrbitColumns columns = at(times);
+    if (!flow_) {
+      columns.set(count - 1, whole->points.row(whole->points.rows() - 1));
+      return columns;
+    }
+    for (Eigen::Index i = count / 2; i < count; ++i) columns.set(i, orbit.at_time_left(stop - times[i]));
+    return columns;
+  }
+
+ private:
+  /// @param times  times that do not decrease
+  reduction::Motion step(const Eigen::ArrayXd& times) const {
+    reduction::Motion motion = route_ == Route::regularised ? reduction::integrate_regularised(system_, start_, times)
+                                                            : reduction::integrate_directly(system_, start_, times);
+    if (!motion.outcome.ok()) throw std::runtime_error(motion.outcome.sentence);
+    return motion;
+  }
+
+  /// Returns the first tau at which a speed has fallen to 1e-3 of its start. Most of the motion happens before this
+  /// tau.
+  double busy_time(const reduction::Orbit& orbit) const {
+    const auto [u0, v0] = start_;
+    const double v = v0 > 0 ? orbit.time_of_v(1e-3 * v0) : 0;
+    const double u = u0 != 0 ? orbit.time_of_u(1e-3 * std::abs(u0)) : 0;
+    return v0 == 0 ? u : u0 == 0 ? v : std::min(u, v);
+  }
+
+  const reduction::ReducedSystem& system_;
+  reduction::State start_;
+  Route route_;
+  std::optional<Flow> flow_;  ///< empty for the steppers
+};
+
 /// An orbit at the requested instants. Columns that were not requested are empty.
 struct OrbitReport {
   const GivenStart& start;
-  reduction::Route route;
-  reduction::OrbitColumns motion;
+  Route route;
+  OrbitColumns motion;
   std::optional<si::LoadHistory> load;
   Eigen::ArrayXd u_estimate = {}, v_estimate = {}, ln_v_estimate = {};
   Eigen::ArrayXd tau_left = {};
@@ -116,11 +216,10 @@ class OrbitCommand final : public Verb {
     const Output output = output_.read();
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const reduction::ReducedSystem& system = start.system;
-    const reduction::Route route = route_.read(system);
+    const Route route = route_.read(system);
     for (const Argument* other : std::initializer_list<const Argument*>{&time_left_, &beta_}) {
       if (!other->given() || !instants_.given()) continue;
-      throw BadInput(
-          fmt::format("{} and --samples, --equidistant exclude each other: give one of them", other->name()));
+      throw BadInput("{} and --samples, --equidistant exclude each other: give one of them", other->name());
     }
     if (time_left_.given() && beta_.given())
       throw BadInput("--time-left and --beta exclude each other: give one of them");
@@ -135,16 +234,17 @@ class OrbitCommand final : public Verb {
     const Eigen::ArrayXd lefts = time_left_.given() ? taus(*time_left_, start, load) : Eigen::ArrayXd();
     const std::vector<si::ReducedPiece> pieces = start.pieces();
     if (pieces.size() > 1) require_one_orbit(route);
-    reduction::OrbitColumns motion =
+    const auto routed = [&] { return RoutedMotion(system, start.state, route); };
+    OrbitColumns motion =
         pieces.size() > 1 ? motion_of_pieces(pieces, at != nullptr ? taus(*at, start, load) : Eigen::ArrayXd(), lefts)
-        : time_left_.given() ? motion_at_time_left(system, start.state, route, lefts)
-        : beta_.given()      ? motion_at_beta(system, start.state, route, *beta_)
-        : at != nullptr      ? motion_at(system, start.state, route, taus(*at, start, load))
-                             : motion_samples(system, start.state, route, instants_.samples(), instants_.equidistant());
+        : time_left_.given() ? routed().at_time_left(lefts)
+        : beta_.given()      ? routed().at_beta(*beta_)
+        : at != nullptr      ? routed().at(taus(*at, start, load))
+                             : routed().samples(instants_.samples(), instants_.equidistant());
     // At rest the row contains the limit of k, because 0/0 has no value.
     if (const auto at_rest = motion.u == 0 && motion.v == 0; at_rest.any()) {
       const double k0 = start.state.u == 0 ? infinity : start.state.v / (system.mu() * std::abs(start.state.u));
-      const reduction::Flow last = pieces.empty() ? reduction::Flow(system) : pieces.back().flow;
+      const Flow last = pieces.empty() ? Flow(system) : pieces.back().flow;
       const double k_end = start.at_rest() ? 0 : last.terminal().end_of(k0).k;
       motion.k = at_rest.select(k_end, motion.k);
     }
@@ -160,28 +260,29 @@ class OrbitCommand final : public Verb {
       report.t = given ? at->values : Eigen::ArrayXd(motion.tau.unaryExpr(seconds));
     }
     if (reduction_) add_canonical(report);
-    output.write(Answer{.members = members_of(orbit_fields, report), .columns = columns_of(orbit_columns, report)});
-    return ExitStatus::done;
+    return output.write(
+        Answer{.members = members_of(orbit_fields, report), .columns = columns_of(orbit_columns, report)});
   }
 
  private:
   /// @throws BadInput  for options that need a single orbit, if rolling friction divides the motion into several orbits
-  void require_one_orbit(reduction::Route route) const {
+  void require_one_orbit(Route route) const {
     const char* const why = " needs one orbit, and rolling friction divides this motion into several";
-    if (route != reduction::Route::quadrature)
-      throw BadInput(fmt::format("--route {}{}: leave it out", name(route), why));
-    if (beta_.given()) throw BadInput(fmt::format("--beta{}: leave it out, or give --at", why));
-    if (estimate_) throw BadInput(fmt::format("--estimate{}: leave it out", why));
-    if (reduction_) throw BadInput(fmt::format("--reduction{}: leave it out", why));
+    if (route != Route::quadrature) throw BadInput("--route {}{}: leave it out", name(route), why);
+    if (beta_.given()) throw BadInput("--beta{}: leave it out, or give --at", why);
+    if (estimate_) throw BadInput("--estimate{}: leave it out", why);
+    if (reduction_) throw BadInput("--reduction{}: leave it out", why);
   }
 
   /// Returns the states at the given times, or at the given times left, or else at equidistant times.
-  reduction::OrbitColumns motion_of_pieces(const std::vector<si::ReducedPiece>& pieces, const Eigen::ArrayXd& at,
-                                           const Eigen::ArrayXd& lefts) const {
-    const auto state = [&](double tau) { return si::state_at(pieces, tau); };
-    if (at.size() == 0 && lefts.size() == 0) return motion_samples(state, si::stop_time(pieces), instants_.samples());
-    reduction::OrbitColumns columns(at.size() + lefts.size());
-    for (Eigen::Index i = 0; i < at.size(); ++i) columns.set(i, state(at[i]));
+  OrbitColumns motion_of_pieces(const std::vector<si::ReducedPiece>& pieces, Eigen::ArrayXd at,
+                                const Eigen::ArrayXd& lefts) const {
+    if (at.size() == 0 && lefts.size() == 0) {
+      const auto last = static_cast<double>(instants_.samples() - 1);
+      at = Eigen::ArrayXd::LinSpaced(instants_.samples(), 0, last) / last * si::stop_time(pieces);
+    }
+    OrbitColumns columns(at.size() + lefts.size());
+    for (Eigen::Index i = 0; i < at.size(); ++i) columns.set(i, si::state_at(pieces, at[i]));
     for (Eigen::Index i = 0; i < lefts.size(); ++i) columns.set(i, si::state_at_time_left(pieces, lefts[i]));
     return columns;
   }
@@ -211,8 +312,8 @@ class OrbitCommand final : public Verb {
   /// Adds q = v/u, p = ln v and the first integral. The first integral is infinite at points without a value: on the
   /// axes, on an invariant ray and at rest.
   static void add_canonical(OrbitReport& report) {
-    const reduction::OrbitColumns& motion = report.motion;
-    const reduction::Flow flow = report.start.flow();
+    const OrbitColumns& motion = report.motion;
+    const Flow flow = report.start.flow();
     report.integral = Eigen::ArrayXd::Constant(motion.rows(), infinity);
     for (Eigen::Index i = 0; i < motion.rows(); ++i) {
       try {

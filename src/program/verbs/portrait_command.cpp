@@ -55,7 +55,7 @@ std::vector<double> parse_times(const std::string& typed) {
   std::vector<std::string> parts = split(typed, ',');
   if (parts.size() > 1 && parts.back().empty()) parts.pop_back();
   constexpr std::size_t most = 100;
-  if (parts.size() > most) throw NotAllowed(fmt::format("at most {} times are allowed", most));
+  if (parts.size() > most) throw NotAllowed("at most {} times are allowed", most);
   std::vector<double> times;
   for (const std::string& part : parts) {
     times.push_back(parse_number(part));
@@ -195,10 +195,10 @@ class PortraitCommand final : public Verb {
     std::string others = names_given({&law_.argument(), &against_.argument(), &route_.argument(), view_, scale_});
     if (facts_) others = with_name(others, "--facts");
     if (!others.empty()) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "--system and {} exclude each other, because only (2.6) has them. The plane of u and v is drawn; 'contensou "
           "reduce --system' says which rays, kind and times there are",
-          others));
+          others);
     }
     const reduction::SmoothField field = system_.read(law_.parameters());
     if (style_.field == Style::Field::regularised) {
@@ -234,12 +234,8 @@ class PortraitCommand final : public Verb {
   /// @param draw  returns the figure of the portraits
   template <class Portraits, class Draw>
   ExitStatus write(const Output& output, const Portraits& all, const portraits::PortraitSource& source, Draw draw) {
-    if (output.picture()) {
-      output.write({figure_.apply(draw(), output.format)});
-    } else {
-      output.write(output.format == "csv" ? to_csv(all, source) : to_json(all, source));
-    }
-    return ExitStatus::done;
+    if (output.picture()) return figure_.write(draw(), output);
+    return output.write(output.format == "csv" ? to_csv(all, source) : to_json(all, source));
   }
 
   /// Throws for a window or a point that lies outside the half-plane.
@@ -256,8 +252,7 @@ class PortraitCommand final : public Verb {
       const auto& sides = request_.sides;
       if ((sides && !(std::abs(point.u) <= (*sides)[0] && point.v <= (*sides)[1])) ||
           (window && !window->contains(point))) {
-        throw BadInput(
-            fmt::format("{}: outside the window {}; leave it out, or make it larger", typed, window_->typed()));
+        throw BadInput("{}: outside the window {}; leave it out, or make it larger", typed, window_->typed());
       }
     }
   }
@@ -346,12 +341,10 @@ class PortraitCommand final : public Verb {
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
     if (std::string names = names_of_looks(0); against_.given() || !names.empty()) {
       if (against_.given()) names = with_name(names, against_.argument().name());
-      throw BadInput(
-          fmt::format("--facts and {} exclude each other: facts describe the whole plane, without a picture", names));
+      throw BadInput("--facts and {} exclude each other: facts describe the whole plane, without a picture", names);
     }
     if (route_.given()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
-    output_.read(1).write(phase_plane_answer(system));
-    return ExitStatus::done;
+    return output_.read(1).write(phase_plane_answer(system));
   }
 
   SystemOption system_;

@@ -2,7 +2,6 @@
 #include "contensou/portraits/reduction_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "options/system_option.hpp"
 #include "verb.hpp"
@@ -18,16 +17,14 @@ class ReduceCommand final : public Verb {
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
-    figure_.require_picture(output);
     if (system_.given()) return run_system(output);
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
-    if (!output.picture()) return write(reduce_answer(start), output);
+    if (!output.picture()) return output.write(reduce_answer(start));
     return draw(reduction::reduced(start.system), {start.state.u, start.state.v}, output);
   }
 
@@ -36,7 +33,7 @@ class ReduceCommand final : public Verb {
     if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
     const reduction::SmoothField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
-    if (!output.picture()) return write(reduce_answer(field, system_.text(), start), output);
+    if (!output.picture()) return output.write(reduce_answer(field, system_.text(), start));
     const reduction::PlanarReduction plane = system_.solve(field, start);
     if (!plane.scaling()) {
       throw BadInput(
@@ -46,22 +43,15 @@ class ReduceCommand final : public Verb {
     return draw(plane, start, output);
   }
 
-  static ExitStatus write(const ReduceAnswer& reduced, const Output& output) {
-    output.write(reduced.answer);
-    return reduced.found ? ExitStatus::done : ExitStatus::check_failed;
-  }
-
   ExitStatus draw(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const Output& output) {
     const std::string name = system_.given() ? system_.text() : "(2.6)";
-    output.write({figure_.apply(portraits::reduction_figure(plane, start, name, figure_.size()), output.format)});
-    return ExitStatus::done;
+    return output_.write(portraits::reduction_figure(plane, start, name, output_.size()), output);
   }
 
   SystemOption system_;
   StartOptions start_;
   LawOption law_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};
+  PictureOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<ReduceCommand> reduce_verb(Purpose::check, "reduce",

@@ -17,7 +17,6 @@
 #include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/batch.hpp"
 #include "verb.hpp"
@@ -66,17 +65,6 @@ portraits::RollPicture picture_of(const Roll& roll, const Eigen::ArrayXd& times)
                                     portraits::unbroken(fmt::format("({:.3g}, {:.3g}) m", place.x(), place.y())));
   }
   return picture;
-}
-
-double not_negative(double value) {
-  if (value < 0) throw NotAllowed("0 or more is needed");
-  return value;
-}
-
-double parse_end(const std::string& typed) {
-  const double end = parse_quantity(typed, "s");
-  if (!(end > 0)) throw NotAllowed("a time after the start is needed, in s");
-  return end;
 }
 
 constexpr long max_frames = 1000;  ///< largest number of frames of a film: 40 s
@@ -128,7 +116,7 @@ class RollCommand final : public Verb {
                        fmt::format("slip below which the ball counts as rolling, in metres per second (default {}). It "
                                    "also applies to the uncoupled model",
                                    si::rolling_slip),
-                       [](const std::string& typed) { return not_negative(parse_quantity(typed, "m/s")); });
+                       checked(quantity("m/s"), is_not_negative, "0 or more is needed"));
     app.add_flag("--gradient", gradient_,
                  "also print the derivatives of each event with respect to each number of the ball and its start");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
@@ -137,7 +125,7 @@ class RollCommand final : public Verb {
     CLI::Option* at = instants_.add(app, "t", "s", "");
     until_
         .add(app, "--until", "TIME", "last instant, in seconds (default: 1.1 times the time of the last event)",
-             parse_end)
+             checked(quantity("s"), is_positive, "a time after the start is needed, in s"))
         ->excludes(at);
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
@@ -145,7 +133,6 @@ class RollCommand final : public Verb {
                "The output adds columns with the events");
     app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its results empty");
     bulk_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
@@ -154,7 +141,6 @@ class RollCommand final : public Verb {
     if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
     bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
-    figure_.require_picture(output);
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment experiment = read_shot(law);
     Roll roll{experiment, law, integrated_.value_or(false), rolling_below_.value_or(si::rolling_slip),
@@ -170,10 +156,10 @@ class RollCommand final : public Verb {
       throw BadInput("--gradient: not in a picture, and not with a load that changes; leave it out");
     if ((gradient_ || roll.uncertainty) && output.format == "text" && (instants_.given() || until_.given()))
       throw BadInput(
-          fmt::format("{} is of the events, and with {} the text is a table of instants: leave one out, or take "
-                      "--format csv or json, which have both",
-                      gradient_ ? "--gradient" : "--uncertainty",
-                      with_name(instants_.names(), until_.given() ? until_.name() : "")));
+          "{} is of the events, and with {} the text is a table of instants: leave one out, or take "
+          "--format csv or json, which have both",
+          gradient_ ? "--gradient" : "--uncertainty",
+          with_name(instants_.names(), until_.given() ? until_.name() : ""));
     if (gradient_) roll.gradient = gradient_of(roll);
     if (output.picture()) {
       if (roll.uncertainty) throw BadInput("--uncertainty: not in a picture; leave it out");
@@ -182,7 +168,7 @@ class RollCommand final : public Verb {
         throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
       }
       if (instants_.asked() > max_frames) {
-        throw BadInput(fmt::format("a film has at most {} frames, got --samples {}", max_frames, *instants_.asked()));
+        throw BadInput("a film has at most {} frames, got --samples {}", max_frames, *instants_.asked());
       }
       if (const auto [centre, body] = si::velocities_of(roll.experiment.start); centre.isZero(0) && body.isZero(0)) {
         throw BadInput("the ball is at rest, there is nothing to draw: give it a --slip, a --spin or a --velocity");
@@ -192,19 +178,17 @@ class RollCommand final : public Verb {
       const auto [film_times, slow] = portraits::film_pace(film_end, instants_.asked());
       portraits::RollPicture picture =
           picture_of(roll, moves ? film_times : end * Eigen::ArrayXd::LinSpaced(500, 0, 1).cube());
-      picture.size = figure_.size();
+      picture.size = output_.size();
       picture.slow = moves ? slow : 0;
       picture.whole_path = until_.given();
       std::vector<portraits::Figure> figures =
           moves ? portraits::roll_film(picture) : std::vector{portraits::roll_figure(picture)};
-      for (portraits::Figure& figure : figures) figure = figure_.apply(std::move(figure), output.format);
-      output.write(figures);
-    } else if (output.format == "text" && !instants_.given() && !until_.given()) {
-      output.write(answers::roll_text(roll, output.digits));
-    } else {
-      output.write(answers::roll_answer(roll, instants_.between(roll.whole.rolls(roll.rolling_below), end)));
+      for (portraits::Figure& figure : figures) figure = output_.apply(std::move(figure), output.format);
+      return output.write(figures);
     }
-    return ExitStatus::done;
+    if (output.format == "text" && !instants_.given() && !until_.given())
+      return output.write(answers::roll_text(roll, output.digits));
+    return output.write(answers::roll_answer(roll, instants_.between(roll.whole.rolls(roll.rolling_below), end)));
   }
 
  private:
@@ -223,7 +207,7 @@ class RollCommand final : public Verb {
     try {
       return si::event_gradient(si::EventNumbers(roll.experiment, roll.law, roll.rolling_below));
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("--gradient: {}: leave it out", error.what()));
+      throw BadInput("--gradient: {}: leave it out", error.what());
     }
   }
 
@@ -306,13 +290,12 @@ class RollCommand final : public Verb {
   si::Experiment read_shot(const reduction::Law& law) const {
     const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
-      if (!of_stroke.empty()) throw BadInput(fmt::format("{} belongs to a stroke: add --strike SPEED", of_stroke));
+      if (!of_stroke.empty()) throw BadInput("{} belongs to a stroke: add --strike SPEED", of_stroke);
       const si::Experiment experiment = start_.read_ball(law);
       require_rolling_options(experiment);
       return experiment;
     }
-    if (start_.overrides_start())
-      throw BadInput(fmt::format("--strike is a start of its own: leave out {}", start_.start_names()));
+    if (start_.overrides_start()) throw BadInput("--strike is a start of its own: leave out {}", start_.start_names());
     si::Experiment experiment = start_.read_rolling_ball(
         law, "leave out --strike: 'contensou roll' gives its motion from --slip and --spin", at_rest(strike_.name()));
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
@@ -323,7 +306,7 @@ class RollCommand final : public Verb {
                                                       .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
                                                       .mass = cue_mass_.value_or(si::standard_cue_mass)});
     } catch (const std::domain_error& error) {
-      throw BadInput(fmt::format("{}: {}", names_given({&strike_, &tip_, &elevation_, &cue_mass_}), error.what()));
+      throw BadInput("{}: {}", names_given({&strike_, &tip_, &elevation_, &cue_mass_}), error.what());
     }
     si::require_experiment(experiment);
     return experiment;
@@ -338,8 +321,8 @@ class RollCommand final : public Verb {
   Argument batch_, uncertainty_;
   bool keep_going_ = false, gradient_ = false;
   BulkOptions bulk_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
+  PictureOptions output_{
+      {{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};
 };
 
 const RegisteredVerb<RollCommand> roll_verb(Purpose::compute, "roll",

@@ -64,8 +64,8 @@ class StopCommand final : public Verb {
     const auto load = start_.load_history();
     if (load && uncertainty_.given()) uncertainty_.reject("needs a constant load: give --load a number");
     if (load) fmt::print(stderr, "{}", require_load_alone(*start.experiment, start.system.law()));
-    output.write(stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start), load));
-    return ExitStatus::done;
+    return output.write(
+        stop_answer(start, route_.read(start.system), estimate_, gradient_, read_uncertainty(start), load));
   }
 
  private:
@@ -82,7 +82,7 @@ class StopCommand final : public Verb {
 
   static double sliding(const char* name, double speed) {
     if (speed >= 0) return speed;
-    throw BadInput(fmt::format("{0}: {0} >= 0 is required, got {1}", name, speed));
+    throw BadInput("{0}: {0} >= 0 is required, got {1}", name, speed);
   }
 
   ExitStatus run_many() const {
@@ -103,7 +103,7 @@ class StopCommand final : public Verb {
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long line) {
                                if (const std::string wrong = start_.body().complaint(row[0]); !wrong.empty()) {
-                                 throw BadInput(fmt::format("mu: {}, got {}", wrong, row[0]));
+                                 throw BadInput("mu: {}, got {}", wrong, row[0]);
                                }
                                const reduction::State start{.u = row[1], .v = sliding("v0", row[2])};
                                for (std::size_t i = 0; i < results.size(); ++i)
@@ -114,7 +114,7 @@ class StopCommand final : public Verb {
                          .progress = bulk_.progress(out.path)};
     for (const reduction::Law& law : laws) {
       stop_times.emplace_back(law, ball ? ball->ball.body.inertia : start_.body().inertia,
-                              ball ? start_.drive_along_x(*ball) : start_.drive(), route_);
+                              ball ? start_.drive_along_x(*ball) : start_.drive().value_or(0), route_);
       if (ball && ball->contact.rolling_friction != 0) stop_times.back().resist(*ball);
       if (ball) mu.push_back(si::patch_ratio(*ball, law));
       const std::string result = has_ball ? "t_stop" : "tau_stop";

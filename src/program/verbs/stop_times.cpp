@@ -68,13 +68,13 @@ StopTimes::AtMu StopTimes::made(double mu) {
     return {
         .flow = {}, .one = [mu, every = of_every_mu()](State start) { return every(mu, start); }, .starts = starts_};
   const Route route = route_.read(system);
-  if (route == Route::regularised || route == Route::direct) {
+  std::optional<Flow> flow = flow_of(system, route);
+  if (!flow) {
     return {.flow = {},
             .one = [=](State start) { return reduction::stop_time(system, start, route).tau; },
             .starts = starts_};
   }
-  Flow flow = route == Route::quadrature ? Flow::by_quadrature(system) : Flow(system);
-  if (flow.refused(starts_) > 0 && !told_.exchange(true)) tell_if_refused(flow, starts_);
+  if (flow->refused(starts_) > 0 && !told_.exchange(true)) tell_if_refused(*flow, starts_);
   return {.flow = std::move(flow), .one = {}, .starts = starts_};
 }
 

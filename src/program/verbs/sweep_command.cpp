@@ -19,7 +19,6 @@
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/ordered_work.hpp"
 #include "output/progress.hpp"
@@ -225,8 +224,7 @@ class Sweep {
 void sweep(const SweepRequest& request, OutputFile& output) {
   const SweepGrid& grid = request.grid;
   if (grid.points() > max_points) {
-    throw BadInput(
-        fmt::format("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points()));
+    throw BadInput("{:.3g} starts are more than any file can hold: reduce N of --mu, --u0 or --v0", grid.points());
   }
   std::string begins = heading(request);
   if (request.format == SweepFormat::npy) {
@@ -241,20 +239,17 @@ void sweep(const SweepRequest& request, OutputFile& output) {
 Range parse_range(const std::string& typed, std::string_view unit) {
   const std::vector<std::string> parts = split(typed, ':');
   if (parts.size() == 1) return {.min = parse_quantity(typed, unit), .max = parse_quantity(typed, unit)};
-  if (parts.size() != 3) {
-    throw BadInput(fmt::format("{} is not a range; write it MIN:MAX:N, as in 0:2:201", quotation(typed)));
-  }
+  if (parts.size() != 3) throw BadInput("{} is not a range; write it MIN:MAX:N, as in 0:2:201", quotation(typed));
   const std::vector<double> ends = parse_quantities({parts[0], parts[1]}, unit);
   const Range range{
       .min = ends[0], .max = ends[1], .count = parse_integer(parts[2], 1, std::numeric_limits<long>::max())};
   const auto& [min, max, count, in_ratios] = range;
-  if (min > max) throw BadInput(fmt::format("MIN = {} exceeds MAX = {}: put the smaller one first", min, max));
+  if (min > max) throw BadInput("MIN = {} exceeds MAX = {}: put the smaller one first", min, max);
   if (count == 1 && min != max) {
-    throw BadInput(fmt::format("one value cannot be both MIN = {} and MAX = {}: give N = 2 or more", min, max));
+    throw BadInput("one value cannot be both MIN = {} and MAX = {}: give N = 2 or more", min, max);
   }
   if (count > 1 && min == max) {
-    throw BadInput(
-        fmt::format("all {} values would be {}: give different MIN and MAX, or the number alone", count, min));
+    throw BadInput("all {} values would be {}: give different MIN and MAX, or the number alone", count, min);
   }
   return range;
 }
@@ -276,9 +271,9 @@ class SweepCommand final : public Verb {
     u0_.add(app, "--u0", "MIN:MAX:N", "N values of u at the start, from MIN to MAX", read(""));
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of v at the start, from MIN >= 0 to MAX", read(""));
     app.add_flag("--log", log_, "neighbouring values have equal ratios, not equal steps (MIN must be above 0)");
-    body_.add_body(app);
-    body_.add_drive(app);
-    ball_.add_ball(
+    start_.add_body(app);
+    start_.add_drive(app);
+    start_.add_ball(
         app, "real body in SI units, instead of the options above. It needs --spin and --slip; times are in seconds",
         StartOptions::no_start);
     spin_.add(app, "--spin", "MIN:MAX:N", "N values of the spin about the vertical, in radians per second",
@@ -286,24 +281,19 @@ class SweepCommand final : public Verb {
     slip_.add(app, "--slip", "MIN:MAX:N", "N values of the sliding speed, in metres per second", read(si::slip.unit));
     law_.add(app);
     bulk_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
-    const Body body = body_.body();
     const Output out = output_.read();
-    const reduction::Law law = law_.read(ball_.ball_given() ? ball_.standard_law() : std::string(body.law));
-    const SweepGrid grid = ball_.ball_given() ? read_grid_of_ball(law) : read_grid(body);
-    const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : body.inertia;
-    const double drive = grid.ball ? ball_.drive_along_x(*grid.ball) : body_.drive().value_or(0);
+    const reduction::Law law = law_.read(start_.standard_law());
+    const SweepGrid grid = start_.ball_given() ? read_grid_of_ball(law) : read_grid(start_.body());
+    const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : start_.body().inertia;
+    const double drive = grid.ball ? start_.drive_along_x(*grid.ball) : start_.drive().value_or(0);
     if (out.picture()) {
       bulk_.refuse("npy and csv: a picture has few starts, leave it out");
-      out.write(
-          {figure_.apply(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out.format)});
-      return ExitStatus::done;
+      return output_.write(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out);
     }
-    figure_.require_picture(out);
     OutputFile output(out.path);
     sweep({.law = law,
            .body = inertia,
@@ -321,9 +311,9 @@ class SweepCommand final : public Verb {
   Range range_of(const ArgumentOf<Range>& argument) const {
     if (!argument.given()) {
       throw BadInput(
-          fmt::format("{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N, or --ball NAME --spin "
-                      "MIN:MAX:N --slip MIN:MAX:N",
-                      argument.name()));
+          "{} missing: a sweep is --mu M --u0 MIN:MAX:N --v0 MIN:MAX:N, or --ball NAME --spin "
+          "MIN:MAX:N --slip MIN:MAX:N",
+          argument.name());
     }
     Range range = *argument;
     range.in_ratios = log_;
@@ -340,17 +330,17 @@ class SweepCommand final : public Verb {
   }
 
   SweepGrid read_grid_of_ball(const reduction::Law& law) const {
-    if (const std::string others = names_given({&mu_, &u0_, &v0_, &body_.argument(), &body_.drive()});
+    if (const std::string others = names_given({&mu_, &u0_, &v0_, &start_.body_argument(), &start_.drive()});
         !others.empty()) {
-      throw BadInput(fmt::format("--ball and {} exclude each other: with --ball, use --spin and --slip", others));
+      throw BadInput("--ball and {} exclude each other: with --ball, use --spin and --slip", others);
     }
-    const si::Experiment experiment = ball_.read_ball(law, at_rest("--slip and --spin"));
+    const si::Experiment experiment = start_.read_ball(law, at_rest("--slip and --spin"));
     const double mu = si::patch_ratio(experiment, law);
     return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = experiment};
   }
 
   SweepGrid read_grid(const Body& body) const {
-    if (ball_.given() || spin_.given() || slip_.given()) {
+    if (!start_.names_of_one_start().empty() || spin_.given() || slip_.given()) {
       throw BadInput("without --ball NAME|FILE.toml, its options and --spin and --slip mean nothing: add --ball");
     }
     if (!mu_.given() && !body.patch_ratio) {
@@ -378,8 +368,8 @@ class SweepCommand final : public Verb {
       if ((*axis)->count < 2) axis->reject("a picture needs a range, MIN:MAX:N");
     }
     if (grid.points() > max_drawn) {
-      throw BadInput(fmt::format("a picture shows at most {:g} starts, not {:g}: reduce N, or write npy or csv",
-                                 max_drawn, grid.points()));
+      throw BadInput("a picture shows at most {:g} starts, not {:g}: reduce N, or write npy or csv", max_drawn,
+                     grid.points());
     }
     const auto values = [](const Range& range) -> Eigen::ArrayXd {
       return Eigen::ArrayXd::NullaryExpr(range.count, [&](Eigen::Index i) { return range[static_cast<long>(i)]; });
@@ -401,17 +391,15 @@ class SweepCommand final : public Verb {
     }
     return portraits::draw(
         portraits::stop_time_map(flow, {caption.u_unit * values(grid.u0), values(grid.v0), log_}, caption.time_unit),
-        caption, figure_.size());
+        caption, output_.size());
   }
 
   ArgumentOf<Range> mu_, u0_, v0_, spin_, slip_;
-  StartOptions ball_;
+  StartOptions start_;
   bool log_ = false;
   LawOption law_;
-  BodyOptions body_;
   BulkOptions bulk_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
+  PictureOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};
 };
 
 const RegisteredVerb<SweepCommand> sweep_verb(Purpose::compute, "sweep", "Compute stop times on a grid of starts",

@@ -4,7 +4,6 @@
 #include "contensou/portraits/rays_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 
@@ -20,31 +19,23 @@ class TerminalCommand final : public Verb {
     body_.add_body(app);
     body_.add_drive(app);
     law_.add(app);
-    figure_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
-    figure_.require_picture(output);
     const reduction::Law law = law_.read(std::string(body_.body().law));
-    if (!output.picture()) {
-      output.write(terminal_answer(body_.read(law)));
-      return ExitStatus::done;
-    }
+    if (!output.picture()) return output.write(terminal_answer(body_.read_system(law)));
     // The figure shows all r. If a body is given, a mark shows the r of this body.
     std::optional<double> r;
-    if (body_.mu().given() || body_.argument().given()) r = body_.read(law).r();
-    output.write(
-        {figure_.apply(portraits::rays_figure(law, r, figure_.size(), body_.drive().value_or(0)), output.format)});
-    return ExitStatus::done;
+    if (body_.mu().given() || body_.body_argument().given()) r = body_.read_system(law).r();
+    return output_.write(portraits::rays_figure(law, r, output_.size(), body_.drive().value_or(0)), output);
   }
 
  private:
   BodyOptions body_;
   LawOption law_;
-  FigureOptions figure_;
-  OutputOptions output_{{{"a terminal ratio", with_pictures(answer_formats("text"))}}};
+  PictureOptions output_{{{"a terminal ratio", with_pictures(answer_formats("text"))}}};
 };
 
 const RegisteredVerb<TerminalCommand> terminal_verb(Purpose::compute, "terminal",

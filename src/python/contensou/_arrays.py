@@ -8,7 +8,7 @@ from typing import Any, Callable, Optional, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ._numbers import numbers, refuse_unit, target
+from ._numbers import common_shape, numbers, refuse_unit, target
 
 _own = np.ndarray.__array_ufunc__
 
@@ -137,13 +137,7 @@ class ArrayFunction:
             raise ValueError(f"{self._arguments[0]}: {', '.join(self._along)} along the last axis are needed; "
                              f"got an array of shape {arrays[0].shape}")
         ends = [array.ndim - count for array, count in zip(arrays, self._takes)]
-        shapes = [array.shape[:end] for array, end in zip(arrays, ends)]
-        try:
-            few = set(shapes) - {()}
-            shape = np.broadcast_shapes(*few) if len(few) > 1 else few.pop() if few else ()
-        except ValueError:
-            told = ", ".join(f"{name} of {each}" for name, each in zip(self._arguments, shapes))
-            raise ValueError(f"shapes that broadcast are needed; got {told}") from None
+        shape = common_shape(self._arguments, [array.shape[:end] for array, end in zip(arrays, ends)])
         return [array if array.shape[:end] == shape else np.broadcast_to(array, shape + array.shape[end:])
                 for array, end in zip(arrays, ends)], shape
 

@@ -224,20 +224,9 @@ class Ball:
         load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Rolls: ...
     @overload
     def roll(
-        self, *, velocity: Array, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
-        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
-        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
-        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
-    @overload
-    def roll(
-        self, *, velocity: Any = None, angular_velocity: Array, slip: Any = None, spin: Any = None,
-        strike: Any = None, tip: Any = None, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
-        rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
-        load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
-    @overload
-    def roll(
-        self, *, velocity: Any = None, angular_velocity: Any = None, slip: Any = None, spin: Any = None,
-        strike: Any = None, tip: Array, elevation: Any = None, cue_mass: Any = None, law: Optional[LawLike] = None,
+        self, *, velocity: Union[Rows, Array] = None, angular_velocity: Union[Rows, Array] = None, slip: Optional[ArrayLike] = None,
+        spin: Optional[ArrayLike] = None, strike: Optional[ArrayLike] = None, tip: Union[Rows, Array] = None,
+        elevation: Optional[ArrayLike] = None, cue_mass: Optional[ArrayLike] = None, law: Optional[LawLike] = None,
         rolling_below: Optional[float] = None, rolling_friction: Optional[float] = None,
         load: Optional[tuple[ArrayLike, ArrayLike]] = None, threads: int = 1, out: Optional[NDArray[Any]] = None) -> Any: ...
     def roll(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import sys
-from typing import TYPE_CHECKING, Any, Protocol, Union
+from typing import TYPE_CHECKING, Any, Iterable, Protocol, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,15 +94,22 @@ def number(name: str, given: Any) -> float:
     return float(result)
 
 
+def common_shape(names: Iterable[str], shapes: Sequence[tuple[int, ...]]) -> tuple[int, ...]:
+    """Returns the shape to which arrays of these shapes broadcast. Raises ValueError if they do not broadcast."""
+    few = set(shapes) - {()}
+    try:
+        return np.broadcast_shapes(*few) if len(few) > 1 else few.pop() if few else ()
+    except ValueError:
+        told = ", ".join(f"{name} of {shape}" for name, shape in zip(names, shapes))
+        raise ValueError(f"shapes that broadcast are needed; got {told}") from None
+
+
 def together(**given: Any) -> list[NDArray[np.float64]]:
     """Returns the numbers of several arguments in arrays of one shape.
     Raises ValueError for shapes that do not broadcast."""
-    arrays = {name: numbers(name, each) for name, each in given.items()}
-    try:
-        return list(np.broadcast_arrays(*arrays.values()))
-    except ValueError:
-        shapes = ", ".join(f"{name} of {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"shapes that broadcast are needed; got {shapes}") from None
+    arrays = [numbers(name, each) for name, each in given.items()]
+    shape = common_shape(given, [array.shape for array in arrays])
+    return [np.broadcast_to(array, shape) for array in arrays]
 
 
 def text(name: str, given: Any) -> str:

@@ -1,7 +1,6 @@
 #include "contensou/si/description.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
 #include "contensou/si/quantity.hpp"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "contensou/reduction/hertz_law.hpp"
 #include "contensou/si/scaling.hpp"
