@@ -131,7 +131,7 @@ const readers = [
   { path: "python.html", title: "Python", words: "The Python module works with NumPy's arrays. matplotlib draws this plane of a puck.", picture: "src/python/notebook/plane.png",
     command: 'import contensou as ct\nct.portrait(body="disc").plot()', language: "python", alt: "The plane of a puck", parts: ["In Python,"],
     links: [["src/python/README.md", "The tour"], ["src/python/notebook/README.md", "Why a spinning ball slides farther: a lesson as a notebook"]] },
-  { path: "engines.html", title: "Engines", words: "The first command prints the numbers to type into an engine; there are thirteen engines. The curves show force against moment. An engine uses the ellipse, the chord, or a separate limit for each.",
+  { path: "engines.html", title: "Engines", words: "The first command prints the numbers to type into an engine; there are fourteen engines. The curves show force against moment. An engine uses the ellipse, the chord, or a separate limit for each.",
     command: "contensou engine mujoco --ball pool\ncontensou law --surface -o surface.svg", picture: "portraits/gallery/surface.svg", alt: "Limit surfaces", parts: [],
     links: [["src/si/README.md#torsional-friction-in-an-engine", "Torsional friction in an engine"], ["src/si/README.md#the-wrench-in-c", "The wrench in C"], ["src/site/cases/README.md", "Ten motions as data for the tests of an engine"]] },
   { path: "film.html", title: "Film", words: "The command finds friction and patch radius from a film, with intervals. The picture shows a real slide beside the exact motion and the uncoupled model.",

@@ -2,45 +2,12 @@
 // number typed in that it prints. Every setting that it lists of these engines is run.
 //   CONTENSOU_PROGRAM=.../contensou node engines.test.mjs
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { test } from "node:test";
+import { asked, assertClose, compare } from "./comparison.mjs";
 
 // One after the other: PhysX hides node while it is loaded.
 const { mujocoTimes } = await import("./mujoco.mjs");
 const { physxTimes } = await import("./physx.mjs");
-
-const gravity = 9.81;
-
-function asked(name) {
-  const words = ["engine", name, "--ball", "pool", "--gravity", String(gravity), "--format", "json"];
-  const told = JSON.parse(execFileSync(process.env.CONTENSOU_PROGRAM, words, { encoding: "utf8" }));
-  const [engine] = told.engines;
-  return {
-    ball: { radius: 0.028575, mass: 0.1701, friction: told.friction, slip: told.slip, spin: told.spin, gravity },
-    patch: told.patch_radius,
-    typed: (parameter) => engine.parameters[parameter].value,
-    settings: new Map(engine.settings.map((setting) => [setting.setting, setting])),
-  };
-}
-
-function assertClose(measured, told, what) {
-  const error = Math.abs(measured / told - 1);
-  assert.ok(error <= 0.01, `${what}: ${measured} s in the engine, ${told} s in the model, relative error ${error}`);
-}
-
-/** Runs each setting in the engine. A spin that never ends is watched for 2 s, in which the ball's own loses a fifth. */
-function compare({ ball, settings }, runs) {
-  assert.deepEqual(Object.keys(runs), [...settings.keys()]);
-  for (const [name, { t_slip, t_spin }] of settings) {
-    const times = runs[name](t_spin === "inf" ? 2 : 12);
-    assertClose(times.slip, t_slip, `slip, ${name}`);
-    if (t_spin === "inf") {
-      assert.ok(times.left > 0.95 * ball.spin, `spin left after 2 s, ${name}: ${times.left}`);
-    } else {
-      assertClose(times.spin, t_spin, `spin, ${name}`);
-    }
-  }
-}
 
 // Attributes of a contact so soft that the ball does not hop (see the last test): it sinks in by 10 um.
 const soft = 'solref="-1e6 -2e3" solimp="0.01 0.01 0.001 0.5 2" solreffriction="0 -20"';

@@ -40,6 +40,7 @@ const std::map<std::string_view, Limit> limits{
     {"pooltool",
      [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},
     {"box3d", [](const auto& typed, double radius) { return typed[1] * radius; }},
+    {"lammps", the_last},
 };
 
 std::vector<double> typed_into(const EngineUse& use, const EngineContact& contact) {
@@ -127,4 +128,12 @@ TEST_CASE("what is published as the radius or diameter of a patch is too much by
   CHECK(times("physx", 1) == Approx(16 / (3 * std::numbers::pi)));             // 1.7
   // The spin deceleration in pooltool is (5/2) u_sp g/R = 10.9 rad/s^2 instead of the intended 10.
   CHECK(times("pooltool", 1) == Approx(2.5 * (10 * 2.0 / 5 / 9) * 9.80665 / 10));
+  // LAMMPS: the moment of marshall does not depend on the slip. Its remarks say 13 %, 3 times and 10 times.
+  CHECK(times("lammps", 1) == Approx(32 / (9 * std::numbers::pi)));
+  const auto marshall_over_law = [](double k) {
+    return 2.0 / 3 / reduction::find_law("exact")->operator()(reduction::Slip{k, 1}).moment;
+  };
+  CHECK(marshall_over_law(0) == Approx(1.13).epsilon(0.002));
+  CHECK(marshall_over_law(1) == Approx(3).epsilon(0.01));
+  CHECK(marshall_over_law(3) == Approx(10).epsilon(0.01));
 }

@@ -19,7 +19,7 @@ struct Published {
   bool agrees() const;
 };
 
-/// Returns published numbers of disc and ring, and of a ball, a cue and a stone in textbooks.
+/// Returns published numbers of disc, ring and grains, and of a ball, a cue and a stone in textbooks.
 std::vector<Published> published_numbers();
 
 }  // namespace contensou::program

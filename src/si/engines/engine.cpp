@@ -335,7 +335,34 @@ const std::vector<Engine>& engines() {
         "without R; what acts is 10.9 rad/s^2."},
        {"pooltool/objects/ball/params.py:77", "pooltool/objects/ball/params.py:102",
         "pooltool/physics/evolve/__init__.py:113-123", "pooltool/physics/evolve/__init__.py:170",
-        "pooltool/physics/utils.py:77", "pooltool/physics/utils.py:95"}}};
+        "pooltool/physics/utils.py:77", "pooltool/physics/utils.py:95"}},
+      {"lammps",
+       "LAMMPS (pair_style granular)",
+       "lammps/lammps",
+       "commits 07b704c (source), 3e36acc (manual)",
+       {{{"mu_s of tangential", "", f_alone}, {"mu_twist of twisting sds", "m", f_a_psi}},
+        "M <= mu_twist N; twisting marshall: M <= (2/3) mu_s sqrt(R overlap) N",
+        {"twisting sds or marshall, in pair_coeff or fix wall/gran granular: none is the default",
+         "twisting sds: a stiff spring, such as k_twist = k_n a^3/2",
+         "twisting marshall: hertz with k_n = N R/a^3: the overlap under the load N is then a^2/R"},
+        {{"twisting sds", box, f_a_psi},
+         {"twisting marshall", box, EngineNumber{2.0 / 3, true, true}},
+         {"twisting none (default)", box, nothing}}},
+       {},
+       "the geometric mean of two types, number by number, unless pair_coeff I J sets their own; a wall has its\n"
+       "own numbers",
+       {"marshall has the moment of a uniform disc under every normal model. For Hertz's pressure it is 13 % too\n"
+        "large: a spin without slip ends after 88 % of its time.",
+        "The force is bounded by f N and the moment by itself, so slip and spin do not know of each other. At a\n"
+        "slip of a omega, marshall's moment is 3 times that of Hertz's pressure, at 3 a omega 10 times.",
+        "Under hertz a stiffness k_n that is 1000 times too small, for longer time steps, makes the moment of\n"
+        "marshall 10 times as large.",
+        "Under tangential mindlin the spring of marshall is k_t a^2/2 and lacks a factor a; in the version of\n"
+        "September 2021 it is k_t a^3/2. The limit of the moment is the same."},
+       {"src/GRANULAR/gran_sub_mod_twisting_kernel.h:41-77", "src/GRANULAR/gran_sub_mod_normal_kernel.h:48-53",
+        "src/GRANULAR/gran_sub_mod_tangential_kernel.h (gran_tangential_mindlin)",
+        "src/GRANULAR/gran_sub_mod_twisting.cpp (GranSubModTwistingMarshall::init)",
+        "doc/src/pair_granular.rst (twisting, mixing)"}}};
   return table;
 }
 
