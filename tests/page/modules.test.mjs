@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/plane/command_line.js";
-import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/share/exports.js";
+import { citation, csvOfFilm, csvOfOrbits, csvOfRide } from "../../src/page/share/exports.js";
+import { strikeOf } from "../../src/page/cards/cue.js";
 import { sizeOf } from "../../src/page/plane/copies.js";
 import { panelsOf } from "../../src/page/plane/copies_figure.js";
 import { drawLanes } from "../../src/page/hero/hero_figure.js";
@@ -156,16 +157,6 @@ test("numbers from which nothing can follow are refused in the words of the othe
   assert.deepEqual([ball.gravity, ball.patch], [gel.gravity, gel.patch]);
   assert.equal(mu, 0.3);
   assert.deepEqual([fromFragment("mu=1e-308", known).mu, fromFragment("body=1e308,1", known).body], [0.3, "ball"]);
-});
-
-test("a film is MP4 where the browser takes it, else WebM, else none", () => {
-  const before = globalThis.MediaRecorder;
-  for (const [taken, wanted] of [[/./, /^video\/mp4/], [/webm/, /^video\/webm$/], [/none/, undefined]]) {
-    globalThis.MediaRecorder = /** @type {any} */ ({ isTypeSupported: (type) => taken.test(type) });
-    if (wanted) assert.match(filmType(), wanted);
-    else assert.equal(filmType(), undefined);
-  }
-  globalThis.MediaRecorder = before;
 });
 
 /** A gel ball that leaves at 0.5 m/s, or what differs from it. */
