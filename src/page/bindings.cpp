@@ -146,18 +146,26 @@ class Plane {
   }
 
   /// Draws the portrait that the program draws for a request, but without the requested orbits, which the page draws.
-  /// The result contains the motion of each requested orbit from start to stop and, for each panel, its line and arrow.
-  /// @param behind  true to draw everything behind these orbits again; false if nothing but these orbits has changed
-  val portrait(const val& asked, bool behind) {
+  val portrait(const val& asked) {
     answers::PortraitSpec question = question_of(asked, flow());
     question.request.drawn_only = true;
     question.style.asked = false;
-    if (!behind) {
-      question.request.orbits = question.request.isochrones = 0;
-      question.request.comparison.reset();
-    }
     const portraits::PhasePortrait portrait = question.portrait();
-    if (behind) drawn_ = question.mapped_figure(portrait);
+    drawn_ = question.mapped_figure(portrait);
+    const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
+    return object("through", list(question.request.through, point), "window",
+                  list(std::array{portrait.window.u(), portrait.window.v()}, [](double side) { return val(side); }),
+                  "figure", figure_value(drawn_.figure));
+  }
+
+  /// Returns the motion of each requested orbit from start to stop and, for each panel of the last portrait, its line
+  /// and arrow.
+  val own(const val& asked) const {
+    answers::PortraitSpec question = question_of(asked, flow());
+    question.request.drawn_only = true;
+    question.request.orbits = question.request.isochrones = 0;
+    question.request.comparison.reset();
+    const portraits::PhasePortrait portrait = question.portrait();
     val own = val::array();
     auto through = portrait.through.begin();
     for (const State& start : states_of(asked["orbits"])) {
@@ -168,12 +176,7 @@ class Plane {
                                                                                     : &*through++;
       own.set(index, own_orbit(start, orbit, portrait.window));
     }
-    const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
-    val result =
-        object("own", own, "through", list(question.request.through, point), "window",
-               list(std::array{portrait.window.u(), portrait.window.v()}, [](double side) { return val(side); }));
-    if (behind) result.set("figure", figure_value(drawn_.figure));
-    return result;
+    return own;
   }
 
   /// Returns the TeX file that the program writes for a request.
@@ -486,6 +489,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .constructor<>()
       .function("choose", answering<&Plane::choose>)
       .function("portrait", answering<&Plane::portrait>)
+      .function("own", answering<&Plane::own>)
       .function("portraitFile", answering<&Plane::portrait_file>)
       .function("stop", answering<&Plane::stop>)
       .function("stopBy", answering<&Plane::stop_by>)

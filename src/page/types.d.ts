@@ -72,7 +72,7 @@ interface Layout {
   legend: { legend: Words; x: number; y: number; width: number }[]; colours: Box[];
 }
 interface Box { left: number; top: number; width: number; height: number }
-interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; through: Speeds[] }
+interface Portrait { figure: Figure; window: [number, number]; through: Speeds[] }
 
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
@@ -88,7 +88,8 @@ interface Measured { ball: string; columns: Columns }
 interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number; figure: Figure }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
-  portrait(request: PortraitRequest, behind: boolean): Portrait;
+  portrait(request: PortraitRequest): Portrait;
+  own(request: PortraitRequest): OwnOrbit[];
   portraitFile(request: PortraitRequest): string;
   stop(u: number, v: number): number;
   stopBy(law: string, mu: number, u: number, v: number): number;
