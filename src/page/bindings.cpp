@@ -31,7 +31,9 @@
 #include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
+#include "contensou/si/bounce.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/cue_strike.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
@@ -404,6 +406,28 @@ std::string law_name(const std::string& called) {
   return called.starts_with(table_of_pressure) ? called : law.name();
 }
 
+/// Returns the start (start_value) that a stroke with a cue gives to a ball.
+/// @param elevation  degrees; the others as in si::CueStrike
+val struck(const val& fields, double speed, double right, double above, double elevation) {
+  si::Experiment experiment = experiment_of(fields);
+  experiment.start =
+      si::struck(experiment.ball,
+                 {.speed = speed, .right = right, .above = above, .elevation = elevation * (std::numbers::pi / 180)});
+  return start_value(experiment);
+}
+
+/// Returns the rebound of a ball that falls from a height in m with the motion of its start: {down, up: normal speeds,
+/// before, after: speeds along the floor, in m/s}.
+/// @param as_built  true for the patch of the catalogue, which by Hertz's formula depends on the impact
+val bounce(const std::string& law, const val& fields, bool as_built, double height, double restitution) {
+  si::Experiment experiment = experiment_of(fields);
+  if (as_built) experiment.contact.patch = si::find_ball(fields["name"].as<std::string>())->experiment.contact.patch;
+  const si::Impact impact{si::drop_speed(height, experiment.environment.gravity), restitution};
+  const si::Velocities after = si::bounce(experiment, law_of(law), impact).velocities;
+  return object("down", impact.normal_speed, "up", restitution * impact.normal_speed, "before",
+                si::velocities_of(experiment.start).velocity.norm(), "after", after.velocity.norm());
+}
+
 /// Returns {name, chi, gamma} of each body, and `mu` if the body fixes it.
 val bodies() {
   return list(si::bodies(), [](const si::Body& body) {
@@ -508,8 +532,12 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("views", &views);
   function("catalogue", &catalogue);
   function("contact", answering<contact>);
+  function("struck", answering<struck>);
+  function("bounce", answering<bounce>);
   function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
   function("suggestion", &suggestion_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
+  emscripten::constant("cueMass", contensou::si::standard_cue_mass);
+  emscripten::constant("largestTipOffset", contensou::si::largest_tip_offset);
 }

@@ -260,6 +260,25 @@ test("a pressure of the reader's own is a law that a link carries, and a file th
   assert.throws(() => lawOfTable(`rho,pressure\n${"0,1\n".repeat(2000)}`), /at most 6000 letters.*--law FILE\.csv/);
 });
 
+test("a cue's stroke follows from the start that it gives", () => {
+  const ball = { gamma: 2.5, masses: 0.3, elevation: 20 };
+  /** By the formulas of si::struck: cue along x, R = 1. */
+  const struck = (speed, right, above, degrees) => {
+    const [cos, sin] = [Math.cos(degrees * Math.PI / 180), Math.sin(degrees * Math.PI / 180)];
+    const impulse = (2 * speed) / (1 + ball.masses + ball.gamma * (right ** 2 + above ** 2));
+    const [vx, wx, wy, wz] = [impulse * cos, ball.gamma * impulse * right * sin, ball.gamma * impulse * above, ball.gamma * impulse * right * cos];
+    const slip = Math.hypot(vx - wy, wx);
+    return startOf(wz, slip, (vx * (vx - wy)) / slip, (-vx * wx) / slip);
+  };
+  for (const stroke of [[2, 0.3, -0.2, 30], [1, -0.4, 0.3, 75], [3, 0.5, 0, 0], [3, 0, -0.5, 20], [3, 0, 0.5, 20]]) {
+    const { speed, right, above, elevation } = strikeOf(struck(...stroke), ball) ?? assert.fail(`${stroke}`);
+    [speed, right, above, elevation].forEach((value, i) => assert.ok(Math.abs(value - stroke[i]) <= 5.1e-5, `${stroke}: ${[speed, right, above, elevation]}`));
+  }
+  assert.equal(strikeOf(startOf(3, 4, 0.9, 0.9), ball), null, "a raised cue turns the ball to the side of its spin");
+  assert.equal(strikeOf(startOf(0, 4, 0.9, 0.9), ball), null);
+  assert.equal(strikeOf(startOf(1, 1, 0, 0), ball), null);
+});
+
 test("a film is handed out with what was found and what is left, angles up to whole turns", () => {
   const columns = { t: [0, 1], slip: [1, 0.5], slip_fitted: [0.75, 0.5], angle: [7, 1], angle_fitted: [7 - 2 * Math.PI, 0.5], note: [1, 2] };
   assert.equal(csvOfFilm(columns), `t,slip,slip_fitted,slip_residual,angle,angle_fitted,angle_residual\n0,1,0.75,0.25,7,${7 - 2 * Math.PI},0\n1,0.5,0.5,0,1,0.5,0.5\n`);

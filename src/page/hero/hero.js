@@ -177,7 +177,7 @@ export class Hero {
     const { mode, store, store: { state: { orbits, chosen, ball }, theme, contact } } = this;
     const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(({ index, across }) => index !== chosen && across === 0);
     return earlier.filter((_, i) => i >= earlier.length - (ghosts[mode] ?? 0)).map((orbit) => {
-      const [far, angle] = [store.farOf(orbit.index), (orbit.heading * Math.PI) / 180];
+      const [far, angle] = [store.farOf(orbit.index), ((orbit.heading + (orbit.along < 0 ? 180 : 0)) * Math.PI) / 180];
       const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
       return { x: far * Math.cos(angle), y: far * Math.sin(angle), words, colour: theme.swatch(orbit.index) };
     });

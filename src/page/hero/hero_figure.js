@@ -23,7 +23,7 @@ const spots = [[0, 0], ...rings, [Math.PI, 0]].map(([tilt, fifths]) => {
 const seen = rotation([-0.7, 0, 0]);
 
 /** A ball with spots, turned by a matrix; a flat body has one mark on its face, seen from above. */
-function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) {
+export function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) {
   surface.shape([[x, y]], { radius, fill: colour, stroke: theme.card, width: 2 });
   if (rolls) {
     const view = product(seen, turn);

@@ -214,6 +214,11 @@ export class Store {
     return this.contact ? `${shown(tau * this.timeFactor, 6)} s  (${inTau})` : inTau;
   }
 
+  /** The real ball that moves, if it can roll. */
+  get roller() {
+    return this.body.chi !== 1 && this.orbit ? this.state.ball : null;
+  }
+
   get theme() {
     return themeOf(this.state.theme);
   }
