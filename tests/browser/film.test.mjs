@@ -276,10 +276,13 @@ test("a film has 60 pictures of 1280 x 720 a second on a machine of any speed, a
   await close();
 });
 
-test("a film of a motion that is changed meanwhile is given up, and one that cannot be written says so", async () => {
+test("a film of a motion that is changed meanwhile is given up, and so is one of no motion", async () => {
   await open("#ball=puck&orbits=2.286,0.5");
   await page.click("#save-film");
   await page.fill("#ball-fields [name=friction]", "0.2");
   await page.waitForFunction(() => /could not be done: the motion was changed/.test(document.getElementById("copied").textContent));
+  await page.click("#orbits .remove");
+  await page.click("#save-film");
+  await page.waitForFunction(() => /could not be done: there is no motion/.test(document.getElementById("copied").textContent));
   await close();
 });

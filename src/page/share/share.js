@@ -75,6 +75,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     save(`${name}.png`, await pngOf(draw, size, pngWidth), "image/png");
   });
   for (const id of ["save-film", "film-line"]) on(id, async () => {
+    if (!store.ride) throw new Error("there is no motion");
     const { key } = hero;
     const draw = (surface, share) => {
       if (hero.key !== key) throw new Error("the motion was changed before its film was made");
