@@ -24,7 +24,7 @@ async function comparesWith(speed, tip, elevation) {
 }
 
 test("the dot is where the tip of a cue hits for this motion; who drags it strikes as the program does", async () => {
-  for (const options of [{}, { viewport: { width: 390, height: 844 } }]) {
+  for (const options of [{}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]) {
     await open("#lab=0", options);
     await page.locator("#presets a", { hasText: "Massé" }).click();
     assert.ok(await page.isVisible("#cue-card") && !(await page.isVisible("#plane-card")) && !(await page.isVisible("#bounce-card")));
@@ -49,6 +49,13 @@ test("the dot is where the tip of a cue hits for this motion; who drags it strik
     for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowLeft");
     await page.keyboard.press("ArrowUp");
     await comparesWith(4, [0.3, 0.05], 0);
+    if (options.hasTouch) {
+      // A finger taps a place of the ball.
+      await page.locator("#cue").scrollIntoViewIfNeeded();
+      const { x, y, width, height } = await page.locator("#cue").boundingBox();
+      await page.touchscreen.tap(x + 0.24 * width, y + height / 2);
+      await comparesWith(4, [0, 0], 0);
+    }
     assert.equal((await state()).orbits.length, 1);
     await close();
   }
