@@ -27,7 +27,7 @@ ADDRESSES = {"Apache-2.0 WITH LLVM-exception": "apache.org/licenses/LICENSE-2.0"
 ARTEFACTS = {  # a file of a release, and its kinds, in the words of "Inside" in THIRD_PARTY.txt
     "contensou_*.deb": {"program", "page"}, "libcontensou-dev_*.deb": {"program"}, "python3-contensou_*.deb": {"python"},
     "contensou-*.zip": {"program", "Windows", "page"}, "contensou-*.whl": {"python"}, "contensou-*.tgz": {"page"},
-    "page.html": {"page"}, "contensou-*.tar.gz": set(),
+    "page.html": {"page"}, "contensou-*.tar.gz": {"sources"},
 }
 
 head, *sections = re.split(r"={78}\n(.*)\n={78}\n", listed)
@@ -51,6 +51,10 @@ def faults_of_sources():
                     yield f"{file.relative_to(root)}: <{include}> belongs to no library of this test"
                 elif found is not None and found not in entries:
                     yield f"{file.relative_to(root)}: <{include}>: THIRD_PARTY.txt has no entry {found}"
+    for file in sorted(root.glob("src/page/*/*.js")):
+        for name in re.findall(r"^/\*! (\S+) ", file.read_text(), re.MULTILINE):
+            if name not in entries:
+                yield f"{file.relative_to(root)}: THIRD_PARTY.txt has no entry {name}"
     for name, (licences, _) in entries.items():
         for each in licences:
             if len(texts.get(each, "")) < 900:

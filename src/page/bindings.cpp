@@ -31,7 +31,9 @@
 #include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
 #include "contensou/reduction/verification.hpp"
+#include "contensou/si/bounce.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/cue_strike.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
@@ -146,18 +148,26 @@ class Plane {
   }
 
   /// Draws the portrait that the program draws for a request, but without the requested orbits, which the page draws.
-  /// The result contains the motion of each requested orbit from start to stop and, for each panel, its line and arrow.
-  /// @param behind  true to draw everything behind these orbits again; false if nothing but these orbits has changed
-  val portrait(const val& asked, bool behind) {
+  val portrait(const val& asked) {
     answers::PortraitSpec question = question_of(asked, flow());
     question.request.drawn_only = true;
     question.style.asked = false;
-    if (!behind) {
-      question.request.orbits = question.request.isochrones = 0;
-      question.request.comparison.reset();
-    }
     const portraits::PhasePortrait portrait = question.portrait();
-    if (behind) drawn_ = question.mapped_figure(portrait);
+    drawn_ = question.mapped_figure(portrait);
+    const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
+    return object("through", list(question.request.through, point), "window",
+                  list(std::array{portrait.window.u(), portrait.window.v()}, [](double side) { return val(side); }),
+                  "figure", figure_value(drawn_.figure));
+  }
+
+  /// Returns the motion of each requested orbit from start to stop and, for each panel of the last portrait, its line
+  /// and arrow.
+  val own(const val& asked) const {
+    answers::PortraitSpec question = question_of(asked, flow());
+    question.request.drawn_only = true;
+    question.request.orbits = question.request.isochrones = 0;
+    question.request.comparison.reset();
+    const portraits::PhasePortrait portrait = question.portrait();
     val own = val::array();
     auto through = portrait.through.begin();
     for (const State& start : states_of(asked["orbits"])) {
@@ -168,12 +178,7 @@ class Plane {
                                                                                     : &*through++;
       own.set(index, own_orbit(start, orbit, portrait.window));
     }
-    const auto point = [](const State& state) { return object("u", state.u, "v", state.v); };
-    val result =
-        object("own", own, "through", list(question.request.through, point), "window",
-               list(std::array{portrait.window.u(), portrait.window.v()}, [](double side) { return val(side); }));
-    if (behind) result.set("figure", figure_value(drawn_.figure));
-    return result;
+    return own;
   }
 
   /// Returns the TeX file that the program writes for a request.
@@ -401,6 +406,28 @@ std::string law_name(const std::string& called) {
   return called.starts_with(table_of_pressure) ? called : law.name();
 }
 
+/// Returns the start (start_value) that a stroke with a cue gives to a ball.
+/// @param elevation  degrees; the others as in si::CueStrike
+val struck(const val& fields, double speed, double right, double above, double elevation) {
+  si::Experiment experiment = experiment_of(fields);
+  experiment.start =
+      si::struck(experiment.ball,
+                 {.speed = speed, .right = right, .above = above, .elevation = elevation * (std::numbers::pi / 180)});
+  return start_value(experiment);
+}
+
+/// Returns the rebound of a ball that falls from a height in m with the motion of its start: {down, up: normal speeds,
+/// before, after: speeds along the floor, in m/s}.
+/// @param as_built  true for the patch of the catalogue, which by Hertz's formula depends on the impact
+val bounce(const std::string& law, const val& fields, bool as_built, double height, double restitution) {
+  si::Experiment experiment = experiment_of(fields);
+  if (as_built) experiment.contact.patch = si::find_ball(fields["name"].as<std::string>())->experiment.contact.patch;
+  const si::Impact impact{si::drop_speed(height, experiment.environment.gravity), restitution};
+  const si::Velocities after = si::bounce(experiment, law_of(law), impact).velocities;
+  return object("down", impact.normal_speed, "up", restitution * impact.normal_speed, "before",
+                si::velocities_of(experiment.start).velocity.norm(), "after", after.velocity.norm());
+}
+
 /// Returns {name, chi, gamma} of each body, and `mu` if the body fixes it.
 val bodies() {
   return list(si::bodies(), [](const si::Body& body) {
@@ -486,6 +513,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .constructor<>()
       .function("choose", answering<&Plane::choose>)
       .function("portrait", answering<&Plane::portrait>)
+      .function("own", answering<&Plane::own>)
       .function("portraitFile", answering<&Plane::portrait_file>)
       .function("stop", answering<&Plane::stop>)
       .function("stopBy", answering<&Plane::stop_by>)
@@ -504,8 +532,12 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("views", &views);
   function("catalogue", &catalogue);
   function("contact", answering<contact>);
+  function("struck", answering<struck>);
+  function("bounce", answering<bounce>);
   function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
   function("suggestion", &suggestion_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
+  emscripten::constant("cueMass", contensou::si::standard_cue_mass);
+  emscripten::constant("largestTipOffset", contensou::si::largest_tip_offset);
 }

@@ -17,9 +17,9 @@ namespace contensou::page {
 
 namespace {
 
-/// Returns the fit of the best law: {report, notes about columns that are not read, law, friction, patch, slip, spin,
-/// velocityX and velocityY of the centre along and across the slip, measured: {t, and for each observable of the film
-/// its column, and with _fitted the column of the fitted motion}, figure of `contensou fit`}.
+/// Returns the fit of the best law: {report, notes about columns that are not read, law, friction, patch, start
+/// (start_value), measured: {t, and for each observable of the film its column, and with _fitted the column of the
+/// fitted motion}, figure of `contensou fit`}.
 /// @param laws  list of names of laws
 val fit(const std::string& text, const std::string& name, const val& ball, const val& laws) {
   si::Experiment experiment = experiment_of(ball);
@@ -33,9 +33,6 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
   request.tracks.push_back(
       answers::read_track(table, name, {}, [&](const std::string& note) { notes += note + "\n"; }));
   const std::vector<fit::Fit> fits = fit::fit_laws(request, tried);
-  const auto& start = fits.front().ball;
-  const Eigen::Vector2d slip = si::slip_velocity_at_start(start), velocity = si::velocities_of(start.start).velocity;
-  const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
   const fit::Track& track = request.tracks.front();
   val measured = object("t", Eigen::ArrayXd(track.t - track.start));
   for (std::size_t i = 0; i < track.series.size(); ++i) {
@@ -45,9 +42,8 @@ val fit(const std::string& text, const std::string& name, const val& ball, const
   }
   const auto value = [&](fit::Parameter parameter) { return fits.front().estimate(parameter).value; };
   return object("notes", notes, "report", answers::report_on(fits, request.tracks, false, {6}), "law", fits.front().law,
-                "friction", value(fit::Parameter::friction), "patch", value(fit::Parameter::patch_radius), "slip",
-                slip.norm(), "spin", si::spin_at_start(start), "velocityX", velocity.dot(along), "velocityY",
-                along.x() * velocity.y() - along.y() * velocity.x(), "measured", measured, "figure",
+                "friction", value(fit::Parameter::friction), "patch", value(fit::Parameter::patch_radius), "start",
+                start_value(fits.front().ball), "measured", measured, "figure",
                 figure_value(answers::fit_figure(fits.front(), tried, request.tracks, {.width_mm = 120})));
 }
 

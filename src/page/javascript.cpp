@@ -155,6 +155,14 @@ val column(const std::vector<Polyline>& lines) {
   return column(numbers);
 }
 
+val start_value(const si::Experiment& experiment) {
+  const Eigen::Vector2d slip = si::slip_velocity_at_start(experiment);
+  const Eigen::Vector2d velocity = si::velocities_of(experiment.start).velocity;
+  const Eigen::Vector2d along = slip.norm() > 0 ? Eigen::Vector2d(slip.normalized()) : Eigen::Vector2d(1, 0);
+  return object("slip", slip.norm(), "spin", si::spin_at_start(experiment), "along", velocity.dot(along), "across",
+                along.x() * velocity.y() - along.y() * velocity.x());
+}
+
 val text_value(const portraits::Text& text) {
   return list(text.runs(), [](const portraits::Run& run) {
     return object("words", portraits::with_minus_signs(run.words), "italic", run.italic, "level", run.level);

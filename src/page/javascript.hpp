@@ -62,6 +62,10 @@ reduction::Law law_of(const std::string& name);
 /// Returns the experiment that has the given fields: a body, and quantities (si/quantity.hpp) by name, in SI units.
 si::Experiment experiment_of(const val& fields);
 
+/// Returns the start of an experiment: {slip, spin, along, across}, the latter the velocity of the centre along the
+/// slip and to the left of it.
+val start_value(const si::Experiment& experiment);
+
 /// Returns numbers as a Float64Array.
 template <class Numbers>
 val column(const Numbers& values) {

@@ -1,5 +1,8 @@
 // The page: what the reader does changes the state, and the state is drawn.
 import { Address } from "./state/address.js";
+import { makeBounce } from "./cards/bounce.js";
+import { makeCue } from "./cards/cue.js";
+import { makeControls } from "./controls/fields.js";
 import { makeSettings } from "./controls/settings.js";
 import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
@@ -31,20 +34,23 @@ function start(library) {
   const player = new Player(store);
   const hero = new Hero(store, player);
   const plane = new Plane(store);
-  makeSettings(store, plane);
+  const controls = makeControls(store);
+  makeSettings(controls, store, plane);
+  makeCue(store, controls, player);
+  const bounce = makeBounce(store, controls);
   makeOrbits(store, plane);
   const address = new Address(store);
   makeShare(store, { plane, hero, player, address, film: makeFilm(store, player) });
-  const go = (fragment, step = 0, done = () => player.begin()) => store.ask((state) => {
+  const go = (fragment, done = () => player.begin()) => store.ask((state) => {
     const { theme, embed, lab } = state;
-    Object.assign(state, fromFragment(fragment, library), { step, theme, embed, lab });
+    Object.assign(state, fromFragment(fragment, library), { theme, embed, lab });
   }, done);
   // The question again, and the game: its tries begin at the puck of the opening.
-  const toLine = (line) => go(`ball=puck&orbits=2.286,0.5&line=${line}`, 0, () => {
+  const toLine = (line) => go(`ball=puck&orbits=2.286,0.5&line=${line}`, () => {
     player.toggle(false);
     $("lanes").focus();
   });
-  $("again").addEventListener("click", () => go("", 0, () => hero.ask()));
+  $("again").addEventListener("click", () => go("", () => hero.ask()));
   $("to-line").addEventListener("click", () => toLine(lines[0]));
   $("next-line").addEventListener("click", () => toLine(lines[(lines.indexOf(store.state.line) + 1) % lines.length]));
   makeTour(store, go);
@@ -60,6 +66,7 @@ function start(library) {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
     hero.draw();
+    bounce.drawInSight();
     paneSurface.drawInSight();
     copies.drawInSight();
     player.show();

@@ -19,13 +19,13 @@ interface State {
   law: string; body: string; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number; line: number;
+  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number; line: number; drop: number; restitution: number;
 }
 
 interface Ball {
   name: string; title: string; body: string; law: string; sources: string; patchBy: string;
   radius: number; mass: number; friction: number; gravity: number; patch: number;
-  slip: number; spin: number; rollingFriction: number; slope: number;
+  slip: number; spin: number; rollingFriction: number; slope: number; initial?: Ball;
 }
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
@@ -44,6 +44,8 @@ interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: F
 interface Instant extends Speeds { tau: number; k: number; force: number; places: Float64Array }
 /** SI: when it has ended, the path of the centre until then, and by how many degrees it has turned; when slip and spin have ended. */
 interface Slide { end: number; path: number; turned: number; stop: number }
+/** SI: normal speeds, and speeds along the floor. */
+interface Rebound { down: number; up: number; before: number; after: number }
 /** Columns, SI. */
 interface Ride {
   t: Float64Array; x: Float64Array; y: Float64Array; vx: Float64Array; vy: Float64Array; wx: Float64Array; wy: Float64Array; wz: Float64Array;
@@ -72,11 +74,14 @@ interface Layout {
   legend: { legend: Words; x: number; y: number; width: number }[]; colours: Box[];
 }
 interface Box { left: number; top: number; width: number; height: number }
-interface Portrait { figure: Figure; window: [number, number]; own: OwnOrbit[]; through: Speeds[] }
+interface Portrait { figure: Figure; window: [number, number]; through: Speeds[] }
 
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
+  cueMass: number; largestTipOffset: number;
   contact(law: string, ball: object): Contact;
+  struck(ball: object, speed: number, right: number, above: number, elevation: number): BallStart;
+  bounce(law: string, ball: object, asBuilt: boolean, height: number, restitution: number): Rebound;
   fit(film: string, name: string, ball: object, laws: string[]): Fitted;
   lawName(called: string): string;
   layOut(figure: Figure, width: number, height: number, letter: number): Layout;
@@ -85,10 +90,13 @@ interface Library {
 /** The name of the ball, and columns in SI units: t, of each observable of the film what was measured and, with _fitted, what was found. */
 type Columns = Record<string, Float64Array>;
 interface Measured { ball: string; columns: Columns }
-interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; slip: number; spin: number; velocityX: number; velocityY: number; figure: Figure }
+/** SI: slip, spin, and the velocity of the centre along the slip and to the left of it. */
+interface BallStart { slip: number; spin: number; along: number; across: number }
+interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; start: BallStart; figure: Figure }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
-  portrait(request: PortraitRequest, behind: boolean): Portrait;
+  portrait(request: PortraitRequest): Portrait;
+  own(request: PortraitRequest): OwnOrbit[];
   portraitFile(request: PortraitRequest): string;
   stop(u: number, v: number): number;
   stopBy(law: string, mu: number, u: number, v: number): number;

@@ -17,7 +17,7 @@ async function pull(...steps) {
 /** Of the chosen motion and of what the pull has left behind: the start, the stop, and v over its start in parts of the time. */
 const curves = () => page.evaluate(() => {
   const { plane: { copies }, store: { orbit, motion }, library: { plane } } = globalThis.page;
-  return [{ ...orbit, stop: motion.stop }, ...copies.ghosts].map(({ u, v, stop }) =>
+  return [{ ...orbit, stop: motion.stop }, ...copies.ghosts.map(({ start, stop }) => ({ ...start, stop }))].map(({ u, v, stop }) =>
     ({ u, v, stop, shares: [0.2, 0.5, 0.9].map((part) => plane.instant(u, v, part * stop).v / v) }));
 });
 const picture = () => page.evaluate(() => document.getElementById("copies").toDataURL());

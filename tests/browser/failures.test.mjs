@@ -69,18 +69,20 @@ test("what no code of ours throws is said to be our fault, with the link that wa
 test("what fails is said beside the buttons, and no promise is left unhandled", async () => {
   const failing = () => {
     HTMLCanvasElement.prototype.toBlob = (done) => done(null);
-    globalThis.MediaRecorder = class {
-      static isTypeSupported = () => globalThis.takesFilms;
-      constructor() {
+    globalThis.VideoEncoder = class {
+      static isConfigSupported = async () => ({ supported: globalThis.takesFilms });
+      state = "unconfigured";
+      configure() {
         throw new DOMException("no such film", "NotSupportedError");
       }
+      close() {}
     };
     Object.defineProperty(navigator, "clipboard", { value: { writeText: () => Promise.reject(new Error("denied")) } });
     globalThis.unhandled = [];
     addEventListener("unhandledrejection", ({ reason }) => globalThis.unhandled.push(String(reason)));
   };
   await open("", {}, true, failing);
-  for (const [takes, button, words] of [[false, "#save-film", /cannot record films/], [true, "#save-film", /no such film/], [true, "#save-png", /cannot draw \d+ × \d+ pixels/]]) {
+  for (const [takes, button, words] of [[false, "#save-film", /cannot write films/], [true, "#save-film", /no such film/], [true, "#save-png", /cannot draw \d+ × \d+ pixels/]]) {
     await page.evaluate((takes) => (globalThis.takesFilms = takes), takes);
     await page.click(button);
     await page.waitForFunction((words) => new RegExp(words).test(document.getElementById("copied").textContent), words.source);

@@ -218,3 +218,71 @@ test("points and residuals of a film are handed out, with what was fitted", asyn
   }
   await close();
 });
+
+/** The boxes of an MP4 that say how long it is, and how large. */
+function readFilm(film) {
+  const at = (name) => film.indexOf(name) + 4;
+  const [size, times, head] = [at("stsz"), at("stts"), at("mdhd")];
+  const track = at("tkhd");
+  return {
+    kind: film.subarray(4, 8).toString(), pictures: film.readUInt32BE(size + 8), runs: film.readUInt32BE(times + 4),
+    rate: film.readUInt32BE(head + 12) / film.readUInt32BE(times + 12), seconds: film.readUInt32BE(head + 16) / film.readUInt32BE(head + 12),
+    sides: [76, 80].map((offset) => film.readUInt32BE(track + offset) / 65536),
+  };
+}
+
+test("a film has 60 pictures of 1280 x 720 a second on a machine of any speed, and plays", async () => {
+  await open("#ball=puck&orbits=2.286,0.5;4.53,0.5&chosen=1&line=1");
+  const client = await page.context().newCDPSession(page);
+  const seconds = await page.evaluate(() => globalThis.page.player.seconds) + 2;
+  const films = [];
+  for (const rate of [1, 6]) {
+    await client.send("Emulation.setCPUThrottlingRate", { rate });
+    const film = await saved("#save-film");
+    assert.deepEqual(readFilm(film), { kind: "ftyp", pictures: 60 * seconds, runs: 1, rate: 60, seconds, sides: [1280, 720] });
+    films.push(film);
+  }
+  assert.match(await page.textContent("#copied"), /The film is saved/);
+  await client.send("Emulation.setCPUThrottlingRate", { rate: 1 });
+  assert.equal((await state()).fraction, 1, "the page stays where it was");
+  // Its head says what is to be seen, and where it comes from; the puck moves below.
+  const seen = await page.evaluate(async (text) => {
+    const video = document.createElement("video");
+    video.src = URL.createObjectURL(new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], { type: "video/mp4" }));
+    const once = (name) => new Promise((done, failed) => {
+      video.addEventListener(name, done, { once: true });
+      video.addEventListener("error", () => failed(new Error(video.error.message)), { once: true });
+    });
+    await Promise.all([once("canplay"), (video.muted = true)]);
+    const canvas = Object.assign(document.createElement("canvas"), { width: video.videoWidth, height: video.videoHeight });
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    const pictures = [];
+    for (const time of [0.01, video.duration / 3, video.duration - 0.1]) {
+      video.currentTime = time;
+      await once("seeked");
+      context.drawImage(video, 0, 0);
+      const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+      const inked = (from, to) => Array.from({ length: canvas.width * (to - from) }, (_, i) => 4 * (canvas.width * from + i)).filter((i) => Math.abs(data[i] - data[0]) > 60);
+      const bodies = inked(130, canvas.height - 60).map((i) => (i / 4) % canvas.width);
+      pictures.push({ head: inked(10, 70).length, foot: inked(76, 110).length, furthest: Math.max(...bodies), url: canvas.toDataURL() });
+    }
+    return { duration: video.duration, sides: [video.videoWidth, video.videoHeight], pictures };
+  }, films[0].toString("base64"));
+  assert.deepEqual([seen.duration, seen.sides], [seconds, [1280, 720]]);
+  if (process.env.CONTENSOU_PICTURES) seen.pictures.forEach(({ url }, i) => writeFileSync(join(process.env.CONTENSOU_PICTURES, `film-${i}.png`), Buffer.from(url.split(",")[1], "base64")));
+  const [first, , last] = seen.pictures;
+  for (const { head, foot } of seen.pictures) assert.ok(head > 800 && foot > 800, `${head} and ${foot} pixels of words`);
+  assert.notEqual(first.head, last.head, "the headline turns at the end");
+  await close();
+});
+
+test("a film of a motion that is changed meanwhile is given up, and so is one of no motion", async () => {
+  await open("#ball=puck&orbits=2.286,0.5");
+  await page.click("#save-film");
+  await page.fill("#ball-fields [name=friction]", "0.2");
+  await page.waitForFunction(() => /could not be done: the motion was changed/.test(document.getElementById("copied").textContent));
+  await page.click("#orbits .remove");
+  await page.click("#save-film");
+  await page.waitForFunction(() => /could not be done: there is no motion/.test(document.getElementById("copied").textContent));
+  await close();
+});

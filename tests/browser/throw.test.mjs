@@ -286,7 +286,7 @@ test("the last throws stay on the table where they ended", async () => {
 test("each preset says in one sentence what is to be seen, with numbers that are the page's", async () => {
   await open();
   const links = await page.$$("#presets a");
-  assert.equal(links.length, 6);
+  assert.equal(links.length, 7);
   for (const link of links) {
     await link.click();
     assert.equal(await link.getAttribute("aria-current"), "true");
@@ -296,7 +296,7 @@ test("each preset says in one sentence what is to be seen, with numbers that are
     const unit = real ? "m" : "";
     const times = own.path / plain.path;
     const known = [length(own.path, unit), length(plain.path, unit), `${shown(times, 2)} times as far`, `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second`,
-      `${shown(slip, 3)} m/s`, `${shown(Math.abs(own.turned), 2)}°`, ...[own.end, plain.end, stop, turningAlone].map((t) => duration(t, "s"))];
+      `${shown(slip, 3)} m/s`, `${shown(Math.abs(own.turned), 2)}°`, ...(await page.textContent("#bounce-says")).match(/[\d.]+°/g) ?? [], ...[own.end, plain.end, stop, turningAlone].map((t) => duration(t, "s"))];
     const numbers = says.match(/[\d.]*\d(°| times (as far|a second)| mm?(\/s)?\b| s\b)/g);
     assert.ok(numbers.length > 0, says);
     for (const number of numbers) assert.ok(known.includes(number), `'${number}' of '${says}' is none of ${known.join(", ")}`);

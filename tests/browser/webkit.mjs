@@ -53,9 +53,10 @@ try {
   const start = await run("const { plane: { frames: [frame] }, store: { orbit }, library } = globalThis.page; return frame.pixel(library.plane.place(orbit.u, orbit.v));");
   await pull("plane", start, [-20, 20], [-40, 40]);
   assert.ok(await run("return globalThis.page.store.orbit.u") < spin);
-  const takes = await run("return Boolean(globalThis.MediaRecorder?.isTypeSupported('video/mp4') || globalThis.MediaRecorder?.isTypeSupported('video/webm'))");
-  assert.match(await run("document.getElementById('save-film').click(); return document.getElementById('copied').textContent"), takes ? /Recording the film/ : /cannot record films/);
-  assert.match(await run("document.querySelector('#presets a:nth-child(5)').click(); return document.getElementById('headline').textContent"), /curves by 60°/);
+  await run("document.getElementById('save-film').click()");
+  await new Promise((passed) => setTimeout(passed, 3000));
+  assert.match(await run("return document.getElementById('copied').textContent"), /Film: \d+ % is made|cannot write films|The film is saved/);
+  assert.match(await run("document.querySelector('#presets a:nth-child(4)').click(); return document.getElementById('headline').textContent"), /curves by 60°/);
   const law = "phi = k/(1 + k); psi = a/(1 + k); a = 0.5";
   assert.equal(await run(`const field = document.getElementById("formulas"); field.value = "${law}"; field.dispatchEvent(new Event("change")); return globalThis.page.state.law;`), law);
   await ask(`/${sessionId}`, undefined, "DELETE");

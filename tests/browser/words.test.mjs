@@ -112,7 +112,8 @@ test("at each step of the tour the text says what the headline and the numbers s
     const motion = plane.motion(orbits[0].u, orbits[0].v);
     const lost = motion.lnV.findIndex((lnV) => lnV < -300 * Math.LN10);
     return { text, headline: document.getElementById("headline").textContent, story: document.getElementById("story").textContent, times: own.path / plain.path,
-      stop: own.stop, end: own.end, orbits, stops: motions.map(({ stop }) => stop), spinWhereLost: motion.u[lost] / orbits[0].u };
+      stop: own.stop, end: own.end, orbits, bounce: Array.from(document.getElementById("bounce-says").textContent.matchAll(/([\d.]+)°/g), ([, angle]) => Number(angle)), cue: document.getElementById("cue-says").textContent,
+      stops: motions.map(({ stop }) => stop), spinWhereLost: motion.u[lost] / orbits[0].u };
   });
   const wanted = [
     [/Only a small part of the friction then slows the sliding/, /^Spin a puck, and it slides 4 times as far$/, ({ times }) => times > 3],
@@ -122,6 +123,8 @@ test("at each step of the tour the text says what the headline and the numbers s
     [/a little spin hardly matters: this pool ball slides (.*) farther than textbooks predict\. It still spins long after it has begun to roll/, /^This ball soon rolls, and keeps spinning$/,
       ({ times, stop, end, story, text }) => times < 1.05 && stop > 5 * end && story.includes(`${/slides (.*) farther/.exec(text)[1]} farther`)],
     [/below 10⁻³⁰⁰ long before the spin is gone/, /^This ball soon rolls, and keeps spinning$/, ({ spinWhereLost }) => spinWhereLost > 0.3],
+    [/the ball that spins keeps more of its speed, and leaves at another angle/, /times as far$/, ({ bounce: [own, plain] }) => own > plain + 5],
+    [/If the butt is raised, too, the path curves/, /^The path of this ball curves by 60°$/, ({ cue }) => /0\.4 radii right .* 0\.3 radii below/.test(cue)],
   ];
   await open();
   for (const [step, [text, headline, holds]] of wanted.entries()) {
@@ -137,7 +140,7 @@ test("at each step of the tour the text says what the headline and the numbers s
 
 test("every preset says what is to be seen", async () => {
   await open();
-  const wanted = { "Puck": /4 times/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bowling hook": /curves by 6/, "Curling stone": /stone slides hardly farther/ };
+  const wanted = { "Puck": /4 times/, "Gel ball": /19 times/, "Pool ball": /1\.9 times/, "Massé": /curves by 60°/, "Bounce": /slides 18 times as far/, "Bowling hook": /curves by 6/, "Curling stone": /stone slides hardly farther/ };
   for (const link of await page.$$("#presets a")) {
     await link.click();
     assert.match(await page.textContent("#headline"), wanted[await link.textContent()]);
@@ -153,7 +156,7 @@ test("numbers of any size are answered in the page's words", async () => {
     if (/::|nan\b|NaN|undefined/.test(words.replace("is not a finite number", ""))) wrong.push(`${what}: ${words}`);
   };
   const values = ["1e-308", "1e308", "1e-9", "1e9", "0", "-1"];
-  const fields = ["radius", "mass", "friction", "gravity", "patch", "along", "across", "rollingFriction"];
+  const fields = ["radius", "mass", "friction", "gravity", "patch", "rollingFriction"];
   for (const field of fields) {
     const usual = await page.inputValue(`#ball-fields [name=${field}]`);
     for (const value of values) {

@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/plane/command_line.js";
-import { citation, csvOfFilm, csvOfOrbits, csvOfRide, filmType } from "../../src/page/share/exports.js";
+import { citation, csvOfFilm, csvOfOrbits, csvOfRide } from "../../src/page/share/exports.js";
+import { strikeOf } from "../../src/page/cards/cue.js";
 import { sizeOf } from "../../src/page/plane/copies.js";
 import { panelsOf } from "../../src/page/plane/copies_figure.js";
 import { drawLanes } from "../../src/page/hero/hero_figure.js";
@@ -158,16 +159,6 @@ test("numbers from which nothing can follow are refused in the words of the othe
   assert.deepEqual([fromFragment("mu=1e-308", known).mu, fromFragment("body=1e308,1", known).body], [0.3, "ball"]);
 });
 
-test("a film is MP4 where the browser takes it, else WebM, else none", () => {
-  const before = globalThis.MediaRecorder;
-  for (const [taken, wanted] of [[/./, /^video\/mp4/], [/webm/, /^video\/webm$/], [/none/, undefined]]) {
-    globalThis.MediaRecorder = /** @type {any} */ ({ isTypeSupported: (type) => taken.test(type) });
-    if (wanted) assert.match(filmType(), wanted);
-    else assert.equal(filmType(), undefined);
-  }
-  globalThis.MediaRecorder = before;
-});
-
 /** A gel ball that leaves at 0.5 m/s, or what differs from it. */
 const facts = (other = {}) => ({
   name: "gel ball", real: true, rolls: true, slip: 0.5, spin: 300, along: other.slip ?? 0.5, across: 0, least: 0.001, stop: 5.17,
@@ -267,6 +258,25 @@ test("a pressure of the reader's own is a law that a link carries, and a file th
   assert.deepEqual(["table:rho,pressure\n0,1\n1,0", "pade"].map(tableOfLaw), ["rho,pressure\n0,1\n1,0\n", null]);
   assert.deepEqual(["table:rho,pressure\n0,1", "pade", null].map(lawTitle), ["pressure.csv", "pade", null]);
   assert.throws(() => lawOfTable(`rho,pressure\n${"0,1\n".repeat(2000)}`), /at most 6000 letters.*--law FILE\.csv/);
+});
+
+test("a cue's stroke follows from the start that it gives", () => {
+  const ball = { gamma: 2.5, masses: 0.3, elevation: 20 };
+  /** By the formulas of si::struck: cue along x, R = 1. */
+  const struck = (speed, right, above, degrees) => {
+    const [cos, sin] = [Math.cos(degrees * Math.PI / 180), Math.sin(degrees * Math.PI / 180)];
+    const impulse = (2 * speed) / (1 + ball.masses + ball.gamma * (right ** 2 + above ** 2));
+    const [vx, wx, wy, wz] = [impulse * cos, ball.gamma * impulse * right * sin, ball.gamma * impulse * above, ball.gamma * impulse * right * cos];
+    const slip = Math.hypot(vx - wy, wx);
+    return startOf(wz, slip, (vx * (vx - wy)) / slip, (-vx * wx) / slip);
+  };
+  for (const stroke of [[2, 0.3, -0.2, 30], [1, -0.4, 0.3, 75], [3, 0.5, 0, 0], [3, 0, -0.5, 20], [3, 0, 0.5, 20]]) {
+    const { speed, right, above, elevation } = strikeOf(struck(...stroke), ball) ?? assert.fail(`${stroke}`);
+    [speed, right, above, elevation].forEach((value, i) => assert.ok(Math.abs(value - stroke[i]) <= 5.1e-5, `${stroke}: ${[speed, right, above, elevation]}`));
+  }
+  assert.equal(strikeOf(startOf(3, 4, 0.9, 0.9), ball), null, "a raised cue turns the ball to the side of its spin");
+  assert.equal(strikeOf(startOf(0, 4, 0.9, 0.9), ball), null);
+  assert.equal(strikeOf(startOf(1, 1, 0, 0), ball), null);
 });
 
 test("a film is handed out with what was found and what is left, angles up to whole turns", () => {

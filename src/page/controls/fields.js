@@ -101,14 +101,15 @@ export function makeControls(store) {
      *
      * @param of  (store): {share of its length, text, perhaps spoken and disabled}; hidden where there is none
      * @param edit  (state, share)
+     * @param parent  of the element around it
      * @returns the element around it, and that of its text
      */
-    slider(name, label, of, edit) {
+    slider(name, label, of, edit, parent = $("sliders")) {
       const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
       const output = make("output", { htmlFor: input.id });
       const title = make("label", { htmlFor: input.id, textContent: label });
       const all = make("div", { className: "slider", id: `${name}-control` }, title, output, input);
-      $("sliders").append(all);
+      parent.append(all);
       input.addEventListener("input", () => store.ask((state) => edit(state, Number(input.value) / 1000)));
       forgiveTouches(input);
       store.shows.push(() => {

@@ -1,6 +1,6 @@
 // What moves, and on what: ball, body and law, what the plane shows, the sliders, and the card of a real ball.
 import { $, isStill, make, write } from "../dom.js";
-import { choiceButtons, makeControls, numberField } from "./fields.js";
+import { choiceButtons, numberField } from "./fields.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
 import { isDark } from "../drawing/theme.js";
 import { shown } from "../numbers.js";
@@ -14,8 +14,7 @@ const fieldTitles = { none: "none", motion: "motion (2.6)" };
 const patchTitles = { patch_radius: "radius ε (m)", spin_deceleration: "spin deceleration (rad/s²)", whole_face: "whole face" };
 const ballLabels = {
   radius: "radius R (m)", mass: "mass m (kg)", friction: "friction f", gravity: "gravity g (m/s²)", patchBy: "patch given by",
-  patch: "patch", along: "centre, along the slip (m/s)", across: "centre, across the slip (m/s)", rollingFriction: "rolling friction (pool: 0.01)",
-  slope: "slope (degrees; downhill < 0)",
+  patch: "patch", rollingFriction: "rolling friction (pool: 0.01)", slope: "slope (degrees; downhill < 0)",
 };
 
 const smallestMu = 1e-3;
@@ -25,9 +24,8 @@ const muToShare = (mu) => 1 - Math.log(mu) / Math.log(smallestMu);
 const round = (value) => Number(value.toPrecision(3));
 const radiusOf = ({ ball }) => ball?.radius ?? 1;
 
-/** @param {Store} store @param {Plane} plane */
-export function makeSettings(store, plane) {
-  const controls = makeControls(store);
+/** @param {Controls} controls @param {Store} store @param {Plane} plane */
+export function makeSettings(controls, store, plane) {
   makeChoices(controls, store, plane);
   makeSliders(controls, store, plane);
   makeBallCard(controls, store);
@@ -149,19 +147,17 @@ function makeSliders(controls, store, plane) {
 
 /** @param {Controls} controls @param {Store} store */
 function makeBallCard(controls, store) {
-  /** The ball, or of what the chosen orbit owns the orbit, if there is one. */
-  const ownerOf = (key, { ball, orbits, chosen }) => (key in ball ? ball : orbits[chosen]);
   const isHidden = (key, { state: { ball }, body }) =>
-    !ball || (key === "patch" && ball.patchBy === "whole_face") || (/^(along|across|rolling)/.test(key) && body.chi === 1);
+    !ball || (key === "patch" && ball.patchBy === "whole_face") || (key === "rollingFriction" && body.chi === 1);
   // The link has all digits.
   const fewDigits = (value) => value && Number(value.toPrecision(6));
   const patchBy = make("select", { id: "patch-by" });
   for (const [key, label] of Object.entries(ballLabels)) {
     if (key === "patchBy") $("ball-fields").append(make("label", {}, label, patchBy));
-    else controls.number($("ball-fields"), key, label, (store) => (isHidden(key, store) ? undefined : fewDigits(ownerOf(key, store.state)?.[key])), (state, value) => {
+    else controls.number($("ball-fields"), key, label, (store) => (isHidden(key, store) ? undefined : fewDigits(store.state.ball?.[key])), (state, value) => {
       // The spin in rad/s stays.
       if (key === "radius") for (const orbit of state.orbits) orbit.u *= value / state.ball.radius;
-      ownerOf(key, state)[key] = value;
+      state.ball[key] = value;
     });
   }
   controls.choose("patch-by", patchTitles, ({ ball }) => ball?.patchBy ?? "", (state, by) => {

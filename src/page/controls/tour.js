@@ -4,18 +4,18 @@ import { tour } from "../state/presets.js";
 
 const pause = 120;  // ms
 
-/** @param {Store} store @param go  called with the fragment of a step, and its number */
+/** @param {Store} store @param go  called with the fragment of a step */
 export function makeTour(store, go) {
   const [list, back, on] = ["steps", "step-back", "step-on"].map($);
   let [at, timer] = [0, 0];
-  const to = (step) => list.scrollTo({ left: step * list.clientWidth, behavior: isStill() ? "instant" : "smooth" });
+  const to = (step, /** @type {ScrollBehavior} */ behavior = isStill() ? "instant" : "smooth") => list.scrollTo({ left: step * list.clientWidth, behavior });
   const item = ({ title, text }, i) => make("li", {}, make("h3", { textContent: `${i + 1}. ${title}` }), make("p", { textContent: text }));
   list.append(...tour.map(item));
   list.addEventListener("scroll", () => {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const step = Math.round(list.scrollLeft / list.clientWidth);
-      if (step !== at && tour[step]) go(tour[step].fragment, step);
+      if (step !== at && tour[step]) go(`${tour[step].fragment}&step=${(at = step)}`);
     }, pause);
   });
   back.addEventListener("click", () => to(at - 1));
@@ -23,6 +23,7 @@ export function makeTour(store, go) {
   store.shows.push(({ step }) => {
     back.disabled = step === 0;
     on.disabled = step >= tour.length - 1;
-    if (step !== at) to(at = step);
+    // On a slow machine a long way takes pauses, in which a step on the way would be shown.
+    if (step !== at) to(at = step, "instant");
   });
 }

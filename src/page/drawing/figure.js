@@ -64,7 +64,7 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
 /**
  * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array | null}} Drawn  start: x and y in each panel
  * @param {{figure: Figure, own: Drawn[], isochrone: Float64Array[] | null, marker: {places: Float64Array, index: number} | null,
- *   cross: {panel: number, x: number, y: number} | null, ghosts: {lines: Float64Array[]}[]}} scene  ghosts: of a pull
+ *   cross: {panel: number, x: number, y: number} | null, ghosts: OwnOrbit[]}} scene  ghosts: of a pull
  * @returns {Frame[]} of the panels
  */
 export function drawPortrait(surface, scene, store) {
@@ -148,7 +148,7 @@ function drawMarks(surface, figure, { shape, colour, size }, points) {
 
 /** The orbits of the reader and the isochrone that is dragged. */
 function drawOwn(surface, { figure, own, isochrone, ghosts }, panel, frame, theme) {
-  for (const { lines } of ghosts) surface.shape(frame.lines(lines[panel]), { stroke: `${theme.swatch(own.at(-1)?.index ?? 0)}99`, width: 2 });
+  for (const { panels } of ghosts) surface.shape(frame.lines(panels[panel].line), { stroke: `${theme.swatch(own.at(-1)?.index ?? 0)}99`, width: 2 });
   if (isochrone) surface.shape(frame.lines(isochrone[panel]), { stroke: figure.ink, width: 2, dash: [2, 3] });
   for (const { panels, index, chosen, start } of own) {
     const lines = frame.lines(panels[panel].line);

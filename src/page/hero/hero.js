@@ -4,10 +4,10 @@ import { drawLanes, drawPatch } from "./hero_figure.js";
 import { duration, length, shown } from "../numbers.js";
 import { answers, factsOf, goal, judged, nothing, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
-import { borderOf, CanvasSurface, widthOf } from "../drawing/surface.js";
+import { borderOf, widthOf } from "../drawing/surface.js";
 import { product, rideOn, rotation } from "./turning.js";
 
-const titleLines = 3.8;  // of a film, in sizes of the text
+const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // of a picture 640 pixels wide: sizes of words, height of the head, its rim
 const turning = 20;      // s that the body turns in place while the reader is asked
 const ghosts = { game: 8, "": 3 };  // earlier throws that stay on the table
 export const reach = 0.02;  // m by which a throw may miss the line
@@ -25,8 +25,6 @@ export class Hero {
   ring = null;
   /** @type {{key: string, guess: string, ended: boolean, turn: number} | null} the question, while its motion is shown */
   asked = null;
-  /** @type {CanvasSurface | null} of the film that is being taken */
-  film = null;
 
   /** @param player  whose `seconds` are what the motion lasts on the screen */
   constructor(store, player) {
@@ -96,13 +94,19 @@ export class Hero {
   }
 
   /** Headline and story. */
-  speak() {
+  get said() {
     const { store, facts, mode, asked } = this;
-    const said = mode === "" && !store.ride ? nothing : mode === "asking" || mode === "watching" ? question(asked?.guess)
-      : mode === "game" ? goal(this.tryNow) : say(facts);
-    const headline = mode === "judged" ? judged(asked?.guess ?? "", facts) : said.headline;
+    if (!store.ride) return nothing;
+    if (mode === "asking" || mode === "watching") return question(asked?.guess);
+    if (mode === "game") return goal(this.tryNow);
+    const said = say(facts);
+    return mode === "judged" ? { ...said, headline: judged(asked?.guess ?? "", facts) } : said;
+  }
+
+  speak() {
+    const { mode, said: { headline, pieces } } = this;
     write($("headline"), headline);
-    this.tell(said.pieces);
+    this.tell(pieces);
     // A screen reader hears what came of it.
     write($("heard"), mode === "judged" || (mode === "game" && this.tryNow.ended) ? headline : "");
     const hit = mode === "game" && this.tryNow.ended && this.tryNow.hit;
@@ -158,8 +162,8 @@ export class Hero {
     drawPatch(surface, scene, theme);
   }
 
-  drawBalls(surface) {
-    const { store: { ride, theme, contact, state: { line } }, aim, ring } = this;
+  drawBalls(surface, { theme } = this.store, { aim, ring } = /** @type {{aim: Hero["aim"], ring: Hero["ring"]}} */ (this)) {
+    const { ride, contact, state: { line } } = this.store;
     if (!ride) return { places: [] };
     const unit = contact ? "m" : "";
     return drawLanes(surface, {
@@ -173,34 +177,35 @@ export class Hero {
     const { mode, store, store: { state: { orbits, chosen, ball }, theme, contact } } = this;
     const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(({ index, across }) => index !== chosen && across === 0);
     return earlier.filter((_, i) => i >= earlier.length - (ghosts[mode] ?? 0)).map((orbit) => {
-      const [far, angle] = [store.farOf(orbit.index), (orbit.heading * Math.PI) / 180];
+      const [far, angle] = [store.farOf(orbit.index), ((orbit.heading + (orbit.along < 0 ? 180 : 0)) * Math.PI) / 180];
       const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
       return { x: far * Math.cos(angle), y: far * Math.sin(angle), words, colour: theme.swatch(orbit.index) };
     });
   }
 
-  /** The canvas of a film, on which the balls are drawn from now on under what is said of them, with the clock. */
-  beginFilm() {
-    const { lanes: { width, height }, store: { theme: { textSize } } } = this;
-    const ratio = globalThis.devicePixelRatio || 1;
-    const size = { width, height: height + titleLines * textSize };
-    const even = (side) => 2 * Math.round((ratio * side) / 2);  // as films need it
-    this.film = new CanvasSurface(make("canvas", { width: even(size.width), height: even(size.height) }), size);
-    return this.film.canvas;
-  }
-
-  drawFilm(film) {
-    const { lanes, player, store: { now, theme, theme: { textSize } } } = this;
-    lanes.draw();
-    film.shape([borderOf(film)], { fill: theme.card });
-    const headline = $("headline").textContent;
-    const fitting = Math.min(1.6, (film.width - 8) / widthOf(headline, { size: textSize, bold: true }));
-    film.text(4, 1.7 * textSize, headline, { colour: theme.ink, size: fitting * textSize, bold: true });
-    const clock = [player.timeText(now.tau), $("pace").textContent].filter(Boolean).join(", ");
-    film.text(film.width - 4, 3.2 * textSize, clock, { colour: theme.soft, size: textSize, align: "right" });
+  /** Draws a moment of a film on a surface of 640 x 360: headline, address and clock, and the bodies below them. */
+  drawFilm(surface, fraction) {
+    const { player, store, store: { state } } = this;
+    const shown = state.fraction;
+    state.fraction = fraction;
+    const theme = { ...store.theme, textSize: film.text };
+    const { width, height, context } = surface;
+    surface.shape([borderOf(surface)], { fill: theme.card });
+    const { headline } = this.said;
+    const title = { colour: theme.ink, bold: true, size: film.title };
+    surface.text(film.rim, 28, headline, { ...title, size: film.title * Math.min(1, (width - 2 * film.rim) / widthOf(headline, title)) });
+    const small = { colour: theme.soft, size: film.text };
     // A film that is sent on says where it comes from.
-    film.text(4, 3.2 * textSize, /^http/.test(location.protocol) ? `${location.host}${location.pathname}` : "contensou", { colour: theme.soft, size: textSize });
-    film.context.drawImage(lanes.canvas, 0, titleLines * textSize, lanes.width, lanes.height);
+    surface.text(film.rim, 50, /^http/.test(location.protocol) ? `${location.host}${location.pathname}` : "contensou", small);
+    surface.text(width - film.rim, 50, [player.timeText(store.now.tau), $("pace").textContent].filter(Boolean).join(", "), { ...small, align: "right" });
+    context.save();
+    // The words of the table begin 4 pixels from its left side.
+    context.translate(film.rim - 4, film.top);
+    Object.assign(surface, { width: width - 2 * film.rim + 8, height: height - film.top });
+    this.drawBalls(surface, { theme }, { aim: null, ring: null });
+    Object.assign(surface, { width, height });
+    context.restore();
+    state.fraction = shown;
   }
 
   lanesNow() {
@@ -236,8 +241,7 @@ export class Hero {
       this.show();
     } else if (mode === "game" && ended !== this.ended) this.speak();
     this.ended = ended;
-    if (this.film) this.drawFilm(this.film);
-    else this.lanes.drawInSight();
+    this.lanes.drawInSight();
     this.patch.drawInSight();
     $("patch").setAttribute("aria-label", `The contact patch from below: ${shown(100 * now.force, 2)} % of the friction f N acts against the sliding` +
       (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));

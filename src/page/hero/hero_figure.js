@@ -23,7 +23,7 @@ const spots = [[0, 0], ...rings, [Math.PI, 0]].map(([tilt, fifths]) => {
 const seen = rotation([-0.7, 0, 0]);
 
 /** A ball with spots, turned by a matrix; a flat body has one mark on its face, seen from above. */
-function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) {
+export function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) {
   surface.shape([[x, y]], { radius, fill: colour, stroke: theme.card, width: 2 });
   if (rolls) {
     const view = product(seen, turn);
@@ -69,7 +69,7 @@ export function drawLanes(surface, scene, theme) {
     const [x, y] = pixel(at, i);
     if (ruler && !aim && !ghosts.length) {
       surface.shape([pixel(ruler.from, i)], { radius: pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
-      drawRuler(surface, besides(table, i, ruler, theme), `${length(ruler.more, unit)} more`, theme);
+      drawRuler(surface, table, i, ruler, `${length(ruler.more, unit)} more`, theme);
     }
     drawBall(surface, { x, y, radius: pixels, rolls }, at.turn, colour, theme);
     surface.text(cells[i].left + 4, cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
@@ -119,35 +119,20 @@ function drawAim(surface, { from: [x, y], to, words }, theme) {
   surface.text(within(to[0], half, surface.width), within(to[1] + beyond * theme.textSize, theme.textSize, surface.height), words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
-/** The ends of a ruler between two places, beside the bodies, below them. */
-function besides({ pixel, pixels }, i, { from, to }, theme) {
-  const ends = [pixel(from, i), pixel(to, i)];
-  const [[ax, ay], [bx, by]] = ends;
-  const far = Math.hypot(bx - ax, by - ay) || 1;
-  const out = ((bx < ax ? -1 : 1) * (pixels + 0.8 * theme.textSize)) / far;
-  return ends.map(([x, y]) => [x - out * (by - ay), y + out * (bx - ax)]);
-}
-
-/** A ruler with its words in it, or where they do not fit beside it or at its end. */
-function drawRuler(surface, ends, words, theme) {
-  const [[ax, ay], [bx, by]] = ends;
+/** A ruler between two places, beside the bodies, with its words on it or, where there is no room, beside it. */
+function drawRuler(surface, { pixel, pixels }, i, { from, to }, words, theme) {
+  const [[ax, ay], [bx, by]] = [pixel(from, i), pixel(to, i)];
   const far = Math.hypot(bx - ax, by - ay);
   if (far < 2) return;
-  const side = bx < ax ? -1 : 1;
-  const [nx, ny] = [(-side * (by - ay)) / far, (side * (bx - ax)) / far];
-  const wide = widthOf(words, { size: theme.textSize, bold: true }) + 10;
+  const [nx, ny] = [ay - by, bx - ax].map((side) => (side * (bx < ax ? -1 : 1)) / far);
+  const point = (share, out = 0) => [ax + share * (bx - ax) + (pixels + 0.8 * theme.textSize + out) * nx, ay + share * (by - ay) + (pixels + 0.8 * theme.textSize + out) * ny];
+  const style = { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card };
+  const half = widthOf(words, style) / 2 + 8;
   const steep = Math.abs(by - ay) > 0.3 * far;
-  const fits = !steep && far > wide + 16;
-  const gap = fits ? (1 - wide / far) / 2 : 0.5;  // a share, before and behind it
-  const point = (share) => [ax + share * (bx - ax), ay + share * (by - ay)];
-  surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...ends.map(([x, y]) => [x - 5 * nx, y - 5 * ny, x + 5 * nx, y + 5 * ny])],
-    { stroke: theme.ink, width: 1.5 });
-  const [middle, level] = point(0.5);
-  // Where there is no room to the right, to the left.
-  const before = steep ? nx < 0 || middle + 8 * nx + wide > surface.width : !fits && Math.max(ax, bx) + wide > surface.width;
-  const [x, y] = steep ? [middle + (before ? -8 : 8) * Math.abs(nx), level + 8 * ny] : fits ? [middle, level] : [before ? Math.min(ax, bx) - 8 : Math.max(ax, bx) + 8, ay];
-  const align = before ? "right" : fits ? "center" : "left";
-  surface.text(x, y, words, { colour: theme.ink, size: theme.textSize, bold: true, baseline: "middle", align });
+  const gap = 0.5 - (!steep && far > 2 * half + 16 ? half / far : 0);
+  surface.shape([[...point(0), ...point(gap)], [...point(1 - gap), ...point(1)], ...[0, 1].map((end) => [...point(end, -5), ...point(end, 5)])], { stroke: theme.ink, width: 1.5 });
+  const [[x, y], right] = [point(0.5), Math.max(ax, bx) + half];
+  surface.text(steep || gap < 0.5 ? x : right + half < surface.width ? right : Math.min(ax, bx) - half, y, words, style);
 }
 
 /** The table with its scale; returns where the bodies go. */

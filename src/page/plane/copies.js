@@ -24,7 +24,7 @@ export class Copies {
    * @type {{from: unknown, index: number, base: Speeds, at: Speeds, window: [number, number], stop: number, keys: string[]} | null}
    */
   pull = null;
-  /** @type {(Speeds & {stop: number, motion: Motion, lines: Float64Array[]})[]} where it has been */
+  /** @type {(OwnOrbit & {start: Speeds})[]} where it has been */
   ghosts = [];
   /** @type {{orbits: Start[], window: number[], now: Start[]} | null} what the slider began with, and what it has made of the starts */
   size = null;
@@ -91,17 +91,13 @@ export class Copies {
     const { pull, ghosts, store: { orbit } } = this;
     if (!pull) return;
     const share = (a, b, of) => Math.abs(a - b) / (Math.abs(of) || 1);
-    const near = ghosts.some(({ u, v }) => Math.max(share(u, orbit.u, pull.base.u), share(v, orbit.v, pull.base.v)) < apart);
+    const near = ghosts.some(({ start: { u, v } }) => Math.max(share(u, orbit.u, pull.base.u), share(v, orbit.v, pull.base.v)) < apart);
     if (!near) this.ghosts = [...ghosts.slice(-most + 1), this.ghost(orbit)];
   }
 
-  ghost({ u, v }) {
-    const { library: { plane } } = this.store;
-    const motion = plane.motion(u, v);
-    const places = Array.from(motion.u, (at, i) => plane.place(at, motion.v[i]));
-    const panels = places[0].length / 2;
-    const lines = Array.from({ length: panels }, (_, panel) => Float64Array.from(places.flatMap((place) => [...place.subarray(2 * panel, 2 * panel + 2)])));
-    return { u, v, stop: plane.stop(u, v), motion, lines };
+  ghost(/** @type {Speeds} */ { u, v }) {
+    const { request, portrait: { window }, library: { plane } } = this.store;
+    return { start: { u, v }, ...plane.own({ ...request, window, orbits: [{ u, v }], chosen: 0, ball: null })[0] };
   }
 
   /** The pull, while the start is where it was pulled to. */

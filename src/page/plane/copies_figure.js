@@ -17,7 +17,7 @@ export function drawCopies(surface, store, { copies }) {
   const first = pull ?? (orbit ? { base: orbit, stop: motion.stop } : null);
   const curves = () => [
     ...motions.map((own, index) => ({ ...own, start: orbits[index], colour: theme.swatch(index), width: 1.5 })),
-    ...copies.ghosts.map(({ motion, stop, ...start }) => ({ ...motion, stop, start, colour: `${theme.swatch(chosen)}99`, width: 1.5 })),
+    ...copies.ghosts.map((ghost) => ({ ...ghost, colour: `${theme.swatch(chosen)}99`, width: 1.5 })),
     { ...motion, start: orbit, colour: theme.swatch(chosen), width: 3 },
   ];
   if (!first) return surface.still([theme], theme.card, () => {});

@@ -79,8 +79,8 @@ export class Plane {
   }
 
   scene() {
-    const { state, portrait, motion, now, isochrone, library, view } = this.store;
-    const own = portrait.own.map((orbit, index) => {
+    const { state, motions, motion, now, isochrone, library, view } = this.store;
+    const own = motions.map((orbit, index) => {
       const { u, v } = state.orbits[index];
       return { ...orbit, index, chosen: index === state.chosen, start: view.moments ? null : library.plane.place(u, v) };
     }).sort((a, b) => Number(a.chosen) - Number(b.chosen));

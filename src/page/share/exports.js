@@ -60,19 +60,3 @@ export function csvOfFilm(/** @type {Columns} */ { t, ...columns }) {
   });
   return csv({ t, ...Object.fromEntries(parts) });
 }
-
-/** The first kind of film that a browser can take: MP4 plays everywhere. */
-export const filmType = () => ["video/mp4;codecs=avc1.42E01E", "video/mp4", "video/webm"].find((type) => globalThis.MediaRecorder?.isTypeSupported(type));
-
-/** A film of a canvas. @param run  plays what is to be seen, and calls back at its end */
-export function filmOf(canvas, type, run) {
-  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type });
-  const parts = [];
-  recorder.ondataavailable = ({ data }) => parts.push(data);
-  return new Promise((resolve, reject) => {
-    recorder.onstop = () => resolve(new Blob(parts, { type }));
-    recorder.onerror = ({ error }) => reject(error);
-    recorder.start();
-    run(() => recorder.stop());
-  });
-}

@@ -2,7 +2,7 @@
 import { $ } from "../dom.js";
 import { csvOfFilm, save } from "./exports.js";
 import { lawTitle } from "../controls/law_field.js";
-import { startOf } from "../state/page_state.js";
+import { startFrom, startOf } from "../state/page_state.js";
 import { drawFigure } from "../drawing/figure.js";
 import { shotOf } from "../plane/portrait_request.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
@@ -32,7 +32,7 @@ export function makeFilm(store, player) {
     store.measured = { columns: found.measured, ball: ball.name };
     store.ask((next) => Object.assign(next, {
       law: laws.find((law) => lawTitle(law) === found.law) ?? found.law, window: null, chosen: 0, fraction: 0,
-      orbits: [startOf(found.spin * ball.radius, found.slip, found.velocityX, found.velocityY)],
+      orbits: [startFrom(found.start, ball)],
       ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },
     }));
     player.begin();

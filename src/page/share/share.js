@@ -1,13 +1,14 @@
 // What the reader takes along: a link, a command line, files.
 import { commandLine } from "../plane/command_line.js";
 import { $, write } from "../dom.js";
-import { citation, csvOfOrbits, csvOfRide, filmOf, filmType, pngOf, save } from "./exports.js";
+import { citation, csvOfOrbits, csvOfRide, pngOf, save } from "./exports.js";
 import { fillSelect, numberField } from "../controls/fields.js";
 import { plain } from "../drawing/runs.js";
 import { toFragment } from "../state/page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { drawPortrait } from "../drawing/figure.js";
 import { SvgSurface } from "../drawing/surface.js";
+import { filmOf } from "./video.js";
 
 const widest = 12000;  // pixels; browsers have no larger canvas
 
@@ -74,14 +75,13 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     save(`${name}.png`, await pngOf(draw, size, pngWidth), "image/png");
   });
   for (const id of ["save-film", "film-line"]) on(id, async () => {
-    const type = filmType();
-    if (!type) throw new Error("this browser cannot record films");
-    tell(`Recording the film: ${Math.ceil(player.seconds)} s.`);
-    try {
-      save(`balls.${/mp4|webm/.exec(type)}`, await filmOf(hero.beginFilm(), type, (done) => player.once(done)), type);
-    } finally {
-      hero.film = null;
-    }
+    if (!store.ride) throw new Error("there is no motion");
+    const { key } = hero;
+    const draw = (surface, share) => {
+      if (hero.key !== key) throw new Error("the motion was changed before its film was made");
+      hero.drawFilm(surface, share);
+    };
+    save("balls.mp4", await filmOf(player.seconds, draw, (share) => tell(`Film: ${Math.round(100 * share)} % is made.`)), "video/mp4");
     tell("The film is saved.");
   });
   on("save-tex", () => save("portrait.tex", store.library.plane.portraitFile(store.request), "text/x-tex"));

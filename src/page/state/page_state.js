@@ -16,7 +16,7 @@ const startKeys = ["u", "v", "along", "across", "heading"];
 const ranges = {
   rollingFriction: [0, 1e3], slope: [-89, 89], along: [-1e9, 1e9], across: [-1e9, 1e9], mu: [1e-6, 1],
   U: [Number.MIN_VALUE, Infinity], V: [Number.MIN_VALUE, Infinity], u: [-Infinity, Infinity], v: [0, Infinity], heading: [-360, 360],
-  chosen: [0, Infinity], at: [0, 1], isochrone: [Number.MIN_VALUE, Infinity],
+  chosen: [0, Infinity], at: [0, 1], restitution: [0, 1], isochrone: [Number.MIN_VALUE, Infinity],
 };
 
 /** The value. @throws {Error} if a number of that name may not have it */
@@ -29,6 +29,10 @@ export function allowed(key, value) {
 
 /** A motion from u and v; types.d.ts says what else it has. @returns {Start} */
 export const startOf = (u, v, along = v, across = 0, heading = 0) => ({ u, v, along, across, heading });
+
+/** The start of a ball that the library gives in SI units. */
+export const startFrom = ({ slip, spin, along, across }, { radius }, digits = 17) =>
+  startOf(...[spin * radius, slip, along, across].map((speed) => Number(speed.toPrecision(digits))));
 
 /** The same of what does not turn forward: what cannot roll, and what has no size. */
 export const unrolled = ({ u, v, heading }) => startOf(u, v, v, 0, heading);
@@ -48,7 +52,7 @@ export function takeBall(state, ball) {
 // What is read in a link; each throws where it can not.
 const numberOf = (key, text) => allowed(key, parseNumber(text));
 const numbersOf = (keys, text) => keys.map((key, i) => numberOf(key, text.split(",")[i] ?? ""));
-const startFrom = (text) => {
+const startIn = (text) => {
   const [u, v, along, across, heading] = numbersOf(startKeys.slice(0, Math.max(2, text.split(",").length)), text);
   return startOf(u, v, along, across, heading);
 };
@@ -120,11 +124,14 @@ const parts = {
     first: { orbits: [startOf(0.8, 3.5)] },
     write: ({ orbits }) => orbits.map(({ u, v, along, across, heading }) =>
       (heading ? [u, v, along, across, heading] : along === v && across === 0 ? [u, v] : [u, v, along, across])).join(";"),
-    read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startFrom, start) ?? []) }),
+    read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startIn, start) ?? []) }),
   },
   chosen: value("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
   // The line to reach by spin alone, in m; 0 for none.
   line: value("line", 0, (text) => numberOf("line", text)),
+  // The fall of a ball that bounces: its height in m, and its coefficient of restitution.
+  drop: value("drop", 0.1, (text) => numberOf("drop", text)),
+  restitution: value("restitution", 0.8, (text) => numberOf("restitution", text)),
   step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // of the tour
   // Of the stop time, or of the part that is shown, that the moving point has reached.
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },

@@ -45,21 +45,12 @@ export class Player {
     return this.store.contact ? `${(tau * this.store.timeFactor).toFixed(3)} s` : `τ = ${shown(tau, 3)}`;
   }
 
-  /** Plays from the beginning, and says when the end is reached or the reader pauses. */
-  once(done) {
-    this.store.move({ fraction: 0 });
-    this.toggle(true);
-    this.done = done;
-  }
-
   /** Plays from the beginning, unless the reader wants no motion. */
   begin() {
     this.toggle(this.store.moves);
   }
 
   toggle(playing = !this.playing) {
-    this.done?.();
-    this.done = null;
     this.playing = playing && Boolean(this.store.motion);
     write($("play"), this.playing ? "❚❚" : "▶");
     $("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");

@@ -1,10 +1,15 @@
-// Motions worth seeing, each a link and a sentence; and a tour of six steps.
+// Motions worth seeing, each a link and a sentence; and a tour of eight steps.
+
+const bounce = "ball=gel&orbits=15,1";
+// Struck at 2.5 m/s, 0.4 radii to the right of the centre and 0.3 below it, by a cue that is raised by 60 degrees.
+const masse = "ball=pool&orbits=1.28866,3.91931,1.05927,-0.733885&rollingFriction=0.01";
 
 export const presets = [
   ["Puck", "", "Spun 9.5 times a second, a puck slides 4 times as far as one that does not spin."],
   ["Gel ball", "ball=gel&orbits=9,0.5", "Spun 48 times a second, this ball slides 0.239 m before it rolls; textbooks predict 12.5 mm."],
   ["Pool ball", "ball=pool&orbits=2.8575,1", "With side spin, a pool ball slides 1.9 times as far before it rolls."],
-  ["Massé", "ball=pool&orbits=3,4,0.9,0.9&rollingFriction=0.01", "The slip does not point along the path, so friction curves it by 60° in 0.747 m; then the ball rolls straight on."],
+  ["Massé", `${masse}&step=7`, "Struck steeply and off its centre, this ball follows a path that friction curves by 60° in 0.575 m."],
+  ["Bounce", `${bounce}&step=6`, "Dropped on the floor, the ball that spins leaves at 37.8° from the vertical, the other at 32.5°."],
   ["Bowling hook", "ball=bowling&orbits=1,3,3,7", "The path curves by 6.2° in 3.28 m; then the ball rolls straight on."],
   ["Curling stone", "ball=curling-stone", "Sliding alone would last 25.5 s, spinning alone 3.24 s; together they end at the same instant, after 26.8 s."],
 ].map(([title, fragment, says]) => ({ title, fragment, says }));
@@ -16,4 +21,6 @@ export const tour = [
   ["Left and right", "With spin to the left or to the right the ball slides equally far. So the two halves of the plane are mirror images.", "mu=0.3&window=1,4&orbits=0.8,3.5;-0.8,3.5"],
   ["Small patches", "With a small patch a little spin hardly matters: this pool ball slides 3.6 % farther than textbooks predict. It still spins long after it has begun to roll.", "ball=pool&orbits=0.2286,1&part=whole"],
   ["Why time steps fail", "Near rest the slip is a high power of the spin: it falls below 10⁻³⁰⁰ long before the spin is gone. A program that goes in time steps loses the slip. This page computes its logarithm exactly.", "mu=0.05&view=log&orbits=0.8,3.5;0.3,1"],
+  ["It bounces differently", "A ball that hits the floor slides on it for an instant. Spin about the vertical weakens the friction of this instant, too: the ball that spins keeps more of its speed, and leaves at another angle.", bounce],
+  ["With a cue", "The dot is the place that the tip of the cue hits: to the side for spin about the vertical, low for backspin. If the butt is raised, too, the path curves. Drag the dot, and watch the table.", masse],
 ].map(([title, text, fragment]) => ({ title, text, fragment }));

@@ -22,7 +22,6 @@ export class Store {
   kept = new Map();
   settled = false;
   held = false;    // something by the reader, whose changes are one until he lets go
-  isLate = false;  // what lies behind the orbits is as it was when he took hold of it
   /** @type {Contact | null} */
   contact = null;
   view = /** @type {View} */ ({});
@@ -107,10 +106,10 @@ export class Store {
 
   /** The reader has let go: what lies behind his orbits makes room for them. */
   release() {
+    const { portrait } = this;
     this.held = false;
-    if (!this.isLate) return;
     this.compute(this.state);
-    this.move({});
+    if (this.portrait !== portrait) this.move({});
   }
 
   /** Changes the moment or the isochrone, from which nothing else follows. */
@@ -151,14 +150,9 @@ export class Store {
     this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
     // While the reader holds something, what lies behind his orbits stays where its window does.
     const stays = this.held && state.window !== null && !this.view.moments;
-    const behind = { ...this.request, orbits: [], chosen: 0, ball: null };
-    this.portrait = this.keep("portrait", stays ? behind : this.request, () => {
-      this.kept.delete("own");
-      return plane.portrait(this.request, true);
-    });
-    if (stays) this.portrait = { ...this.portrait, ...this.keep("own", this.request, () => plane.portrait(this.request, false)) };
-    this.isLate = stays;
-    this.motions = this.portrait.own;
+    const behind = stays ? { ...this.request, orbits: [], chosen: 0, ball: null } : this.request;
+    this.portrait = this.keep("portrait", behind, () => plane.portrait(this.request));
+    this.motions = this.keep("own", [behind, this.request], () => plane.own({ ...this.request, window: this.portrait.window }));
     const { against } = this.request;
     this.others = against ? ofSystem("others", [against, state.ball, state.orbits], () => {
       const mu = state.ball ? contactBy(against).mu : state.mu;
@@ -218,6 +212,11 @@ export class Store {
   stopText(tau) {
     const inTau = `τ* = ${shown(tau, 7)}${this.contact ? " m/s" : ""}`;
     return this.contact ? `${shown(tau * this.timeFactor, 6)} s  (${inTau})` : inTau;
+  }
+
+  /** The real ball that moves, if it can roll. */
+  get roller() {
+    return this.body.chi !== 1 && this.orbit ? this.state.ball : null;
   }
 
   get theme() {

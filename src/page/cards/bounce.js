@@ -1,0 +1,65 @@
+// A ball that falls on the floor with the motion of the start, and one without spin, which leaves at another angle.
+import { $, write } from "../dom.js";
+import { drawFigure, figureOf, panelOf } from "../drawing/figure.js";
+import { ScreenSurface } from "../drawing/screen_surface.js";
+import { widthOf } from "../drawing/surface.js";
+import { drawBall } from "../hero/hero_figure.js";
+import { rotation } from "../hero/turning.js";
+import { shown } from "../numbers.js";
+import { shotOf } from "../plane/portrait_request.js";
+
+const highest = 1;      // m
+const haste = 3;        // times as soon as the motion on the table this one ends
+const mostTurned = 60;  // rad, by which the ball is seen to turn
+
+const angleOf = ({ after, up }) => (Math.atan2(after, up) * 180) / Math.PI;
+
+/** @param {Store} store @param {Controls} controls @returns what draws it */
+export function makeBounce(store, controls) {
+  /** How the ball leaves the floor, without spin and with it; nothing where none bounces. @returns {Rebound[]} */
+  const rebounds = () => {
+    const { library, orbit, roller: ball, state: { law, drop, restitution } } = store;
+    if (!ball) return [];
+    const asBuilt = ball.patch === ball.initial?.patch && ball.patchBy === ball.initial.patchBy;
+    return store.keep("rebounds", [ball, law, orbit, drop, restitution],
+      () => [{ ...orbit, u: 0 }, orbit].map((start) => library.bounce(law, shotOf(ball, start), asBuilt, drop, restitution)));
+  };
+  controls.slider("drop", "falls from", ({ roller, state: { drop } }) => roller && { share: drop / highest, text: `${shown(drop, 2)} m` },
+    (state, share) => (state.drop = Number(Math.max(0.01, share * highest).toPrecision(2))), $("bounce-sliders"));
+  controls.slider("restitution", "restitution", ({ roller, state: { restitution } }) => roller && { share: restitution, text: shown(restitution, 2) },
+    (state, share) => (state.restitution = Number(share.toFixed(2))), $("bounce-sliders"));
+  store.shows.push(() => {
+    const [plain, own] = rebounds();
+    const leaves = (rebound) => `${shown(angleOf(rebound), 3)}° from the vertical, at ${shown(rebound.after, 3)} m/s along the floor`;
+    write($("bounce-says"), own ? `The ball leaves ${leaves(own)}. Without spin: ${leaves(plain)}, as textbooks predict for both.`
+      : "A real ball that can roll bounces here: choose one in the settings.");
+    $("bounce").setAttribute("aria-label", `Two balls that bounce. ${$("bounce-says").textContent}`);
+  });
+  return new ScreenSurface($("bounce"), (surface) => {
+    const { theme, state: { drop, fraction, chosen }, orbit, roller: ball } = store;
+    const bodies = rebounds();
+    if (!ball) return surface.still([theme], theme.card, () => {});
+    const [{ down, up, before }, { radius, gravity }] = [bodies[0], ball];
+    const [falls, rises] = [down, 2 * up].map((speed) => speed / gravity);
+    /** Where the centre of a ball is, in m. */
+    const placeAt = (t, { after }) => [t * (t < 0 ? before : after), radius + (t < 0 ? drop - (gravity * (t + falls) ** 2) / 2 : (up - (gravity * t) / 2) * t)];
+    const colours = [theme.soft, theme.swatch(chosen)];
+    const [frame] = drawFigure(surface, [bodies, radius, chosen], () => figureOf(theme, { columns: 1, narrowest: 230 }, [{
+      ...panelOf("", { name: "m", low: -before * falls - radius, high: Math.max(...bodies.map(({ after }) => after)) * rises + radius },
+        { low: 0, high: Math.max(drop, (up * rises) / 4) + 2 * radius },
+        bodies.map((body, i) => ({ colour: colours[i], width: 2.5, lines: Array.from({ length: 121 }, (_, j) => placeAt(((falls + rises) * j) / 120 - falls, body)).flat() }))),
+      toScale: true,
+    }]), store);
+    const time = Math.min(1, haste * fraction) * (falls + rises) - falls;
+    const turned = (orbit.u / radius) * (falls + rises);
+    bodies.forEach((body, i) => {
+      const [x, y] = frame.pixel(placeAt(time, body));
+      const turn = rotation([0, 0, (i * turned * Math.min(1, mostTurned / Math.abs(turned) || 1) * (time + falls)) / (falls + rises)]);
+      drawBall(surface, { x, y, radius: frame.px(radius) - frame.px(0), rolls: true }, turn, colours[i], theme);
+      const style = { colour: colours[i], size: 1.1 * theme.textSize, bold: true, align: "right", halo: theme.card };
+      const words = `${shown(angleOf(body), 3)}°`;
+      const right = Math.min(surface.width, x + widthOf(words, style));
+      surface.text(i ? right : right - 1.1 * widthOf(words, style), frame.py(placeAt(time, body)[1] + radius) - 6, words, style);
+    });
+  });
+}

@@ -1,0 +1,57 @@
+// The film of the two bodies. It is drawn picture by picture, so it is the same on a slow machine.
+import { make } from "../dom.js";
+import { CanvasSurface } from "../drawing/surface.js";
+import { ArrayBufferTarget, Muxer } from "./mp4-muxer.js";
+
+const size = { width: 1280, height: 720 };
+const rate = 60;  // pictures a second
+const rests = 2;  // s that the end stays, so that it can be read
+/** Codecs by their names in the file. H.264 plays everywhere; some builds of Chromium and Firefox cannot write it. */
+const codecs = { avc: "avc1.640028", vp9: "vp09.00.40.08", av1: "av01.0.08M.08" };
+
+/** The first codec that the browser can write. @throws {Error} if it can write none */
+async function encodingOf() {
+  for (const [name, codec] of Object.entries(codecs)) {
+    const config = { ...size, codec, framerate: rate, bitrate: 5e6 };
+    const found = await globalThis.VideoEncoder?.isConfigSupported(config).catch(() => null);
+    if (found?.supported) return { name, config };
+  }
+  throw new Error("this browser cannot write films here; Chrome, Edge, Safari and Firefox 130 can, if the page is a file or comes by https");
+}
+
+/**
+ * A film as MP4.
+ *
+ * @param seconds  that the motion lasts
+ * @param draw     draws the motion on a surface, as it is after a share of the time
+ * @param tell     is told after each second of the film how much of it is made, from 0 to 1
+ */
+export async function filmOf(seconds, draw, tell) {
+  const { name, config } = await encodingOf();
+  const muxer = new Muxer({ target: new ArrayBufferTarget(), fastStart: "in-memory", video: { ...size, codec: name, frameRate: rate } });
+  /** @type {Error | null} */
+  let failure = null;
+  const encoder = new VideoEncoder({ output: (chunk, about) => muxer.addVideoChunk(chunk, about), error: (error) => (failure = error) });
+  // Words are twice as large as on a canvas of these pixels.
+  const surface = new CanvasSurface(make("canvas", size), { width: size.width / 2, height: size.height / 2 });
+  const count = Math.round(rate * (seconds + rests));
+  try {
+    encoder.configure(config);
+    for (let i = 0; i < count; ++i) {
+      if (i % rate === 0) tell(i / count);
+      draw(surface, Math.min(1, i / (rate * seconds)));
+      const picture = new VideoFrame(surface.canvas, { timestamp: (1e6 * i) / rate, duration: 1e6 / rate });
+      encoder.encode(picture, { keyFrame: i % rate === 0 });
+      picture.close();
+      // The page stays usable, and few pictures wait for the encoder.
+      do await new Promise((passed) => setTimeout(passed));
+      while (encoder.encodeQueueSize > 4);
+      if (failure) throw failure;
+    }
+    await encoder.flush();
+  } finally {
+    if (encoder.state !== "closed") encoder.close();
+  }
+  muxer.finalize();
+  return new Blob([muxer.target.buffer], { type: "video/mp4" });
+}

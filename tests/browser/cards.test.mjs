@@ -1,0 +1,119 @@
+// The cue and the ball that bounces, each in its step of the tour: their numbers are the program's.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { assertClose, close, drawn, json, open, page, state } from "./browser.mjs";
+
+const says = (id) => page.textContent(`#${id}-says`);
+const slide = (id, share) => page.locator(`#${id}-slider`).evaluate((input, value) => {
+  input.value = value;
+  input.dispatchEvent(new Event("input"));
+}, 1000 * share);
+
+/** The motion that the page shows, and that of the program's stroke. */
+async function comparesWith(speed, tip, elevation) {
+  const { ball, orbits, chosen } = await state();
+  const { own } = await page.evaluate(() => globalThis.page.store.ride);
+  const { u, v, along, across } = orbits[chosen];
+  const wanted = json("roll", "--ball", ball.name, "--strike", speed, "--tip", tip.join(), "--elevation", elevation, "--rolling-friction", 0);
+  const [[vx, vy], [wx, wy, wz]] = [wanted.velocity, wanted.angular_velocity];
+  const slip = [vx - ball.radius * wy, vy + ball.radius * wx];
+  const size = Math.hypot(...slip);
+  const parts = { u: ball.radius * wz, v: size, along: (vx * slip[0] + vy * slip[1]) / size, across: (vy * slip[0] - vx * slip[1]) / size };
+  for (const [key, value] of Object.entries({ u, v, along, across })) assert.ok(Math.abs(value - parts[key]) <= 1e-5 * size, `${key}: ${value}, not ${parts[key]}`);
+  assertClose(own.path, wanted.path, 1e-4, "path");
+}
+
+test("the dot is where the tip of a cue hits for this motion; who drags it strikes as the program does", async () => {
+  for (const options of [{}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]) {
+    await open("#lab=0", options);
+    await page.locator("#presets a", { hasText: "Massé" }).click();
+    assert.ok(await page.isVisible("#cue-card") && !(await page.isVisible("#plane-card")) && !(await page.isVisible("#bounce-card")));
+    await comparesWith(2.5, [0.4, -0.3], 60);
+    assert.match(await says("cue"), /hits 0\.4 radii right of the centre and 0\.3 radii below the centre/);
+    assert.deepEqual(await page.$$eval("#cue-sliders output:not(.error)", (all) => all.map((each) => each.textContent)), ["2.5 m/s", "60°"]);
+    await page.locator("#cue").scrollIntoViewIfNeeded();
+    const box = await page.locator("#cue").boundingBox();
+    const face = await page.evaluate(() => ({ x: 0.24 * globalThis.document.getElementById("cue").clientWidth }));
+    const centre = [box.x + face.x, box.y + box.height / 2];
+    await page.mouse.move(...centre);
+    await page.mouse.down();
+    await page.mouse.move(centre[0] + 8, centre[1]);
+    // Beyond the rim on which the tip slips off it stays on this rim.
+    await page.mouse.move(centre[0] + 300, centre[1]);
+    await page.mouse.up();
+    await comparesWith(2.5, [0.5, 0], 60);
+    await slide("cue-elevation", 0);
+    await slide("cue-speed", 0.5);
+    await comparesWith(4, [0.5, 0], 0);
+    await page.focus("#cue");
+    for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowUp");
+    await comparesWith(4, [0.3, 0.05], 0);
+    if (options.hasTouch) {
+      // A finger taps a place of the ball.
+      await page.locator("#cue").scrollIntoViewIfNeeded();
+      const { x, y, width, height } = await page.locator("#cue").boundingBox();
+      await page.touchscreen.tap(x + 0.24 * width, y + height / 2);
+      await comparesWith(4, [0, 0], 0);
+    }
+    assert.equal((await state()).orbits.length, 1);
+    await close();
+  }
+});
+
+test("a motion that no cue gives says so, and so does a body that no cue strikes", async () => {
+  await open("#ball=pool&orbits=2.8575,1&step=7");
+  assert.match(await says("cue"), /No cue gives this motion/);
+  // A ball that is hit above 0.4 radii slips backwards, and goes to the right all the same.
+  await slide("cue-speed", 0.25);
+  await page.focus("#cue");
+  for (let i = 0; i < 10; ++i) await page.keyboard.press("ArrowUp");
+  await comparesWith(2, [0, 0.5], 0);
+  assert.ok(await page.evaluate(() => globalThis.page.hero.bodies[1].xs.at(-1)) > 0);
+  await page.selectOption("#ball", "puck");
+  assert.match(await says("cue"), /A cue strikes a real ball/);
+  assert.equal(await page.textContent("#problem"), "");
+  await page.focus("#cue");
+  await page.keyboard.press("ArrowUp");
+  assert.equal((await state()).ball.name, "puck");
+  await close();
+});
+
+test("a ball that bounces leaves as the program says, with spin and without", async () => {
+  await open("#lab=0");
+  await page.locator("#presets a", { hasText: "Bounce" }).click();
+  assert.ok(await page.isVisible("#bounce-card") && !(await page.isVisible("#plane-card")));
+  const compare = async (drop, restitution) => {
+    const { ball, orbits: [{ u, v }] } = await state();
+    const options = ["--ball", ball.name, "--speed", v, "--drop", drop, "--restitution", restitution, ...(ball.friction === 0.5 ? [] : ["--friction", ball.friction])];
+    const [own, plain] = [u / ball.radius, 0].map((spin) => json("bounce", ...options, "--spin", spin).after);
+    const shown = (value) => String(Number(value.toPrecision(3)));
+    const leaves = ({ angle, vx }) => `${shown(angle)}° from the vertical, at ${shown(vx)} m/s along the floor`;
+    assert.equal(await says("bounce"), `The ball leaves ${leaves(own)}. Without spin: ${leaves(plain)}, as textbooks predict for both.`);
+    assert.equal(shown(plain.angle), shown(json("bounce", ...options, "--spin", u / ball.radius).textbook.angle));
+  };
+  await compare(0.1, 0.8);
+  assert.doesNotMatch(page.url(), /drop|restitution/);
+  await slide("drop", 0.5);
+  await slide("restitution", 0.35);
+  await compare(0.5, 0.35);
+  await page.waitForFunction(() => /drop=0\.5&restitution=0\.35/.test(location.hash));
+  await slide("spin", 0.3);
+  await compare(0.5, 0.35);
+  // Of another friction the patch is that of the catalogue, too.
+  await page.evaluate(() => globalThis.page.store.ask((next) => (next.ball.friction = 0.3)));
+  await compare(0.5, 0.35);
+  // The picture follows the clock, and rests with it.
+  const picture = () => page.$eval("#bounce", (canvas) => canvas.toDataURL());
+  const pictures = new Set();
+  for (const fraction of [0, 0.1, 0.2, 0.3, 0.9, 1]) {
+    await page.evaluate((fraction) => globalThis.page.store.move({ fraction }), fraction);
+    await drawn();
+    pictures.add(await picture());
+  }
+  assert.equal(pictures.size, 5, "it has ended after a third of the motion on the table");
+  await close();
+  await open("#ball=puck&orbits=2.286,0.5&step=6");
+  assert.match(await says("bounce"), /A real ball that can roll bounces here/);
+  await close();
+});
