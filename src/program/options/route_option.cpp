@@ -13,7 +13,7 @@ using reduction::Route;
 
 namespace {
 
-std::vector<std::string> names_of(const std::vector<Route>& routes) {
+std::vector<std::string> route_names(const std::vector<Route>& routes) {
   std::vector<std::string> names;
   for (Route route : routes) names.emplace_back(name(route));
   return names;
@@ -29,7 +29,7 @@ const std::vector<Route>& RouteOption::every_route() {
 void RouteOption::add(CLI::App& app, const std::vector<Route>& offered) {
   Choices<Route> choices;
   for (Route route : every_route()) choices.emplace_back(name(route), route);
-  std::vector<std::string> methods = names_of(offered);
+  std::vector<std::string> methods = route_names(offered);
   for (std::string& method : methods)
     method += method == "closed" ? " (formulas)" : method == "quadrature" ? " (integrals)" : "";
   route_.add(app, "--route", "ROUTE",
@@ -42,7 +42,7 @@ Route RouteOption::read(const ReducedSystem& system) const {
   const Route route = route_.value_or(available.front());
   if (std::ranges::find(available, route) == available.end()) {
     route_.reject(fmt::format("law {} at mu = {} does not have this route; it has {}", system.law().name(), system.mu(),
-                              fmt::join(names_of(available), ", ")));
+                              fmt::join(route_names(available), ", ")));
   }
   return route;
 }
