@@ -95,9 +95,13 @@ bool begins(const reduction::SimilarityCurve& curve, const ReducedSystem& system
 }
 
 PortraitOrbit columns(const Track& track) {
-  // An Instant is five doubles in memory, so the track is a matrix of 5 rows.
-  const Eigen::Map<const Eigen::Array<double, 5, Eigen::Dynamic>> rows(&track.front().u, 5, std::ssize(track));
-  return {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)};
+  const auto column = [&](double Instant::*part) {
+    Eigen::ArrayXd values(std::ssize(track));
+    std::ranges::transform(track, values.begin(), part);
+    return values;
+  };
+  return {column(&Instant::u), column(&Instant::v), column(&Instant::ln_v), column(&Instant::ln_k),
+          column(&Instant::tau_left)};
 }
 
 class OrbitTracer {
