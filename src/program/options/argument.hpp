@@ -101,8 +101,8 @@ inline auto quantity(std::string_view symbol) {
   return [unit = known_unit(symbol)](const std::string& typed) { return parse_quantity(typed, unit); };
 }
 
-/// Reads a number for which a condition holds.
-/// @param read  reads the number, such as quantity("m")
+/// Returns a reader of numbers that refuses a number for which a condition is false.
+/// @param read     reads the number, such as quantity("m")
 /// @param holds    condition, such as is_positive
 /// @param message  sentence that says which numbers are allowed
 template <class Read, class Holds>

@@ -64,7 +64,7 @@ void FigureOptions::add(CLI::App& app, bool several) {
 }
 
 void require_picture(const std::string& names, const Output& output) {
-  if (names.empty() || output.picture()) return;
+  if (names.empty() || output.picture) return;
   throw BadInput("{}: {} is no picture; leave that out, or write one, as in -o figure.svg", names, output.format);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "contensou/portraits/figure.hpp"
 #include "options/argument.hpp"
@@ -34,9 +36,10 @@ class FigureOptions {
   /// @throws BadInput  for --dpi with a format other than png; for --font with tex
   portraits::Figure apply(portraits::Figure figure, const std::string& format) const;
 
-  /// Writes a figure as `apply` returns it.
-  ExitStatus write(portraits::Figure figure, const Output& output) const {
-    return output.write({apply(std::move(figure), output.format)});
+  /// Writes a figure, or the frames of a gif, as `apply` returns them.
+  ExitStatus write(std::vector<portraits::Figure> figures, const Output& output) const {
+    for (portraits::Figure& figure : figures) figure = apply(std::move(figure), output.format);
+    return output.write(figures);
   }
 
  private:

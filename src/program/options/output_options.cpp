@@ -55,7 +55,7 @@ ExitStatus Output::write(const Answer& answer) const {
 }
 
 ExitStatus Output::write(const std::vector<portraits::Figure>& figures) const {
-  return write(drawn(figures, picture().value()));
+  return write(drawn(figures, picture.value()));
 }
 
 namespace {
@@ -115,15 +115,15 @@ Output OutputOptions::read(std::size_t place) const {
   if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
   const std::string format = read_format(kind, path);
   const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // not run files
-  const bool is_picture = portraits::find_picture_format(format) && is_one_of(kind.formats, "svg");
-  if (digits_.given() && !((format == "text" || (format == "tex" && !is_picture)) && has_rounded_text)) {
+  const auto picture = is_one_of(kind.formats, "svg") ? portraits::find_picture_format(format) : std::nullopt;
+  if (digits_.given() && !((format == "text" || (format == "tex" && !picture)) && has_rounded_text)) {
     digits_.reject(
-        is_picture ? "a picture has no digits"
+        picture ? "a picture has no digits"
         : has_rounded_text
             ? fmt::format("{} always has all digits; choose text, with --format text or the ending txt", format)
             : fmt::format("{} always has all digits: leave it out", kind.noun));
   }
-  return {path, format, {static_cast<int>(digits_.value_or(standard_digits))}};
+  return {path, format, picture, {static_cast<int>(digits_.value_or(standard_digits))}};
 }
 
 std::string OutputOptions::read_format(const OutputKind& kind, const std::string& path) const {

@@ -26,9 +26,8 @@ std::vector<std::string> with_pictures(std::vector<std::string> first, const std
 struct Output {
   std::string path;
   std::string format;
-  Digits digits;  ///< number of digits in text
-
-  std::optional<portraits::PictureFormat> picture() const { return portraits::find_picture_format(format); }
+  std::optional<portraits::PictureFormat> picture;  ///< format of a picture; empty for numbers, also for a table of tex
+  Digits digits;                                    ///< number of digits in text
 
   /// Return the exit status of a verb that writes this: check_failed for an answer that has not passed, else done.
   /// @throws FileFailure  as write_output

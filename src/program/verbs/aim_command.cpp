@@ -60,13 +60,13 @@ class AimCommand final : public Verb {
       if (!others.empty()) throw BadInput("{} and {} exclude each other: leave one out", others, names);
       if (!rolls_at_.given() || !rolling_speed_.given())
         throw BadInput("{}: --rolls-at and --rolling-speed are needed together", names);
-      if (output.picture()) throw BadInput("{}: a picture needs two of --distance, --turns and --time", names);
+      if (output.picture) throw BadInput("{}: a picture needs two of --distance, --turns and --time", names);
       return output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
     }
     const si::Goal goal{distance_.optional(), turns_.optional(), time_.optional()};
-    if (!output.picture()) return output.write(aim_answer(ball, law, goal));
+    if (!output.picture) return output.write(aim_answer(ball, law, goal));
     start_.require_undriven(ball, "the plane of aims");
-    return output_.write(aim_figure(ball, law, goal, output_.size()), output);
+    return output_.write({aim_figure(ball, law, goal, output_.size())}, output);
   }
 
  private:

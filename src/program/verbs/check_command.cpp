@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "answers/figures/check_figure.hpp"
@@ -39,7 +37,7 @@ class CheckCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     if (against_.given()) return compare(output);
-    if (output.picture() && output.format != "tex")
+    if (output.picture && output.format != "tex")
       throw BadInput("a picture compares with a table: add --against FILE, or leave it out");
     if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
@@ -66,8 +64,8 @@ class CheckCommand final : public Verb {
     const double tolerance = tolerance_.value_or(standard_tolerance);
     const MotionsBeside motions = compare_with_motions(against_.text(), ball, start_.given_values(), law, tolerance);
     const Answer answer = check_against_answer(motions, law.name(), tolerance);
-    if (!output.picture()) return output.write(answer);
-    output_.write(check_figure(motions, ball.ball.name, output_.size()), output);
+    if (!output.picture) return output.write(answer);
+    output_.write({check_figure(motions, ball.ball.name, output_.size())}, output);
     return answer.passed ? ExitStatus::done : ExitStatus::check_failed;
   }
 

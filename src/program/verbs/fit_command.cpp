@@ -141,9 +141,9 @@ class FitCommand final : public Verb {
       throw BadInput("{}; a way out may be --noise NAME=SD, --free or a longer film", error.what());
     }
     progress.erase();
-    if (output.picture() && !plan_) {
+    if (output.picture) {
       if (only_stop) throw BadInput("one stop time is no curve to draw: leave out the picture");
-      output_.write(fit_figure(fits.front(), laws, request.tracks, output_.size()), output);
+      output_.write({fit_figure(fits.front(), laws, request.tracks, output_.size())}, output);
     } else if (output.format == "toml") {
       Fit& fitted = fits.front();
       if (is_formula_law(fitted.law)) fitted.ball.contact.law = fitted.law;

@@ -46,7 +46,7 @@ class LawCommand final : public Verb {
     const Output output = output_.read();
     if (surface_) require_picture("--surface", output);
     const reduction::Law law = law_.read(std::string(si::Body{}.law));
-    if (output.picture()) {
+    if (output.picture) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
       std::vector<reduction::Law> laws = reduction::paper_laws();
       if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
@@ -55,7 +55,7 @@ class LawCommand final : public Verb {
         laws.push_back(law);
       }
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;
-      return output_.write(draw(laws, output_.size()), output);
+      return output_.write({draw(laws, output_.size())}, output);
     }
     if (!k_.given() && !batch_.given()) {
       throw BadInput(

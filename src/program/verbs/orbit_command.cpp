@@ -2,6 +2,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -88,7 +89,7 @@ class RoutedMotion {
     const double busy = equidistant ? 0 : busy_time(orbit);
     if (flow_ && !(2 * busy < stop && busy > 0)) return orbit.sample(count);
     const Eigen::ArrayXd times = instants(count, busy, stop);
-    OrbitColumns columns = at(times);
+    OrbitColumns columns = flow_ ? orbit.at_times(times) : at(times);
     if (!flow_) {
       columns.set(count - 1, whole->points.row(whole->points.rows() - 1));
       return columns;
@@ -277,10 +278,7 @@ class OrbitCommand final : public Verb {
   /// Returns the states at the given times, or at the given times left, or else at equidistant times.
   OrbitColumns motion_of_pieces(const std::vector<si::ReducedPiece>& pieces, Eigen::ArrayXd at,
                                 const Eigen::ArrayXd& lefts) const {
-    if (at.size() == 0 && lefts.size() == 0) {
-      const auto last = static_cast<double>(instants_.samples() - 1);
-      at = Eigen::ArrayXd::LinSpaced(instants_.samples(), 0, last) / last * si::stop_time(pieces);
-    }
+    if (at.size() == 0 && lefts.size() == 0) at = instants(instants_.samples(), 0, si::stop_time(pieces));
     OrbitColumns columns(at.size() + lefts.size());
     for (Eigen::Index i = 0; i < at.size(); ++i) columns.set(i, si::state_at(pieces, at[i]));
     for (Eigen::Index i = 0; i < lefts.size(); ++i) columns.set(i, si::state_at_time_left(pieces, lefts[i]));

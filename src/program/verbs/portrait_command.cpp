@@ -16,7 +16,6 @@
 #include "contensou/portraits/planar_portrait.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
-#include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "options/system_option.hpp"
@@ -140,12 +139,11 @@ class PortraitCommand final : public Verb {
     law_.add(app, ". Several names, between commas, give as many portraits");
     route_.add(app, {reduction::Route::closed, reduction::Route::quadrature, reduction::Route::regularised});
     add_looks(app);
-    figure_.add(app);
+    output_.add(app);
     app.option_defaults()->group("Output");
     app.add_flag("--facts", facts_,
                  "print a table instead of a picture: the limit of k at the stop, the singular points, and the "
                  "directions in which orbits enter the origin");
-    output_.add(app);
   }
 
   ExitStatus run() override {
@@ -223,18 +221,17 @@ class PortraitCommand final : public Verb {
   /// Reads destination and format of the result. Throws for options that have no effect on this result.
   Output read_output() {
     Output output = output_.read();
-    figure_.require_picture(output);
     std::string drawing = names_of_looks(first_of_drawing_);
     if (style_.estimate) drawing = with_name(drawing, "--estimate");
     require_picture(drawing, output);
-    style_.size = figure_.size();
+    style_.size = output_.size();
     return output;
   }
 
   /// @param draw  returns the figure of the portraits
   template <class Portraits, class Draw>
   ExitStatus write(const Output& output, const Portraits& all, const portraits::PortraitSource& source, Draw draw) {
-    if (output.picture()) return figure_.write(draw(), output);
+    if (output.picture) return output_.write({draw()}, output);
     return output.write(output.format == "csv" ? to_csv(all, source) : to_json(all, source));
   }
 
@@ -357,10 +354,9 @@ class PortraitCommand final : public Verb {
   const Argument *window_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
   portraits::PortraitRequest request_;
   Style style_;
-  FigureOptions figure_;
   bool facts_ = false;
-  OutputOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "portrait.svg"},
-                         {"a table of facts", answer_formats("text")}}};
+  PictureOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "portrait.svg"},
+                          {"a table of facts", answer_formats("text")}}};
 };
 
 const RegisteredVerb<PortraitCommand> portrait_verb(

@@ -24,7 +24,7 @@ class ReduceCommand final : public Verb {
     const Output output = output_.read();
     if (system_.given()) return run_system(output);
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
-    if (!output.picture()) return output.write(reduce_answer(start));
+    if (!output.picture) return output.write(reduce_answer(start));
     return draw(reduction::reduced(start.system), {start.state.u, start.state.v}, output);
   }
 
@@ -33,7 +33,7 @@ class ReduceCommand final : public Verb {
     if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
     const reduction::SmoothField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
-    if (!output.picture()) return output.write(reduce_answer(field, system_.text(), start));
+    if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));
     const reduction::PlanarReduction plane = system_.solve(field, start);
     if (!plane.scaling()) {
       throw BadInput(
@@ -45,7 +45,7 @@ class ReduceCommand final : public Verb {
 
   ExitStatus draw(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const Output& output) {
     const std::string name = system_.given() ? system_.text() : "(2.6)";
-    return output_.write(portraits::reduction_figure(plane, start, name, output_.size()), output);
+    return output_.write({portraits::reduction_figure(plane, start, name, output_.size())}, output);
   }
 
   SystemOption system_;

@@ -152,7 +152,7 @@ class RollCommand final : public Verb {
     start_.tell_left_out();
     const double end = until_.value_or(roll.standard_end());
     roll.uncertainty = read_uncertainty(roll);
-    if (gradient_ && (roll.load || output.picture()))
+    if (gradient_ && (roll.load || output.picture))
       throw BadInput("--gradient: not in a picture, and not with a load that changes; leave it out");
     if ((gradient_ || roll.uncertainty) && output.format == "text" && (instants_.given() || until_.given()))
       throw BadInput(
@@ -161,9 +161,9 @@ class RollCommand final : public Verb {
           gradient_ ? "--gradient" : "--uncertainty",
           with_name(instants_.names(), until_.given() ? until_.name() : ""));
     if (gradient_) roll.gradient = gradient_of(roll);
-    if (output.picture()) {
+    if (output.picture) {
       if (roll.uncertainty) throw BadInput("--uncertainty: not in a picture; leave it out");
-      const bool moves = output.picture() == portraits::PictureFormat::gif;
+      const bool moves = output.picture == portraits::PictureFormat::gif;
       if (instants_.at() != nullptr || instants_.equidistant() || (instants_.asked() && !moves)) {
         throw BadInput("a picture needs no --at, --samples or --equidistant, a film --samples alone: leave them out");
       }
@@ -181,10 +181,8 @@ class RollCommand final : public Verb {
       picture.size = output_.size();
       picture.slow = moves ? slow : 0;
       picture.whole_path = until_.given();
-      std::vector<portraits::Figure> figures =
-          moves ? portraits::roll_film(picture) : std::vector{portraits::roll_figure(picture)};
-      for (portraits::Figure& figure : figures) figure = output_.apply(std::move(figure), output.format);
-      return output.write(figures);
+      return output_.write(moves ? portraits::roll_film(picture) : std::vector{portraits::roll_figure(picture)},
+                           output);
     }
     if (output.format == "text" && !instants_.given() && !until_.given())
       return output.write(answers::roll_text(roll, output.digits));

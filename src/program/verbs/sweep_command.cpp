@@ -290,9 +290,9 @@ class SweepCommand final : public Verb {
     const SweepGrid grid = start_.ball_given() ? read_grid_of_ball(law) : read_grid(start_.body());
     const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : start_.body().inertia;
     const double drive = grid.ball ? start_.drive_along_x(*grid.ball) : start_.drive().value_or(0);
-    if (out.picture()) {
+    if (out.picture) {
       bulk_.refuse("npy and csv: a picture has few starts, leave it out");
-      return output_.write(make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid), out);
+      return output_.write({make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid)}, out);
     }
     OutputFile output(out.path);
     sweep({.law = law,

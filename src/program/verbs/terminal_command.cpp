@@ -25,11 +25,11 @@ class TerminalCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const reduction::Law law = law_.read(std::string(body_.body().law));
-    if (!output.picture()) return output.write(terminal_answer(body_.read_system(law)));
+    if (!output.picture) return output.write(terminal_answer(body_.read_system(law)));
     // The figure shows all r. If a body is given, a mark shows the r of this body.
     std::optional<double> r;
     if (body_.mu().given() || body_.body_argument().given()) r = body_.read_system(law).r();
-    return output_.write(portraits::rays_figure(law, r, output_.size(), body_.drive().value_or(0)), output);
+    return output_.write({portraits::rays_figure(law, r, output_.size(), body_.drive().value_or(0))}, output);
   }
 
  private:
