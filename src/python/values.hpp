@@ -84,7 +84,7 @@ py::array_t<Value> mapped(const Numbers& given, Function function) {
 /// Returns the entry of a range that a name stands for.
 /// @param kinds  plural of the kind of names, such as "laws"
 /// @param name   returns the name of an entry
-/// @param more   names for the message that no entry has
+/// @param more   further names for the message, such as families of laws
 /// @throws std::domain_error  with a list of the names, if the name is not among them
 template <class Range, class Name>
 auto entry_of(std::string_view kind, std::string_view kinds, const Range& range, Name name, const std::string& typed,

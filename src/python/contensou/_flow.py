@@ -199,7 +199,7 @@ class Flow:
         """
         if not gradient and out is None and where is True and isinstance(u, (float, int)) and isinstance(v, (float, int)):
             return self._core.stop_time(number("u", u), number("v", v))
-        return _array_stop_times(partial(_write_stop_times_of_mu, self), ("u", "v"), (u, v), out, threads, gradient, where)
+        return _array_stop_times(partial(_write_stop_times_of_flow, self), ("u", "v"), (u, v), out, threads, gradient, where)
 
     def orbit(self, *, u: float, v: float) -> Orbit:
         """Returns the motion from one start."""
@@ -308,7 +308,7 @@ def _write_stop_times(
         result[...] = found.reshape(result.shape)
 
 
-def _write_stop_times_of_mu(flow: Flow, threads: int, u: NDArray[np.float64], v: NDArray[np.float64],
+def _write_stop_times_of_flow(flow: Flow, threads: int, u: NDArray[np.float64], v: NDArray[np.float64],
                             *results: NDArray[np.float64]) -> None:
     _write_stop_times(flow._core, (u, v), results, threads)
 

@@ -241,7 +241,7 @@ const std::vector<Engine>& engines() {
        "friction the geometric mean of the two bodies",
        {"A ball spins for ever: mAngularDamping (0.05 1/s by default) alone brakes it, on the ground and\n"
         "in the air, by that share of its spin a second.",
-        "The force is bounded by f N and the moment by itself, so slip and spin do not know of each other.",
+        "The force has the limit f N and the moment a limit of its own: slip and spin do not affect each other.",
         "A cylinder's face is an octagon, its contact points at most four of the corners."},
        {"Jolt/Physics/Constraints/ContactConstraintManager.cpp:146-180",
         "Jolt/Physics/Constraints/ContactConstraintManager.cpp:1704-1744",
@@ -353,8 +353,8 @@ const std::vector<Engine>& engines() {
        "own numbers",
        {"marshall has the moment of a uniform disc under every normal model. For Hertz's pressure it is 13 % too\n"
         "large: a spin without slip ends after 88 % of its time.",
-        "The force is bounded by f N and the moment by itself, so slip and spin do not know of each other. At a\n"
-        "slip of a omega, marshall's moment is 3 times that of Hertz's pressure, at 3 a omega 10 times.",
+        "The force has the limit f N and the moment a limit of its own: slip and spin do not affect each other.\n"
+        "At a slip of a omega, marshall's moment is 3 times that of Hertz's pressure, at 3 a omega 10 times.",
         "Under hertz a stiffness k_n that is 1000 times too small, for longer time steps, makes the moment of\n"
         "marshall 10 times as large.",
         "Under tangential mindlin the spring of marshall is k_t a^2/2 and lacks a factor a; in the version of\n"
