@@ -16,6 +16,7 @@ import { fromFragment, speaksOfNothing, strangeBall } from "./state/page_state.j
 import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
+import { tour } from "./state/presets.js";
 import { makePresets } from "./controls/presets_nav.js";
 import { makeShare } from "./share/share.js";
 import { Store } from "./state/store.js";
@@ -36,7 +37,7 @@ function start(library) {
   const plane = new Plane(store);
   const controls = makeControls(store);
   makeSettings(controls, store, plane);
-  makeCue(store, controls, player);
+  const cue = makeCue(store, controls, player);
   const bounce = makeBounce(store, controls);
   makeOrbits(store, plane);
   const address = new Address(store);
@@ -79,7 +80,7 @@ function start(library) {
   store.changed = (moment) => {
     if (!moment) {
       for (const kind of ["embed", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
-      document.documentElement.dataset.step = String(store.state.step);
+      document.documentElement.dataset.shows = tour[store.state.step].shows;
       store.show();
     }
     draw();
@@ -92,7 +93,7 @@ function start(library) {
     const { theme, fraction } = store.state;
     screen = { theme, fraction };
     store.ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
-    for (const surface of [hero.lanes, hero.patch, plane.surface, paneSurface, copies]) surface.draw();
+    for (const surface of [hero.lanes, hero.patch, plane.surface, bounce, cue, paneSurface, copies]) surface.draw();
   });
   addEventListener("afterprint", () => store.ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;

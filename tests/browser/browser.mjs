@@ -85,6 +85,12 @@ export function assertClose(measured, wanted, tolerance, what) {
 /** Until the page is laid out and drawn as it is now, and has heard of what came into sight. */
 export const drawn = () => page.evaluate(() => new Promise((done) => globalThis.nextPicture(() => globalThis.nextPicture(done))));
 
+/** Moves a slider to a value. */
+export const slide = (id, value) => page.locator(`#${id}`).evaluate((input, value) => {
+  input.value = value;
+  input.dispatchEvent(new Event("input"));
+}, value);
+
 /** Lets so many milliseconds pass on a clock that stands. */
 export const pass = (time) => page.clock.runFor(time);
 

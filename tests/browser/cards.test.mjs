@@ -1,13 +1,11 @@
 // The cue and the ball that bounces, each in its step of the tour: their numbers are the program's.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertClose, close, drawn, json, open, page, state } from "./browser.mjs";
+import { shown } from "../../src/page/numbers.js";
+import { assertClose, close, drawn, json, open, page, slide, state } from "./browser.mjs";
 
 const says = (id) => page.textContent(`#${id}-says`);
-const slide = (id, share) => page.locator(`#${id}-slider`).evaluate((input, value) => {
-  input.value = value;
-  input.dispatchEvent(new Event("input"));
-}, 1000 * share);
+const slideTo = (id, share) => slide(`${id}-slider`, 1000 * share);
 
 /** The motion that the page shows, and that of the program's stroke. */
 async function comparesWith(speed, tip, elevation) {
@@ -33,17 +31,16 @@ test("the dot is where the tip of a cue hits for this motion; who drags it strik
     assert.deepEqual(await page.$$eval("#cue-sliders output:not(.error)", (all) => all.map((each) => each.textContent)), ["2.5 m/s", "60°"]);
     await page.locator("#cue").scrollIntoViewIfNeeded();
     const box = await page.locator("#cue").boundingBox();
-    const face = await page.evaluate(() => ({ x: 0.24 * globalThis.document.getElementById("cue").clientWidth }));
-    const centre = [box.x + face.x, box.y + box.height / 2];
+    const centre = [box.x + 0.24 * box.width, box.y + box.height / 2];
     await page.mouse.move(...centre);
     await page.mouse.down();
     await page.mouse.move(centre[0] + 8, centre[1]);
-    // Beyond the rim on which the tip slips off it stays on this rim.
+    // A tip that is dragged beyond the rim stays on it.
     await page.mouse.move(centre[0] + 300, centre[1]);
     await page.mouse.up();
     await comparesWith(2.5, [0.5, 0], 60);
-    await slide("cue-elevation", 0);
-    await slide("cue-speed", 0.5);
+    await slideTo("cue-elevation", 0);
+    await slideTo("cue-speed", 0.5);
     await comparesWith(4, [0.5, 0], 0);
     await page.focus("#cue");
     for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowLeft");
@@ -65,7 +62,7 @@ test("a motion that no cue gives says so, and so does a body that no cue strikes
   await open("#ball=pool&orbits=2.8575,1&step=7");
   assert.match(await says("cue"), /No cue gives this motion/);
   // A ball that is hit above 0.4 radii slips backwards, and goes to the right all the same.
-  await slide("cue-speed", 0.25);
+  await slideTo("cue-speed", 0.25);
   await page.focus("#cue");
   for (let i = 0; i < 10; ++i) await page.keyboard.press("ArrowUp");
   await comparesWith(2, [0, 0.5], 0);
@@ -87,20 +84,19 @@ test("a ball that bounces leaves as the program says, with spin and without", as
     const { ball, orbits: [{ u, v }] } = await state();
     const options = ["--ball", ball.name, "--speed", v, "--drop", drop, "--restitution", restitution, ...(ball.friction === 0.5 ? [] : ["--friction", ball.friction])];
     const [own, plain] = [u / ball.radius, 0].map((spin) => json("bounce", ...options, "--spin", spin).after);
-    const shown = (value) => String(Number(value.toPrecision(3)));
-    const leaves = ({ angle, vx }) => `${shown(angle)}° from the vertical, at ${shown(vx)} m/s along the floor`;
+    const leaves = ({ angle, vx }) => `${shown(angle, 3)}° from the vertical, at ${shown(vx, 3)} m/s along the floor`;
     assert.equal(await says("bounce"), `The ball leaves ${leaves(own)}. Without spin: ${leaves(plain)}, as textbooks predict for both.`);
-    assert.equal(shown(plain.angle), shown(json("bounce", ...options, "--spin", u / ball.radius).textbook.angle));
+    assert.equal(shown(plain.angle, 3), shown(json("bounce", ...options, "--spin", u / ball.radius).textbook.angle, 3));
   };
   await compare(0.1, 0.8);
   assert.doesNotMatch(page.url(), /drop|restitution/);
-  await slide("drop", 0.5);
-  await slide("restitution", 0.35);
+  await slideTo("drop", 0.5);
+  await slideTo("restitution", 0.35);
   await compare(0.5, 0.35);
   await page.waitForFunction(() => /drop=0\.5&restitution=0\.35/.test(location.hash));
-  await slide("spin", 0.3);
+  await slideTo("spin", 0.3);
   await compare(0.5, 0.35);
-  // Of another friction the patch is that of the catalogue, too.
+  // Another friction leaves the patch of the catalogue.
   await page.evaluate(() => globalThis.page.store.ask((next) => (next.ball.friction = 0.3)));
   await compare(0.5, 0.35);
   // The picture follows the clock, and rests with it.
@@ -112,6 +108,12 @@ test("a ball that bounces leaves as the program says, with spin and without", as
     pictures.add(await picture());
   }
   assert.equal(pictures.size, 5, "it has ended after a third of the motion on the table");
+  await close();
+  // An impact whose patch is wider than the ball is told, and the page goes on.
+  await open("#ball=gel&mass=3&orbits=15,1&step=6");
+  assert.match(await says("bounce"), /patch/);
+  await slideTo("spin", 0.3);
+  assert.equal(await page.textContent("#problem"), "");
   await close();
   await open("#ball=puck&orbits=2.286,0.5&step=6");
   assert.match(await says("bounce"), /A real ball that can roll bounces here/);

@@ -1,7 +1,7 @@
 // One curve: a start that is pulled runs through its copies, or changes curve, and the plane looks alike at every size.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertClose, close, drawn, open, page, pixelOf, programStop, state } from "./browser.mjs";
+import { assertClose, close, drawn, open, page, pixelOf, programStop, slide, state } from "./browser.mjs";
 
 const said = async () => (await page.textContent("#pointed")).trim();
 
@@ -126,10 +126,7 @@ test("one slider is the size of all motions: the numbers change with it, the cur
   for (const fragment of ["#lab=1&ball=puck&orbits=2.286,0.5;-1,0.3", "#lab=1&mu=0.3&orbits=0.8,3.5;0.4,2"]) {
     await open(fragment);
     const to = async (value) => {
-      await page.locator("#size").evaluate((input, value) => {
-        input.value = value;
-        input.dispatchEvent(new Event("input"));
-      }, value);
+      await slide("size", value);
       return page.evaluate(() => {
         const { state: { orbits }, store, library: { plane } } = globalThis.page;
         return {

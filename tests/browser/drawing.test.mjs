@@ -1,7 +1,7 @@
 // What the page draws: bodies, orbits, colours, letters and the room that they have.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clickPlane, close, drawn, open, page, pass, pixelOf, saved, state } from "./browser.mjs";
+import { clickPlane, close, drawn, open, page, pass, pixelOf, saved, slide, state } from "./browser.mjs";
 
 /** The texts of an SVG file and where they are, in its pixels: {text, left, right, top, bottom}. */
 const textsOf = (svg) => page.evaluate((svg) => {
@@ -246,7 +246,7 @@ test("what is not seen is not drawn, and after its round it rests", async () => 
 test("no card changes its height with the view, the step of the tour or the motion", async () => {
   for (const viewport of [{ width: 1440, height: 900 }, { width: 1280, height: 800 }]) {
     await open("", { viewport });
-    const heights = () => page.evaluate(() => ["#hero", "#plane-card, #bounce-card, #cue-card", "#tour"].map((each) => [...document.querySelectorAll(each)].find((card) => card.checkVisibility())).map((card) => Math.round(card.getBoundingClientRect().height)).join());
+    const heights = () => page.evaluate(() => ["#hero", ".beside-hero", "#tour"].map((each) => [...document.querySelectorAll(each)].find((card) => card.checkVisibility())).map((card) => Math.round(card.getBoundingClientRect().height)).join());
     const seen = new Map([[await heights(), "the opening"]]);
     const note = async (what) => seen.set(await heights(), what);
     for (const view of ["patch", "log", "similarity", "blowup", "disc", "time", "uv"]) {
@@ -281,10 +281,7 @@ test("nothing moves under the hand: story, table and sliders stay while a slider
       const what = `${width}, ${await link.textContent()}`;
       const before = await rectangles();
       for (const id of ["spin-slider", "slip-slider"]) for (let share = 0; share <= 1000; share += 125) {
-        await page.locator(`#${id}`).evaluate((input, value) => {
-          input.value = value;
-          input.dispatchEvent(new Event("input"));
-        }, share);
+        await slide(id, share);
         const wrong = (await rectangles()).filter(({ sides }, i) => sides.some((side, j) => Math.abs(side - before[i].sides[j]) > 0.5));
         if (wrong.length) moved.push(`${what}, ${id} at ${share}: ${JSON.stringify([wrong[0], before.find((each) => each.id === wrong[0].id)])}`);
         const over = await page.evaluate(() => ["words", "headline"].map((id) => document.getElementById(id)).find(({ scrollHeight, clientHeight }) => scrollHeight > clientHeight + 1)?.textContent);

@@ -8,7 +8,7 @@ import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { unpacked } from "../../src/page/packing.js";
-import { assertClose, close, drawn, file, folder, json, open, page, pass, pixelOf, program, programStop, saved, slides, state, stopTimes } from "./browser.mjs";
+import { assertClose, close, drawn, file, folder, json, open, page, pass, pixelOf, program, programStop, saved, slide, slides, state, stopTimes } from "./browser.mjs";
 
 const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 const inLab = ["#columns", "#views", "#mu-control", "#friction-control", "#copies", "#plane-help", ".keys"];
@@ -200,23 +200,20 @@ test("at the size of a notebook all of it is on the first screen, and on a phone
 
 test("sliders say what they are, in SI, and the start follows", async () => {
   await open("#ball=gel&orbits=9,0.5");
-  const slide = async (id, share) => {
-    await page.locator(`#${id}-slider`).evaluate((input, share) => {
-      input.value = 1000 * share;
-      input.dispatchEvent(new Event("input"));
-    }, share);
+  const slideTo = async (id, share) => {
+    await slide(`${id}-slider`, 1000 * share);
     return page.locator(`#${id}-slider`).getAttribute("aria-valuetext");
   };
-  assert.equal(await slide("spin", 0), "0 rad/s");
+  assert.equal(await slideTo("spin", 0), "0 rad/s");
   assert.match(await page.textContent("#headline"), /^Without spin/);
-  assert.equal(await slide("spin", 0.4), "200 rad/s");
-  assert.equal(await slide("slip", 0.5), "1 m/s");
+  assert.equal(await slideTo("spin", 0.4), "200 rad/s");
+  assert.equal(await slideTo("slip", 0.5), "1 m/s");
   const { orbits: [{ u, v, along }], ball } = await state();
   assert.deepEqual([u / ball.radius, v, along], [200, 1, 1]);
   const before = (await state()).mu;
-  assert.equal(await slide("friction", 0.5), "0.6");
+  assert.equal(await slideTo("friction", 0.5), "0.6");
   assert.equal((await state()).mu, before, "the patch does not follow the friction");
-  assert.match(await slide("mu", 0.8), /^7\.5\d? mm, mu 0\.25/);
+  assert.match(await slideTo("mu", 0.8), /^7\.5\d? mm, mu 0\.25/);
   await close();
 });
 

@@ -261,8 +261,8 @@ test("a pressure of the reader's own is a law that a link carries, and a file th
 });
 
 test("a cue's stroke follows from the start that it gives", () => {
-  const ball = { gamma: 2.5, masses: 0.3, elevation: 20 };
-  /** By the formulas of si::struck: cue along x, R = 1. */
+  const ball = { gamma: 2.5, masses: 0.3, elevation: 20, offset: 0.5 };
+  /** The formulas of si::struck: cue along x, R = 1. */
   const struck = (speed, right, above, degrees) => {
     const [cos, sin] = [Math.cos(degrees * Math.PI / 180), Math.sin(degrees * Math.PI / 180)];
     const impulse = (2 * speed) / (1 + ball.masses + ball.gamma * (right ** 2 + above ** 2));

@@ -7,6 +7,7 @@ import { drawBall } from "../hero/hero_figure.js";
 import { rotation } from "../hero/turning.js";
 import { shown } from "../numbers.js";
 import { shotOf } from "../plane/portrait_request.js";
+import { tour } from "../state/presets.js";
 
 const highest = 1;      // m
 const haste = 3;        // times as soon as the motion on the table this one ends
@@ -16,32 +17,38 @@ const angleOf = ({ after, up }) => (Math.atan2(after, up) * 180) / Math.PI;
 
 /** @param {Store} store @param {Controls} controls @returns what draws it */
 export function makeBounce(store, controls) {
-  /** How the ball leaves the floor, without spin and with it; nothing where none bounces. @returns {Rebound[]} */
+  /** The rebounds without spin and with it; else a message, which is empty while the card is not shown. @returns {Rebound[] | string} */
   const rebounds = () => {
-    const { library, orbit, roller: ball, state: { law, drop, restitution } } = store;
-    if (!ball) return [];
+    const { library, orbit, roller: ball, state: { law, drop, restitution, step } } = store;
+    if (tour[step].shows !== "bounce") return "";
+    if (!ball) return "A real ball that can roll bounces here: choose one in the settings.";
     const asBuilt = ball.patch === ball.initial?.patch && ball.patchBy === ball.initial.patchBy;
-    return store.keep("rebounds", [ball, law, orbit, drop, restitution],
-      () => [{ ...orbit, u: 0 }, orbit].map((start) => library.bounce(law, shotOf(ball, start), asBuilt, drop, restitution)));
+    return store.keep("rebounds", [ball, law, orbit, drop, restitution], () => {
+      try {
+        return [{ ...orbit, u: 0 }, orbit].map((start) => library.bounce(law, shotOf(ball, start), asBuilt, drop, restitution));
+      } catch ({ message }) {
+        return message;
+      }
+    });
   };
   controls.slider("drop", "falls from", ({ roller, state: { drop } }) => roller && { share: drop / highest, text: `${shown(drop, 2)} m` },
     (state, share) => (state.drop = Number(Math.max(0.01, share * highest).toPrecision(2))), $("bounce-sliders"));
   controls.slider("restitution", "restitution", ({ roller, state: { restitution } }) => roller && { share: restitution, text: shown(restitution, 2) },
     (state, share) => (state.restitution = Number(share.toFixed(2))), $("bounce-sliders"));
   store.shows.push(() => {
-    const [plain, own] = rebounds();
+    const found = rebounds();
+    const [plain, own] = typeof found === "string" ? [] : found;
     const leaves = (rebound) => `${shown(angleOf(rebound), 3)}° from the vertical, at ${shown(rebound.after, 3)} m/s along the floor`;
-    write($("bounce-says"), own ? `The ball leaves ${leaves(own)}. Without spin: ${leaves(plain)}, as textbooks predict for both.`
-      : "A real ball that can roll bounces here: choose one in the settings.");
+    write($("bounce-says"), own ? `The ball leaves ${leaves(own)}. Without spin: ${leaves(plain)}, as textbooks predict for both.` : found);
     $("bounce").setAttribute("aria-label", `Two balls that bounce. ${$("bounce-says").textContent}`);
   });
   return new ScreenSurface($("bounce"), (surface) => {
     const { theme, state: { drop, fraction, chosen }, orbit, roller: ball } = store;
     const bodies = rebounds();
-    if (!ball) return surface.still([theme], theme.card, () => {});
+    if (!ball || typeof bodies === "string") return surface.still([theme], theme.card, () => {});
     const [{ down, up, before }, { radius, gravity }] = [bodies[0], ball];
     const [falls, rises] = [down, 2 * up].map((speed) => speed / gravity);
-    /** Where the centre of a ball is, in m. */
+    /** The centre of a ball, in m. */
     const placeAt = (t, { after }) => [t * (t < 0 ? before : after), radius + (t < 0 ? drop - (gravity * (t + falls) ** 2) / 2 : (up - (gravity * t) / 2) * t)];
     const colours = [theme.soft, theme.swatch(chosen)];
     const [frame] = drawFigure(surface, [bodies, radius, chosen], () => figureOf(theme, { columns: 1, narrowest: 230 }, [{
@@ -54,7 +61,7 @@ export function makeBounce(store, controls) {
     const turned = (orbit.u / radius) * (falls + rises);
     bodies.forEach((body, i) => {
       const [x, y] = frame.pixel(placeAt(time, body));
-      const turn = rotation([0, 0, (i * turned * Math.min(1, mostTurned / Math.abs(turned) || 1) * (time + falls)) / (falls + rises)]);
+      const turn = rotation([0, 0, (i * turned * Math.min(1, mostTurned / Math.abs(turned)) * (time + falls)) / (falls + rises)]);
       drawBall(surface, { x, y, radius: frame.px(radius) - frame.px(0), rolls: true }, turn, colours[i], theme);
       const style = { colour: colours[i], size: 1.1 * theme.textSize, bold: true, align: "right", halo: theme.card };
       const words = `${shown(angleOf(body), 3)}°`;

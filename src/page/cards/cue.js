@@ -15,10 +15,10 @@ const degree = Math.PI / 180;
  * The stroke that gives a start to a ball at rest, as si::struck has it: speed in m/s, right and above in radii, elevation in degrees.
  *
  * @param {Start} start
- * @param ball  gamma; masses: of the ball divided by that of the cue; elevation: without side spin any will do
+ * @param ball  gamma; masses: of the ball divided by that of the cue; elevation: without side spin any will do; offset: most of the tip, in radii
  * @returns null if no cue gives this start
  */
-export function strikeOf({ u, v, along, across }, { gamma, masses, elevation }) {
+export function strikeOf({ u, v, along, across }, { gamma, masses, elevation, offset }) {
   const speed = Math.hypot(along, across);
   // The angular velocity times the radius, about the direction of the cue and about the horizontal to the left of it.
   const [about, back] = [(-v * across) / speed, (speed * speed - v * along) / speed];
@@ -26,11 +26,12 @@ export function strikeOf({ u, v, along, across }, { gamma, masses, elevation }) 
   if (!(speed > 0 && tilt >= 0 && tilt < 89 * degree)) return null;
   const velocity = speed / Math.cos(tilt);
   const [right, above] = [u / Math.cos(tilt), back].map((part) => part / gamma / velocity);
+  if (Math.hypot(right, above) > offset + 1e-4) return null;
   const digits = (value) => Number(value.toFixed(4));
   return { speed: digits((velocity * (1 + masses + gamma * (right * right + above * above))) / 2), right: digits(right), above: digits(above), elevation: digits(tilt / degree) };
 }
 
-/** @param {Store} store @param {Controls} controls @param {Player} player */
+/** @param {Store} store @param {Controls} controls @param {Player} player @returns what draws it */
 export function makeCue(store, controls, player) {
   let stroke = { speed: 2, right: 0, above: 0, elevation: 0 };
   let [isStruck, face] = [false, { x: 0, y: 0, radius: 1 }];
@@ -55,9 +56,9 @@ export function makeCue(store, controls, player) {
   const hitPixel = (x, y) => hit((x - face.x) / face.radius, (face.y - y) / face.radius);
   store.shows.push(() => {
     const ball = store.roller;
-    const found = ball && strikeOf(store.orbit, { gamma: store.body.gamma, masses: ball.mass / cueMass, elevation: stroke.elevation });
-    isStruck = found !== null && Math.hypot(found.right, found.above) <= offset + 1e-4;
-    if (found && isStruck) stroke = found;
+    const found = ball && strikeOf(store.orbit, { gamma: store.body.gamma, masses: ball.mass / cueMass, elevation: stroke.elevation, offset });
+    isStruck = Boolean(found);
+    stroke = found || stroke;
     const { right, above } = stroke;
     const side = (value, more, less) => `${shown(Math.abs(value), 2)} radii ${value < 0 ? less : more} the centre`;
     write($("cue-says"), !ball ? "A cue strikes a real ball, one that can roll: choose one in the settings." : !isStruck ? "No cue gives this motion. Drag the dot for one that does."
@@ -87,6 +88,7 @@ export function makeCue(store, controls, player) {
     move: (dx, dy) => store.roller && hit(stroke.right + dx / 20, stroke.above + dy / 20),
     enter: () => player.begin(),
   });
+  return picture;
 }
 
 /** The ball as the cue sees it, with the dot, and the cue from its side. @returns the ball's face, in pixels */

@@ -23,7 +23,7 @@ export function makeTour(store, go) {
   store.shows.push(({ step }) => {
     back.disabled = step === 0;
     on.disabled = step >= tour.length - 1;
-    // On a slow machine a long way takes pauses, in which a step on the way would be shown.
+    // At once: a slow machine would pause on the way, and show the step that it has reached.
     if (step !== at) to(at = step, "instant");
   });
 }
