@@ -1,5 +1,5 @@
-// What `contensou engine` says that an engine does, and its comparison with the engine: a pool ball at 1 m/s and
-// 100 rad/s, with the number typed in that it prints.
+// Compares an engine with the motion that `contensou engine` prints for it: a pool ball at 1 m/s and 100 rad/s. The
+// engine gets the numbers that the program prints.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 

@@ -1,5 +1,4 @@
-// What `contensou engine` says that an engine does, against the engine: a pool ball at 1 m/s and 100 rad/s, with the
-// number typed in that it prints. Every setting that it lists of these engines is run.
+// Each setting of MuJoCo and PhysX that `contensou engine` lists, run in the engine.
 //   CONTENSOU_PROGRAM=.../contensou node engines.test.mjs
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -5,13 +5,14 @@ import { fading, slipOf } from "./fading.mjs";
 /**
  * @param normal      normal model, "hertz" or "hooke"
  * @param stiffness   its stiffness, Pa or N/m; the ball starts in equilibrium with this stiffness
- * @param tangential  tangential model with its stiffness, Pa or N/m
  * @param twisting    words of the twisting model
  * @param end         s
  */
-export function lammpsTimes(ball, { normal, stiffness, tangential, twisting }, end, dt = 5e-4) {
+export function lammpsTimes(ball, { normal, stiffness, twisting }, end) {
   const { radius, mass, friction, gravity, slip, spin } = ball;
+  const dt = 5e-4; // s
   const load = mass * gravity;
+  const tangential = { hertz: "mindlin", hooke: "linear_history" }[normal];
   const overlap = normal === "hooke" ? load / stiffness : (load / stiffness) ** (2 / 3) / radius ** (1 / 3);
   const input = `
     units si
@@ -27,7 +28,7 @@ export function lammpsTimes(ball, { normal, stiffness, tangential, twisting }, e
     pair_coeff * *
     fix motion all nve/sphere
     fix weight all gravity ${gravity} vector 0 0 -1
-    fix wall all wall/gran granular ${normal} ${stiffness} 0 tangential ${tangential} 0 ${friction} ${twisting} &
+    fix wall all wall/gran granular ${normal} ${stiffness} 0 tangential ${tangential} ${stiffness} 0 ${friction} ${twisting} &
       damping velocity zplane 0 NULL
     compute of all property/atom vx vy omegax omegay omegaz
     compute row all reduce sum c_of[*]

@@ -7,10 +7,9 @@ import { lammpsTimes } from "./lammps.mjs";
 const { ball: itself, patch, typed, settings, law } = asked("lammps");
 const ball = { ...itself, friction: typed("mu_s of tangential") };
 const load = ball.mass * ball.gravity;
-// With this stiffness the radius of the contact, sqrt(R overlap), is the patch radius.
+// This stiffness makes the radius of the contact, sqrt(R overlap), the patch radius.
 const hertz = (load * ball.radius) / patch ** 3;
-const run = (twisting, end, stiffness = hertz) =>
-  lammpsTimes(ball, { normal: "hertz", stiffness, tangential: `mindlin ${stiffness}`, twisting }, end);
+const run = (twisting, end, stiffness = hertz) => lammpsTimes(ball, { normal: "hertz", stiffness, twisting }, end);
 
 test("LAMMPS", () => {
   compare({ ball, settings }, {
@@ -23,7 +22,7 @@ test("LAMMPS", () => {
 test("the moment of marshall depends on the radius of the contact, not on the normal model", () => {
   const { t_spin } = settings.get("twisting marshall");
   const stiffness = (load * ball.radius) / patch ** 2;
-  const hooke = { normal: "hooke", stiffness, tangential: `linear_history ${stiffness}`, twisting: "twisting marshall" };
+  const hooke = { normal: "hooke", stiffness, twisting: "twisting marshall" };
   assertClose(lammpsTimes(ball, hooke, 12).spin, t_spin, "spin, hooke");
   assertClose(run("twisting marshall", 12, hertz / 8).spin, t_spin / 2, "spin, stiffness divided by 8");
 });
