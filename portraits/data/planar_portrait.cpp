@@ -351,18 +351,17 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
 
 /// Follows a motion until it is some window sides beyond the window, because it may return from nearer places.
 Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
-  const auto& [plane, by_steps] = way;
-  const Vector2d f = plane.field()(x);
+  const Vector2d f = way.plane.field()(x);
   const Vector2d sides = window_.sides();
   const double speed = f.cwiseQuotient(sides).norm();
   if (!(speed > 0)) return {};
   bool stepped = false;
   reduction::PlanarOrbit motion = [&] {
     try {
-      return plane.part_of_orbit(x);
+      return way.plane.part_of_orbit(x);
     } catch (const std::domain_error&) {
       stepped = true;
-      return by_steps.orbit(x);
+      return way.by_steps.orbit(x);
     }
   }();
   constexpr double near = 0.008, far = 6, rest = 1e-5;
@@ -384,7 +383,7 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
       if (step > 1e-6 * near / speed) continue;
       // The reduction ends here, but steps in time may continue the orbit.
       if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
-      motion = by_steps.orbit(here);
+      motion = way.by_steps.orbit(here);
       time = 0;
       step = 1e-3 * near / speed;
       continue;
