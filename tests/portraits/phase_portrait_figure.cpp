@@ -507,7 +507,7 @@ TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
       const auto line = maps[i].line(portrait.highlight[0]);
       if (view == View::regularised) {
         // Compare on paper: each row of the orbit must lie between two neighbouring points of the line.
-        const auto on = [&](Point at) { return portraits::on_paper(figure.panels[i], at); };
+        const auto on = [&panel = figure.panels[i]](Point at) { return portraits::on_paper(panel, at); };
         for (const Point& row : line) {
           const auto after = std::ranges::lower_bound(drawn, row.x, {}, &Point::x);
           if (after == drawn.end() || after == drawn.begin()) continue;

@@ -503,7 +503,7 @@ Answer reduce_answer(const GivenStart& given) {
   for (reduction::Route route : ways) {
     // The first route is quadrature or the closed form, which has already computed tau.
     add_route(name(route),
-              [&] { return route == ways.front() ? tau : reduction::stop_time(system, state, route).tau; });
+              [&] { return route == ways.front() ? tau : reduction::stop_time(given.system, given.state, route).tau; });
   }
   add_route("section", [&] {
     // Other quadrants mirror u, v > 0. Only a multiple zero of the angular rate on an axis needs both sides of it.

@@ -283,7 +283,7 @@ class Text {
     const double tau = report_.stop.tau, uncoupled = std::max(report_.sliding_only, system.pivoting_limit(state.u));
     if (std::isinf(tau)) return "";
     const auto time = [&](double of) {
-      return experiment ? time_in_words(report_.seconds(of)) : "tau = " + to_two_digits(of);
+      return report_.start.experiment ? time_in_words(report_.seconds(of)) : "tau = " + to_two_digits(of);
     };
     const auto rest = rest_of(report_.start);
     const bool flat = experiment && experiment->ball.body.lies_flat();

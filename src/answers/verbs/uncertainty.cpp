@@ -371,8 +371,9 @@ Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::
 
 Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed) {
   constexpr std::string_view corner = "the stop time has";
-  const auto& [system, state, given, motion] = start;
-  if (given) {
+  const reduction::ReducedSystem& system = start.system;
+  const reduction::State& state = start.state;
+  if (const std::optional<si::Experiment>& given = start.experiment) {
     si::Experiment experiment = *given;
     experiment.spreads = of_slip_and_spin(experiment);
     experiment.start = si::SlipAndSpin{si::slip_at_start(*given), si::spin_at_start(*given)};
