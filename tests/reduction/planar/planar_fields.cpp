@@ -30,36 +30,41 @@ struct Line {
   double angle;
   int angular, radial;
 
-  /// Returns the sine of the angle from the line. It is exact on axes and diagonals.
-  double sine(const Vector2d& n) const {
+  /// Returns the sine of the angle from the line to the unit vector (x, y). It is exact on axes and diagonals.
+  double sine(double x, double y) const {
     const double eighths = angle / (pi / 4);
-    if (eighths == 0) return n[1];
-    if (eighths == 1) return (n[1] - n[0]) / std::numbers::sqrt2;
-    if (eighths == 2) return -n[0];
-    return n[1] * std::cos(angle) - n[0] * std::sin(angle);
+    if (eighths == 0) return y;
+    if (eighths == 1) return (y - x) / std::numbers::sqrt2;
+    if (eighths == 2) return -x;
+    return y * std::cos(angle) - x * std::sin(angle);
   }
 };
 
+/// Its functions compute with numbers, because Eigen is slow in a test, which is compiled without optimisation.
 struct RandomField {
   double degree, angular, radial, slant;
   std::vector<Line> lines = {};
   Matrix2d map = Matrix2d::Identity(), inverse = map;
 
-  double turning(const Vector2d& n) const {
-    double product = angular * (1.3 + n[1] * std::cos(slant) + n[0] * std::sin(slant));
-    for (const Line& line : lines) product *= std::pow(line.sine(n), line.angular);
+  /// Returns T in the direction of the unit vector (x, y).
+  double turning(double x, double y) const {
+    double product = angular * (1.3 + y * std::cos(slant) + x * std::sin(slant));
+    for (const Line& line : lines) product *= std::pow(line.sine(x, y), line.angular);
     return product;
   }
-  double growth(const Vector2d& n) const {
-    double product = radial * (1.4 + n[0] * std::cos(slant) + n[1] * std::sin(slant));
-    for (const Line& line : lines) product *= std::pow(line.sine(n), line.radial);
+  /// Returns R in the direction of the unit vector (x, y).
+  double growth(double x, double y) const {
+    double product = radial * (1.4 + x * std::cos(slant) + y * std::sin(slant));
+    for (const Line& line : lines) product *= std::pow(line.sine(x, y), line.radial);
     return product;
   }
-  Vector2d operator()(const Vector2d& x) const {
-    const Vector2d y = inverse * x;
-    const double r = y.norm();
-    const Vector2d n = y / r;
-    return map * (std::pow(r, degree) * (growth(n) * n + turning(n) * Vector2d(-n[1], n[0])));
+  Vector2d operator()(const Vector2d& point) const {
+    const double *to = inverse.data(), *back = map.data();  // by columns
+    const double u = point.x(), v = point.y(), x = to[0] * u + to[2] * v, y = to[1] * u + to[3] * v;
+    const double r = std::sqrt(x * x + y * y), scale = std::pow(r, degree) / r;
+    const double R = scale * growth(x / r, y / r), T = scale * turning(x / r, y / r);
+    const double x_rate = R * x - T * y, y_rate = R * y + T * x;
+    return {back[0] * x_rate + back[2] * y_rate, back[1] * x_rate + back[3] * y_rate};
   }
   std::string text() const {
     std::string all = fmt::format("d = {}, T {}, R {}, slant {}", degree, angular, radial, slant);
@@ -67,8 +72,6 @@ struct RandomField {
     return all + fmt::format("; map {} {} {} {}", map(0, 0), map(0, 1), map(1, 0), map(1, 1));
   }
 };
-
-Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// Returns the end of orbits that come to a line, from the orders of T and R and the sign of R beside the line.
 PlanarEnd expected_end(const Line& line, double sign) {
@@ -84,7 +87,8 @@ Polar stepped(const RandomField& field, Polar state, double time) {
   namespace odeint = boost::numeric::odeint;
   const auto rates = [&](const Polar& x, Polar& slope, double) {
     const double scale = std::exp((field.degree - 1) * x[0]);
-    slope = {scale * field.growth(direction(x[1])), scale * field.turning(direction(x[1]))};
+    const double across = std::cos(x[1]), up = std::sin(x[1]);
+    slope = {scale * field.growth(across, up), scale * field.turning(across, up)};
   };
   auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<Polar>>(1e-13, 1e-13);
   double now = 0, step = time * 1e-3;
@@ -118,7 +122,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
     field.inverse = field.map.inverse();
     const double angle = uniform(-3, 3), r = uniform(0.5, 2);
     const Vector2d start = field.map * (r * Vector2d(std::cos(angle), std::sin(angle)));
-    const double turning = field.turning(direction(angle));
+    const double turning = field.turning(std::cos(angle), std::sin(angle));
     CAPTURE(i, field.text(), angle, r, start);
     // Find the line to which the orbit tends.
     double nearest = 10;
@@ -131,7 +135,8 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
       }
     }
     if (nearest < 1e-3 || nearest > pi - 1e-3) continue;
-    const double sign = field.growth(direction(angle + (turning > 0 ? 1 : -1) * nearest * (1 - 1e-6)));
+    const double beside = angle + (turning > 0 ? 1 : -1) * nearest * (1 - 1e-6);
+    const double sign = field.growth(std::cos(beside), std::sin(beside));
     // If T has a zero and R a pole on the same line off the axes, the rounding of R hides the zero.
     const bool is_ordinary =
         std::ranges::none_of(field.lines, [](const Line& line) { return line.angular > 0 && line.radial < 0; });
