@@ -154,7 +154,7 @@ TEST_CASE("how errors depend on each other is found from their residuals", "[rou
   CHECK(growth == Approx(1).margin(0.05));
 }
 
-TEST_CASE("with Huber's loss one value in twenty may be wrong by far", "[invariant]") {
+TEST_CASE("with Huber's loss one value in twenty may be wrong by far", "[invariant][.full]") {
   const Track film = track_of({pool_ball()}, half_second, slip_and_spin, false);
   const auto spoil = [](Track& track, std::mt19937_64& random) {
     for (int i = 0; i < 3; ++i) {

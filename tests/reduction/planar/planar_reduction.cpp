@@ -48,7 +48,7 @@ TEST_CASE("Zhuravlev's system is an instance: stop times and orbits of every law
   std::vector<Law> laws = named_laws();
   laws.push_back(*find_law("pressure:0.3"));
   laws.push_back(*find_law("elliptic:0.7"));
-  constexpr int systems = CONTENSOU_FULL_TESTS ? 250 : 50;
+  constexpr int systems = CONTENSOU_FULL_TESTS ? 250 : 30;
   for (int i = 0; i < systems; ++i) {
     const Law& law = laws[static_cast<std::size_t>(i) % laws.size()];
     const Inertia body = bodies[static_cast<std::size_t>(i / 7) % bodies.size()];
@@ -90,7 +90,7 @@ TEST_CASE("system (2.6) solved by its flow agrees with the solution by the value
   laws.push_back(*find_law("pressure:0.3"));
   laws.push_back(*find_law("elliptic:0.7"));
   int with_rays = 0;
-  constexpr int systems = CONTENSOU_FULL_TESTS ? 120 : 30;
+  constexpr int systems = CONTENSOU_FULL_TESTS ? 120 : 20;
   for (int i = 0; i < systems; ++i) {
     const Law& law = laws[static_cast<std::size_t>(i) % laws.size()];
     const Inertia body = bodies[static_cast<std::size_t>(i / 5) % bodies.size()];
@@ -564,7 +564,7 @@ TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
   const PlanarReduction circle = reduced(
       [=](const Vector2d& x) -> Vector2d { return (2 + sign(x[0] - 2 * x[1])) * Vector2d(x[1], -x[0]); }, {1, 0.3});
   CHECK(circle.end({1, 0.3}) == PlanarEnd::periodic);
-  for (const int turns : {1, 5, 40}) {
+  for (const int turns : CONTENSOU_FULL_TESTS ? std::vector{1, 5, 40} : std::vector{1, 5}) {
     CHECK((circle.orbit({1, 0.3}).at(turns * 4 * pi / 3) - Vector2d(1, 0.3)).norm() < 1e-11);
   }
 }
