@@ -30,7 +30,6 @@
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/root.hpp"
 #include "contensou/reduction/terminal_ratio.hpp"
-#include "contensou/reduction/verification.hpp"
 #include "contensou/si/bounce.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
@@ -302,13 +301,6 @@ class Plane {
     return list(drawn_.maps, lines);
   }
 
-  /// Returns the table of checks of one start.
-  val checks(double u, double v) const {
-    return list(reduction::verify(flow(), State{.u = u, .v = v}), [](const reduction::Check& check) {
-      return object("name", check.name, "measured", check.measured, "allowed", check.allowed, "passed", check.passed());
-    });
-  }
-
  private:
   using Instant = portraits::PortraitOrbit::Instant;
 
@@ -395,11 +387,6 @@ val laws() {
   return all;
 }
 
-/// Returns the end of a message about an unknown name: the most similar name of the array, or nothing.
-std::string suggestion_of(const std::string& typed, const val& names) {
-  return suggestion(typed, emscripten::vecFromJSArray<std::string>(names));
-}
-
 /// Returns the name of a law in the library.
 std::string law_name(const std::string& called) {
   const Law law = law_of(called);
@@ -437,22 +424,14 @@ val bodies() {
   });
 }
 
-/// Returns the reason why a body cannot have this mu; empty if the body can.
-std::string complaint(const std::string& body, double mu) {
-  return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
-}
-
-/// Returns for each view {name, layered: true if it has isochrones and a field, moments: true if its points are times,
-/// not states}. The view of beta is left out, because a click there determines no time, and so is the view of two
-/// panels.
+/// Returns for each view {name, layered: true if it has isochrones and a field}. Views of moments and the view of two
+/// panels are left out: a click there determines no state.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
-  std::erase_if(shown, [](portraits::View view) {
-    return view == portraits::View::regularised || view == portraits::View::pair;
-  });
+  std::erase_if(shown,
+                [](portraits::View view) { return portraits::shows_moments(view) || view == portraits::View::pair; });
   return list(shown, [](portraits::View view) {
-    return object("name", portraits::name(view), "layered", portraits::shows_window(view), "moments",
-                  portraits::shows_moments(view));
+    return object("name", portraits::name(view), "layered", portraits::shows_window(view));
   });
 }
 
@@ -523,12 +502,10 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("at", answering<&Plane::at>)
       .function("slide", answering<&Plane::slide>)
       .function("ride", answering<&Plane::ride>)
-      .function("isochrone", answering<&Plane::isochrone>)
-      .function("checks", answering<&Plane::checks>);
+      .function("isochrone", answering<&Plane::isochrone>);
   function("laws", &laws);
   function("lawName", answering<law_name>);
   function("bodies", &bodies);
-  function("complaint", answering<complaint>);
   function("views", &views);
   function("catalogue", &catalogue);
   function("contact", answering<contact>);
@@ -536,7 +513,6 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("bounce", answering<bounce>);
   function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
-  function("suggestion", &suggestion_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
   emscripten::constant("cueMass", contensou::si::standard_cue_mass);
   emscripten::constant("largestTipOffset", contensou::si::largest_tip_offset);

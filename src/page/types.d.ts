@@ -30,7 +30,7 @@ interface Ball {
 
 interface Law { name: string; meaning: string; letter?: string; example?: number }
 interface Body { name: string; chi: number; gamma: number; mu?: number }
-interface View { name: string; title: string; hint: string; layered: boolean; moments: boolean }
+interface View { name: string; title: string; hint: string; layered: boolean }
 interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
 
 /** What one portrait is asked for by: portrait_request.js. */

@@ -23,7 +23,7 @@ test("without JavaScript, and where the library cannot start, one sentence says 
 });
 
 test("a link to rest says so, and what it rejects of the plane leaves the motion", async () => {
-  for (const [fragment, thing] of [["#ball=puck&orbits=0,0", "puck"], ["#ball=pool&orbits=0,0&part=whole", "ball"], ["#mu=0.3&orbits=0,0", "ball"], ["#ball=gel&view=time&orbits=0,0;9,0.5&at=1", "ball"],
+  for (const [fragment, thing] of [["#ball=puck&orbits=0,0", "puck"], ["#ball=pool&orbits=0,0&part=whole", "ball"], ["#mu=0.3&orbits=0,0", "ball"], ["#ball=gel&view=log&orbits=0,0;9,0.5&at=1", "ball"],
     ["#body=disc&law=uniform&orbits=0,0", "puck"], ["#ball=pool&orbits=0,0&slope=1", null], ["#ball=pool&orbits=0,0&rollingFriction=0.01", null]]) {
     await open(fragment);
     if (thing) assert.equal(await page.textContent("#headline"), `A ${thing} at rest`, fragment);

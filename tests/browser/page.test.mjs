@@ -470,19 +470,6 @@ test("beside the plane a click starts nothing", async () => {
   await close();
 });
 
-test("a click in the view of time is a moment", async () => {
-  await open("#law=exact&mu=0.3&view=time&orbits=0.8,3.5");
-  const [x, y] = await page.evaluate(() => {
-    const frame = globalThis.page.plane.frames[1];
-    const box = document.getElementById("plane").getBoundingClientRect();
-    return [box.left + frame.px(0.25), box.top + frame.py(0.5)];
-  });
-  await page.mouse.click(x, y);
-  assert.ok(Math.abs((await state()).fraction - 0.25) < 0.01);
-  assert.equal((await stopTimes()).length, 1);
-  await close();
-});
-
 test("figures and numbers are handed out", async () => {
   await open("#law=exact&mu=0.3&orbits=0.8,3.5;-0.5,1");
   const svg = (await saved("#save-svg")).toString();

@@ -207,9 +207,8 @@ test("all views are drawn, and a click in each starts the orbit that it points a
     await drawn();
     const picture = await page.evaluate(() => document.getElementById("plane").toDataURL());
     pictures.add(picture);
-    const panels = await page.evaluate(() => globalThis.page.plane.frames.map(() => !globalThis.page.store.view.moments));
-    for (const panel of panels.keys()) {
-      if (!panels[panel]) continue;
+    const panels = await page.evaluate(() => globalThis.page.plane.frames.length);
+    for (let panel = 0; panel < panels; ++panel) {
       // Where no orbit is near, which a click would choose.
       const free = await page.evaluate((panel) => {
         const { plane, plane: { frames: { [panel]: frame } } } = globalThis.page;
@@ -231,7 +230,7 @@ test("all views are drawn, and a click in each starts the orbit that it points a
       clicks += 1;
     }
   }
-  assert.equal(pictures.size, 7);
+  assert.equal(pictures.size, 6);
   assert.equal(clicks, 8);
   await close();
 });
@@ -292,7 +291,7 @@ test("the command line draws the same picture", async () => {
   const states = [
     "#ball=pool&law=exact",
     "#ball=pool&law=pade&view=log&radius=0.03&patch=0.001&orbits=0.5,1;-0.2,0.3;0.4,0.01",
-    "#ball=pool&law=exact&view=time&orbits=",
+    "#ball=pool&law=exact&view=log&orbits=",
     `#law=pade&mu=0.05&window=1,5&${three}`,
     `#law=exact&mu=0.02&view=blowup&against=pade&${three}`,
     "#law=uniform&body=disc&view=disc&orbits=0.8,0.7;0.3,0.9&against=ring",

@@ -32,7 +32,7 @@ const gel = {
 const known = {
   balls: [gel, { ...gel, name: "puck", body: "disc", law: "uniform", patchBy: "whole_face" }],
   bodies: [{ name: "ball", chi: 3.5, gamma: 2.5 }, { name: "disc", chi: 1, gamma: 2, mu: 1 }],
-  views: ["uv", "patch", "log", "time"].map((name) => ({ name, layered: name !== "time" })),
+  views: ["uv", "patch", "log", "disc"].map((name) => ({ name, layered: name !== "disc" })),
   lawName(called) {
     if (!/^(exact|pade|uniform|pressure:-?[\d.]+)$/.test(called)) throw new Error(`no such law: ${called}`);
     return called;
@@ -120,7 +120,7 @@ test("chi, gamma and a fixed mu are the library's", () => {
 
 test("presets and steps of the tour are links that are understood", () => {
   const balls = ["gel", "pool", "bowling", "puck", "curling-stone"].map((name) => ({ ...gel, name }));
-  const views = ["uv", "patch", "log", "similarity", "blowup", "disc", "time"].map((name) => ({ name }));
+  const views = ["uv", "patch", "log", "similarity", "blowup", "disc"].map((name) => ({ name }));
   for (const { fragment } of [...presets, ...tour]) {
     const state = fromFragment(fragment, { ...known, balls, views });
     const query = new URLSearchParams(fragment);
@@ -385,6 +385,6 @@ test("a value is computed again only when what it depends on changes", () => {
 });
 
 test("every view has a title and a hint, and one that is not known its name", () => {
-  for (const name of ["uv", "patch", "log", "similarity", "blowup", "disc", "time"]) assert.ok(described({ name }).hint.length > 20, name);
+  for (const name of ["uv", "patch", "log", "similarity", "blowup", "disc"]) assert.ok(described({ name }).hint.length > 20, name);
   assert.deepEqual(described({ name: "new" }), { name: "new", title: "new", hint: "" });
 });

@@ -62,7 +62,7 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
 }
 
 /**
- * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array | null}} Drawn  start: x and y in each panel
+ * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array}} Drawn  start: x and y in each panel
  * @param {{figure: Figure, own: Drawn[], isochrone: Float64Array[] | null, marker: {places: Float64Array, index: number} | null,
  *   cross: {panel: number, x: number, y: number} | null, ghosts: OwnOrbit[]}} scene  ghosts: of a pull
  * @returns {Frame[]} of the panels
@@ -156,6 +156,6 @@ function drawOwn(surface, { figure, own, isochrone, ghosts }, panel, frame, them
     surface.shape(lines, { stroke: figure.ground, width: chosen ? 6 : 4 });
     surface.shape(lines, { stroke: swatch, width: chosen ? 3.2 : 2 });
     surface.shape(headsOf(frame, panels[panel].arrow, 11), { fill: swatch });
-    if (start) surface.shape([frame.pixel(start, 2 * panel)], { radius: chosen ? 5 : 4, fill: swatch, stroke: figure.ground });
+    surface.shape([frame.pixel(start, 2 * panel)], { radius: chosen ? 5 : 4, fill: swatch, stroke: figure.ground });
   }
 }

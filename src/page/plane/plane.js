@@ -79,10 +79,10 @@ export class Plane {
   }
 
   scene() {
-    const { state, motions, motion, now, isochrone, library, view } = this.store;
+    const { state, motions, motion, now, isochrone, library } = this.store;
     const own = motions.map((orbit, index) => {
       const { u, v } = state.orbits[index];
-      return { ...orbit, index, chosen: index === state.chosen, start: view.moments ? null : library.plane.place(u, v) };
+      return { ...orbit, index, chosen: index === state.chosen, start: library.plane.place(u, v) };
     }).sort((a, b) => Number(a.chosen) - Number(b.chosen));
     return {
       figure: this.figure, isochrone, ghosts: this.copies.now ? this.copies.ghosts : none, own, cross: this.cross,
@@ -124,7 +124,7 @@ export class Plane {
     const at = this.panelAt(x, y);
     if (!at) return null;
     const near = this.planeScene.own.filter(({ start }) =>
-      start && Math.hypot(at.frame.px(start[2 * at.index]) - x, at.frame.py(start[2 * at.index + 1]) - y) <= reach[kind]);
+      Math.hypot(at.frame.px(start[2 * at.index]) - x, at.frame.py(start[2 * at.index + 1]) - y) <= reach[kind]);
     return near.at(-1)?.index ?? null;
   }
 
@@ -148,8 +148,6 @@ export class Plane {
 
   choose(x, y, kind) {
     const { store } = this;
-    const at = this.panelAt(x, y);
-    if (at && store.view.moments && store.motion) return store.move({ fraction: Math.min(1, (at.x * store.motion.stop) / store.end) });
     const index = kind === "key" ? null : this.startAt(x, y, kind) ?? this.orbitAt(x, y, kind);
     const start = this.pointed(x, y);
     if (index !== null) this.chooseOrbit(index);

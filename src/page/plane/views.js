@@ -7,7 +7,6 @@ const texts = {
   similarity: ["similarity", "Canonical coordinates: multiplying both speeds shifts an orbit along p = ln v, so all orbits are one curve, shifted."],
   blowup: ["blow-up", "The origin is drawn as the inner half-circle, so that the direction of each orbit at its end is seen. In the chart (u, ln k) the line u = 0 is the origin."],
   disc: ["disc", "The whole half-plane in a half-disc (Poincaré): the circle is infinity."],
-  time: ["time", "Both speeds divided by their first values, and k, against time τ divided by the stop time τ*. Only k at the start matters. Click to go to a moment."],
 };
 
 /** A view of the library with its title and a hint to the reader. */

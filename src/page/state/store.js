@@ -149,7 +149,7 @@ export class Store {
     this.facts = ofSystem("facts", [], () => plane.choose(...system));
     this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
     // While the reader holds something, what lies behind his orbits stays where its window does.
-    const stays = this.held && state.window !== null && !this.view.moments;
+    const stays = this.held && state.window !== null;
     const behind = stays ? { ...this.request, orbits: [], chosen: 0, ball: null } : this.request;
     this.portrait = this.keep("portrait", behind, () => plane.portrait(this.request));
     this.motions = this.keep("own", [behind, this.request], () => plane.own({ ...this.request, window: this.portrait.window }));
