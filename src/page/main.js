@@ -8,7 +8,6 @@ import { drawCopies } from "./plane/copies_figure.js";
 import { $, isStill, write } from "./dom.js";
 import { makeFilm } from "./share/film.js";
 import { Hero } from "./hero/hero.js";
-import { lines } from "./hero/story.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
 import { makeOrbits } from "./controls/orbits.js";
@@ -16,7 +15,7 @@ import { fromFragment, speaksOfNothing, strangeBall } from "./state/page_state.j
 import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
-import { tour } from "./state/presets.js";
+import { rounds, tour } from "./state/presets.js";
 import { makePresets } from "./controls/presets_nav.js";
 import { makeShare } from "./share/share.js";
 import { Store } from "./state/store.js";
@@ -37,7 +36,7 @@ function start(library) {
   const plane = new Plane(store);
   const controls = makeControls(store);
   makeSettings(controls, store, plane);
-  const cue = makeCue(store, controls, player);
+  const { picture: cue, start: startByCue } = makeCue(store, controls, player);
   const bounce = makeBounce(store, controls);
   makeOrbits(store, plane);
   const address = new Address(store);
@@ -46,17 +45,17 @@ function start(library) {
     const { theme, embed, lab } = state;
     Object.assign(state, fromFragment(fragment, library), { theme, embed, lab });
   }, done);
-  // The question again, and the game: its tries begin at the puck of the opening.
-  const toLine = (line) => go(`ball=puck&orbits=2.286,0.5&line=${line}`, () => {
+  // The question again, and the game.
+  const toRound = (index) => go(rounds[index % rounds.length], () => {
     player.toggle(false);
     $("lanes").focus();
   });
   $("again").addEventListener("click", () => go("", () => hero.ask()));
-  $("to-line").addEventListener("click", () => toLine(lines[0]));
-  $("next-line").addEventListener("click", () => toLine(lines[(lines.indexOf(store.state.line) + 1) % lines.length]));
+  $("to-line").addEventListener("click", () => toRound(0));
+  $("next-line").addEventListener("click", () => toRound(rounds.findIndex((round) => round.includes(`line=${store.state.line}`)) + 1));
   makeTour(store, go);
   makePresets(store, go);
-  makeThrowing(store, hero, player, plane);
+  makeThrowing(store, hero, player, plane, startByCue);
 
   const paneSurface = new ScreenSurface($("panes"), (surface) => {
     surface.fit(library.rowsOf(panes, surface.width));

@@ -1,8 +1,8 @@
 // The cue and the ball that bounces, each in its step of the tour: their numbers are the program's.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { shown } from "../../src/page/numbers.js";
-import { assertClose, close, drawn, json, open, page, slide, state } from "./browser.mjs";
+import { length, shown } from "../../src/page/numbers.js";
+import { assertClose, close, drawn, json, open, page, pass, slide, state } from "./browser.mjs";
 
 const says = (id) => page.textContent(`#${id}-says`);
 const slideTo = (id, share) => slide(`${id}-slider`, 1000 * share);
@@ -73,6 +73,82 @@ test("a motion that no cue gives says so, and so does a body that no cue strikes
   await page.focus("#cue");
   await page.keyboard.press("ArrowUp");
   assert.equal((await state()).ball.name, "puck");
+  await close();
+});
+
+/** How the program's stroke, aimed by degrees to the left, goes by a stone half way to a mark. */
+function programPasses(speed, tip, elevation, aim, mark) {
+  const { x, y, ball: { radius } } = json("roll", "--ball", "pool", "--strike", speed, "--tip", tip.join(), "--elevation", elevation, "--samples", 4000);
+  const [cos, sin] = [Math.cos((aim * Math.PI) / 180), Math.sin((aim * Math.PI) / 180)];
+  const from = (far) => Math.min(...x.map((x, i) => Math.hypot(cos * x - sin * y[i] - far, sin * x + cos * y[i])));
+  return { touches: from(mark / 2) < 2 * radius, off: from(mark) };
+}
+
+test("a ball curls around a stone: by mouse and by keys, one try touches it, one passes it over the mark; tries stay", async () => {
+  await open("#ball=puck&orbits=2.286,0.5;13.716,0.5&chosen=1&line=3&at=1&lab=0", { stopped: true, reducedMotion: "no-preference" });
+  const headline = () => page.textContent("#headline");
+  assert.match(await headline(), /the line, in 1 try$/);
+  await page.click("#next-line");
+  assert.equal(await headline(), "Strike the ball around the stone and over the mark.");
+  assert.ok(await page.isVisible("#cue-card"));
+  const strike = async (aim) => {
+    const [x, y] = await page.evaluate(() => {
+      const { left, top } = document.getElementById("lanes").getBoundingClientRect();
+      const [, ball] = globalThis.page.hero.places;
+      return [left + ball.x, top + ball.y];
+    });
+    const angle = (aim * Math.PI) / 180;
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (const far of [60, 120, 240]) await page.mouse.move(x + far * Math.cos(angle), y - far * Math.sin(angle));
+    await page.mouse.up();
+    await pass(14_000);
+  };
+  await strike(0);
+  assert.ok(programPasses(2.5, [0.4, -0.3], 60, 0, 0.6).touches);
+  assert.equal(await headline(), "Try 1 touches the stone");
+  // What is seen ends there.
+  const gap = await page.evaluate(() => {
+    const { hero: { bodies: [, { at }], stone } } = globalThis.page;
+    return Math.hypot(at(1).x - stone.x, at(1).y) - 2 * stone.radius;
+  });
+  assert.ok(gap <= 0 && gap > -0.005, `${gap} m`);
+  // The cue is set without a try.
+  await slideTo("cue-elevation", 0.25);
+  await page.focus("#cue");
+  for (let i = 0; i < 6; ++i) await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("Enter");
+  assert.equal((await state()).orbits.length, 2);
+  await strike(30);
+  await comparesWith(2.5, [0.4, 0], 20);
+  const missed = programPasses(2.5, [0.4, 0], 20, 30, 0.6);
+  assert.ok(!missed.touches && missed.off > 0.1);
+  assert.equal(await headline(), `Try 2 passes ${length(missed.off, "m")} left of the mark`);
+  assert.ok(!(await page.isVisible("#send")));
+  for (let i = 0; i < 6; ++i) await page.press("#cue", "ArrowDown");
+  await slideTo("cue-elevation", 0.75);
+  await strike(26);
+  const hit = programPasses(2.5, [0.4, -0.3], 60, 26, 0.6);
+  assert.ok(!hit.touches && hit.off < 0.02, `${hit.off} m`);
+  assert.equal(await headline(), "Around the stone and over the mark, in 3 tries");
+  const { off } = await page.evaluate(() => globalThis.page.hero.tryNow.passage);
+  assert.ok(Math.abs(off - hit.off) < 1e-3, `${off} m, not ${hit.off}`);
+  assert.deepEqual(await page.evaluate(() => globalThis.page.hero.ghostsNow().map(({ words }) => words)), ["1", "2", "3"]);
+  await page.click("#send");
+  await page.waitForFunction(() => document.getElementById("told").textContent !== "");
+  const link = page.url();
+  await close();
+  await open(link.slice(link.indexOf("#")));
+  assert.equal(await headline(), "Around the stone and over the mark, in 3 tries");
+  await page.focus("#lanes");
+  for (let i = 0; i < 26; ++i) await page.keyboard.press("ArrowDown");
+  assert.equal(await page.textContent("#told"), "0° to the left");
+  await page.keyboard.press("Enter");
+  assert.equal(await headline(), "Try 4 touches the stone");
+  for (let i = 0; i < 26; ++i) await page.keyboard.press("ArrowUp");
+  assert.equal(await page.textContent("#told"), "26° to the left");
+  await page.keyboard.press("Enter");
+  assert.equal(await headline(), "Around the stone and over the mark, in 5 tries");
   await close();
 });
 

@@ -31,16 +31,22 @@ export function strikeOf({ u, v, along, across }, { gamma, masses, elevation, of
   return { speed: digits((velocity * (1 + masses + gamma * (right * right + above * above))) / 2), right: digits(right), above: digits(above), elevation: digits(tilt / degree) };
 }
 
-/** @param {Store} store @param {Controls} controls @param {Player} player @returns what draws it */
+/** @param {Store} store @param {Controls} controls @param {Player} player @returns its picture, and the start by the stroke */
 export function makeCue(store, controls, player) {
   let stroke = { speed: 2, right: 0, above: 0, elevation: 0 };
-  let [isStruck, face] = [false, { x: 0, y: 0, radius: 1 }];
+  let [isStruck, face, read] = [false, { x: 0, y: 0, radius: 1 }, /** @type {unknown} */ (null)];
   const { cueMass, largestTipOffset: offset } = store.library;
 
-  /** Strikes the ball of a state. */
+  /** What the stroke gives to a ball. */
+  const startOfBall = (ball) => {
+    const { speed, right, above, elevation } = stroke;
+    return startFrom(store.library.struck(shotOf(ball, store.orbit), speed, right, above, elevation), ball, 6);
+  };
+  /** Strikes the ball of a state. In the game the reader aims first. */
   const strike = (state, change) => {
-    const { speed, right, above, elevation } = Object.assign(stroke, change);
-    const start = startFrom(store.library.struck(shotOf(state.ball, store.orbit), speed, right, above, elevation), state.ball, 6);
+    Object.assign(stroke, change);
+    if (state.line) return;
+    const start = startOfBall(state.ball);
     // A ball that is hit high slips backwards.
     start.heading = start.across === 0 && start.along < 0 ? 180 : 0;
     state.orbits[state.chosen] = start;
@@ -52,13 +58,16 @@ export function makeCue(store, controls, player) {
     const [toRight, toAbove] = over > 1 ? tip.map((part) => ((1 - 1e-12) * part) / over) : tip;
     store.ask((state) => strike(state, { right: toRight, above: toAbove }));
   };
+  const play = () => store.state.line || player.begin();
   const isFace = (x, y) => store.roller !== null && Math.hypot(x - face.x, y - face.y) < 1.1 * face.radius;
   const hitPixel = (x, y) => hit((x - face.x) / face.radius, (face.y - y) / face.radius);
   store.shows.push(() => {
     const ball = store.roller;
-    const found = ball && strikeOf(store.orbit, { gamma: store.body.gamma, masses: ball.mass / cueMass, elevation: stroke.elevation, offset });
-    isStruck = Boolean(found);
-    stroke = found || stroke;
+    const { gamma } = store.body;
+    const found = ball && store.keep("stroke", [store.orbit, ball, gamma], () =>
+      strikeOf(store.orbit, { gamma, masses: ball.mass / cueMass, elevation: stroke.elevation, offset }));
+    if (found !== read) stroke = { ...stroke, ...found };
+    [read, isStruck] = [found, Boolean(found)];
     const { right, above } = stroke;
     const side = (value, more, less) => `${shown(Math.abs(value), 2)} radii ${value < 0 ? less : more} the centre`;
     write($("cue-says"), !ball ? "A cue strikes a real ball, one that can roll: choose one in the settings." : !isStruck ? "No cue gives this motion. Drag the dot for one that does."
@@ -82,13 +91,13 @@ export function makeCue(store, controls, player) {
     pull: hitPixel,
     tap: (x, y) => {
       if (isFace(x, y)) hitPixel(x, y);
-      player.begin();
+      play();
     },
-    release: () => player.begin(),
+    release: play,
     move: (dx, dy) => store.roller && hit(stroke.right + dx / 20, stroke.above + dy / 20),
-    enter: () => player.begin(),
+    enter: play,
   });
-  return picture;
+  return { picture, start: () => startOfBall(store.roller) };
 }
 
 /** The ball as the cue sees it, with the dot, and the cue from its side. @returns the ball's face, in pixels */

@@ -5,12 +5,11 @@ import { duration, length, shown } from "../numbers.js";
 import { answers, factsOf, goal, judged, nothing, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { borderOf, widthOf } from "../drawing/surface.js";
+import { ghostsOf, passageOf, reach, rightOf, stoneOf } from "./tries.js";
 import { product, rideOn, rotation } from "./turning.js";
 
 const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // of a picture 640 pixels wide: sizes of words, height of the head, its rim
 const turning = 20;      // s that the body turns in place while the reader is asked
-const ghosts = { game: 8, "": 3 };  // earlier throws that stay on the table
-export const reach = 0.02;  // m by which a throw may miss the line
 
 export class Hero {
   /** What is said. */
@@ -46,6 +45,10 @@ export class Hero {
   get mode() {
     const { asked, store: { state, ride } } = this;
     return !ride ? "" : asked ? (asked.ended ? "judged" : asked.guess ? "watching" : "asking") : state.line ? "game" : "";
+  }
+
+  get stone() {
+    return stoneOf(this.store);
   }
 
   /** Asks which body goes farther. The body that spins turns in place. */
@@ -118,21 +121,25 @@ export class Hero {
   get tryNow() {
     const { facts, store: { state: { line, orbits, chosen, fraction }, ride } } = this;
     const far = ride?.own.path ?? 0;
-    return { line, far, slip: facts.slip, spin: facts.spin, tries: chosen, ended: fraction >= 1 && chosen > 0, hit: chosen > 0 && orbits.length > 1 && Math.abs(far - line) <= reach };
+    const passage = this.stone && this.bodies[1].passage;
+    const hit = chosen > 0 && orbits.length > 1 && (passage ? passage.hit : Math.abs(far - line) <= reach);
+    return { line, passage, far, slip: facts.slip, spin: facts.spin, tries: chosen, ended: fraction >= 1 && chosen > 0, hit };
   }
 
   /** Both bodies: how they move, and when and where each ceases to slide. */
   bodiesOf({ courses, plain, own, end }) {
     const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
     const lasts = end * timeFactor;
-    // A path that curves is seen from where it leads to the right, or where it was thrown to.
-    const [x, y] = ["x", "y"].map((key) => courses[1][key].at(-1));
-    const heading = (Math.abs(y) > 1e-12 * Math.abs(x) ? Math.atan2(y, x) : 0) - (orbit.heading * Math.PI) / 180;
+    const { stone } = this;
+    const right = rightOf(orbit, courses[1], stone);
     const titles = ["without spin", spin === 0 ? "this one" : ball ? `spinning, ${shown(spin, 3)} rad/s` : "spinning"];
     return [plain, own].map(({ end, path }, i) => {
-      const ride = rideOn(courses[i], heading, player.spinShown);
+      const ride = rideOn(courses[i], right, player.spinShown);
       const share = Math.min(1, end / lasts);
-      return { ...ride, title: titles[i], end, far: path, share, stop: ride.at(share) };
+      const passage = stone && passageOf(ride, stone);
+      // A ball that touches the stone is shown until then.
+      const seen = (share) => Math.min(share, passage?.until ?? 1);
+      return { ...ride, at: (share) => ride.at(seen(share)), until: (share) => ride.until(seen(share)), passage, title: titles[i], end, far: path, share, stop: ride.at(share) };
     });
   }
 
@@ -165,22 +172,16 @@ export class Hero {
   drawBalls(surface, { theme } = this.store, { aim, ring } = /** @type {{aim: Hero["aim"], ring: Hero["ring"]}} */ (this)) {
     const { ride, contact, state: { line } } = this.store;
     if (!ride) return { places: [] };
+    const { stone } = this;
     const unit = contact ? "m" : "";
     return drawLanes(surface, {
-      lanes: this.lanesNow(), radius: ride.radius, rolls: ride.rolls, unit, aim, ring, ghosts: this.ghostsNow(),
-      line: line ? { at: line, reach, words: length(line, unit) } : null,
+      lanes: this.lanesNow().slice(stone ? 1 : 0), radius: ride.radius, rolls: ride.rolls, unit, aim, ring, ghosts: this.ghostsNow(),
+      line: line ? { at: line, reach, words: length(line, unit), stone } : null,
     }, theme);
   }
 
-  /** Where earlier throws have ended that went straight. */
   ghostsNow() {
-    const { mode, store, store: { state: { orbits, chosen, ball }, theme, contact } } = this;
-    const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(({ index, across }) => index !== chosen && across === 0);
-    return earlier.filter((_, i) => i >= earlier.length - (ghosts[mode] ?? 0)).map((orbit) => {
-      const [far, angle] = [store.farOf(orbit.index), ((orbit.heading + (orbit.along < 0 ? 180 : 0)) * Math.PI) / 180];
-      const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
-      return { x: far * Math.cos(angle), y: far * Math.sin(angle), words, colour: theme.swatch(orbit.index) };
-    });
+    return ghostsOf(this.store, this.mode);
   }
 
   /** Draws a moment of a film on a surface of 640 x 360: headline, address and clock, and the bodies below them. */

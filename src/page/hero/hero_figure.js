@@ -43,9 +43,9 @@ export function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) 
 /**
  * @param scene  lanes: title, xs, ys, slid and rolled (lines of the path until now), at (x, y, turn), colour, and ruler:
  *   {from, to: places, more: m} between the end of the other body and this one; radius; unit: "m" or "", lengths in m; rolls: seen
- *   at an angle; ghosts: {x, y, words, colour} of earlier throws; line: {at, reach, words} to reach, or null; ring: {share, words} of
- *   the full spin, or null; aim: {from, to: pixels, words} of a throw
- * @returns {{places: {x: number, y: number, radius: number}[]}} where the bodies are, in pixels
+ *   at an angle; ghosts: {x, y, words, colour, perhaps path: a line} of earlier throws; line: {at, reach, words, stone: of tries.js
+ *   or null} to reach, or null; ring: {share, words} of the full spin, or null; aim: {from, to: pixels, words} of a throw
+ * @returns {{places: {x: number, y: number, radius: number}[]}} where the bodies are, in pixels, and from where one is to curl around a stone
  */
 export function drawLanes(surface, scene, theme) {
   const { lanes, radius, unit, rolls, ghosts, line, ring, aim } = scene;
@@ -53,9 +53,12 @@ export function drawLanes(surface, scene, theme) {
   const keys = [radius, unit, theme, line?.at, ...ghosts.map(({ x }) => x), ...lanes.map(({ xs }) => xs)];
   const table = surface.still(keys, theme.card, () => drawTable(surface, scene, theme));
   const { pixel, pixels, cells } = table;
-  if (line) drawLine(surface, table, line, theme);
-  ghosts.forEach(({ x: far, y: aside, words, colour }, i) => {
-    const [x, y] = pixel({ x: far, y: aside }, 1);
+  if (line) (line.stone ? drawStone : drawLine)(surface, table, line, theme);
+  const last = lanes.length - 1;
+  const pixelsOf = (path, i) => Array.from({ length: path.length / 2 }, (_, j) => pixel({ x: path[2 * j], y: path[2 * j + 1] }, i)).flat();
+  ghosts.forEach(({ x: far, y: aside, words, colour, path = [] }, i) => {
+    const [x, y] = pixel({ x: far, y: aside }, last);
+    surface.shape([pixelsOf(path, last)], { stroke: colour, width: 1.5 });
     surface.shape([[x, y]], { radius: pixels, stroke: colour, width: 1.5, dash: [3, 3] });
     // Labels of neighbours do not meet.
     const below = [pixels + 0.8 * size, -pixels - 0.8 * size, pixels + 2 * size][i % 3];
@@ -63,9 +66,8 @@ export function drawLanes(surface, scene, theme) {
     surface.text(Math.min(x, surface.width - half), y + below, words, { colour, size: 0.92 * size, align: "center", baseline: "middle", halo: theme.card });
   });
   const places = lanes.map(({ at, title, colour, ruler, slid, rolled }, i) => {
-    const pixelsOf = (path) => Array.from({ length: path.length / 2 }, (_, j) => pixel({ x: path[2 * j], y: path[2 * j + 1] }, i)).flat();
-    if (rolled.length) surface.shape([pixelsOf(rolled)], { stroke: theme.soft, width: 1.5 });
-    surface.shape([pixelsOf(slid)], { stroke: `${colour}66`, width: Math.min(16, pixels / 2) });
+    if (rolled.length) surface.shape([pixelsOf(rolled, i)], { stroke: theme.soft, width: 1.5 });
+    surface.shape([pixelsOf(slid, i)], { stroke: `${colour}66`, width: Math.min(16, pixels / 2) });
     const [x, y] = pixel(at, i);
     if (ruler && !aim && !ghosts.length) {
       surface.shape([pixel(ruler.from, i)], { radius: pixels, fill: theme.card, stroke: theme.soft, width: 1.5, dash: [4, 4] });
@@ -75,9 +77,10 @@ export function drawLanes(surface, scene, theme) {
     surface.text(cells[i].left + 4, cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
     return { x, y, radius: pixels };
   });
-  if (ring) drawRing(surface, places[1], ring, theme);
+  if (ring) drawRing(surface, places[last], ring, theme);
   if (aim) drawAim(surface, aim, theme);
-  return { places };
+  const [x, y] = pixel({ x: 0, y: 0 }, last);
+  return { places: line?.stone ? [...places, { x, y, radius: pixels }] : places };
 }
 
 /** The line to reach, as wide as a hit may miss it. */
@@ -87,6 +90,18 @@ function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme
   surface.shape([borderOf({ left, top, width: right - left, height: height - 1.3 * theme.textSize })], { fill: theme.line });
   surface.shape([[x, top, x, cells[1].top + height]], { stroke: theme.ink, width: 1.5 });
   surface.text(x, cells[1].top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
+}
+
+/** A stone, and the mark behind it, as wide as a hit may miss it. */
+function drawStone(surface, { pixel, pixels, scale }, { at, reach, words, stone }, theme) {
+  const [x, y] = pixel({ x: at, y: 0 }, 0);
+  const mark = reach * scale;
+  const style = { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card };
+  surface.shape([[x, y]], { radius: mark, fill: theme.line, stroke: theme.ink, width: 1.5 });
+  surface.shape([[x - 2 * mark, y, x + 2 * mark, y], [x, y - 2 * mark, x, y + 2 * mark]], { stroke: theme.ink, width: 1.5 });
+  surface.text(x, y - 2 * mark - 0.7 * theme.textSize, words, style);
+  surface.shape([pixel({ x: 0, y: 0 }, 0)], { radius: pixels, stroke: theme.soft, width: 1.5, dash: [3, 3] });
+  surface.shape([pixel(stone, 0)], { radius: pixels, fill: theme.soft, stroke: theme.ink, width: 1.5 });
 }
 
 /** The ring that is pulled to spin a body; an arrow along it shows the spin. */
@@ -138,7 +153,9 @@ function drawRuler(surface, { pixel, pixels }, i, { from, to }, words, theme) {
 /** The table with its scale; returns where the bodies go. */
 function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   const size = theme.textSize;
-  const [xs, ys] = ["xs", "ys"].map((key) => [...lanes.flatMap((lane) => lane[key]), ...ghosts.map((ghost) => ghost[key[0]])]);
+  // A ball that curls around a stone may leave the table.
+  const seen = line?.stone ? [{ xs: [0, 1.3 * line.at], ys: [-0.15, 0.15].map((share) => share * line.at) }] : lanes;
+  const [xs, ys] = ["xs", "ys"].map((key) => [...seen.flatMap((lane) => lane[key]), ...(line?.stone ? [] : ghosts.map((ghost) => ghost[key[0]]))]);
   if (line) xs.push(1.12 * line.at);
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const above = 1.3 * size;  // for a title
@@ -166,7 +183,7 @@ function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   const larger = pixels / (radius * scale);
   const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
-  return { pixel, pixels, cells, height };
+  return { pixel, pixels, cells, height, scale };
 }
 
 const arrowShare = 0.06;  // of the patch's radius, the longest slip in it

@@ -111,16 +111,26 @@ export function judged(guess, /** @type {Facts} */ { own, plain }) {
   }[guess];
 }
 
-/** The lines to reach, in m. */
-export const lines = [1, 2, 3];
+const inTries = (tries) => `in ${tries} ${tries === 1 ? "try" : "tries"}`;
 
-/** The game of the line: what is asked for, and what came of a try. */
-export function goal({ line, far, slip, spin, tries, ended, hit }) {
+/** The game of the stone: what is asked for, and what came of a try. */
+const around = ({ passage: { until, off, place }, tries, ended, hit }) => ({
+  headline: !ended ? "Strike the ball around the stone and over the mark."
+    : until < 1 ? `Try ${tries} touches the stone`
+      : hit ? `Around the stone and over the mark, ${inTries(tries)}`
+        : `Try ${tries} passes ${length(off, "m")} ${place.y > 0 ? "left" : "right"} of the mark`,
+  pieces: [["", "Drag the ball to aim, and let go to strike it. The keys ↑ and ↓ aim, too, and Enter strikes. " +
+    "Dot, speed and butt of the cue are yours to set: a raised butt and a tip off the centre bend the path."]],
+});
+
+/** The game of the line, or of the stone: what is asked for, and what came of a try. */
+export function goal({ passage, line, far, slip, spin, tries, ended, hit }) {
+  if (passage) return around({ passage, tries, ended, hit });
   const off = length(Math.abs(far - line), "m");
   const missed = far < line ? `${off} short of the line` : `${off} beyond the line`;
   return {
     headline: !ended ? `Same push, ${shown(slip, 3)} m/s. Reach the line, by spin alone.`
-      : `${shown(spin, 3)} rad/s gives ${length(far, "m")}: ${hit ? `the line, in ${tries} ${tries === 1 ? "try" : "tries"}` : missed}`,
+      : `${shown(spin, 3)} rad/s gives ${length(far, "m")}: ${hit ? `the line, ${inTries(tries)}` : missed}`,
     pieces: [["", "Pull the ring around the puck to spin it; let go, and it slides. The wheel and the keys ↑ and ↓ spin it, too; a click or Enter lets it go."]],
   };
 }

@@ -9,14 +9,15 @@ const reach = { touch: 16, mouse: 4 };  // pixels beside a body or its ring from
 const widest = 0.55;   // of the picture's width: a throw of the full speed
 const full = { real: { slip: 2, spin: 500 }, free: { slip: 5, spin: 5 } };  // m/s and rad/s; without units
 const shortest = 12;   // pixels of a throw
+const arrow = 90;      // pixels, by which a stroke is aimed
 const level = 5;       // degrees to either side that count as straight to the right
 const turns = 2;       // of the hand, for the full spin
 const keySteps = 40;   // to the full speed, and to the full spin
 
 const round = (value) => Number(value.toPrecision(3));
 
-/** @param {Store} store @param {Hero} hero @param {Player} player @param {Plane} plane */
-export function makeThrowing(store, hero, player, plane) {
+/** @param {Store} store @param {Hero} hero @param {Player} player @param {Plane} plane @param startByCue  the start of a stroke */
+export function makeThrowing(store, hero, player, plane, startByCue) {
   const canvas = $("lanes");
   /** @type {{slip: number, spin: number, heading: number, from: number[], pushed: boolean} | null} */
   let aim = null;
@@ -36,10 +37,11 @@ export function makeThrowing(store, hero, player, plane) {
     const [{ x, y }] = hero.places.slice(-1);
     const { u, v, heading } = store.orbit;
     const next = aim = { slip: v, spin: u / radiusOf(), heading, from: [x, y], pushed: false, ...aim, ...values };
-    const far = next.slip * pixelsPerSpeed();
+    const far = hero.stone ? arrow : next.slip * pixelsPerSpeed();
     const towards = (next.heading * Math.PI) / 180;
-    const words = store.contact ? `${shown(next.slip, 3)} m/s, ${shown(next.spin, 3)} rad/s` : `v = ${shown(next.slip, 3)}, u = ${shown(next.spin, 3)}`;
-    showRing(next.spin);
+    const aside = `${shown(Math.abs(next.heading))}° to the ${next.heading < 0 ? "right" : "left"}`;
+    const words = hero.stone ? aside : store.contact ? `${shown(next.slip, 3)} m/s, ${shown(next.spin, 3)} rad/s` : `v = ${shown(next.slip, 3)}, u = ${shown(next.spin, 3)}`;
+    if (!hero.stone) showRing(next.spin);
     hero.aim = next.pushed ? { from: next.from, to: [next.from[0] + far * Math.cos(towards), next.from[1] - far * Math.sin(towards)], words } : null;
     write($("told"), words);
     hero.lanes.draw();
@@ -54,8 +56,9 @@ export function makeThrowing(store, hero, player, plane) {
     const thrown = aim;
     cancel();
     if (!thrown || thrown.slip * pixelsPerSpeed() < shortest) return;
-    const start = { u: Number((round(thrown.spin) * radiusOf()).toPrecision(12)), v: round(thrown.slip), heading: thrown.heading };
-    plane.startOrbit(start);
+    const { heading } = thrown;
+    const thrownBy = () => ({ u: Number((round(thrown.spin) * radiusOf()).toPrecision(12)), v: round(thrown.slip) });
+    plane.startOrbit({ ...(hero.stone ? startByCue() : thrownBy()), heading });
     player.begin();
   };
   /** More spin, or the other way. */
@@ -65,14 +68,15 @@ export function makeThrowing(store, hero, player, plane) {
     return { spin: Math.max(-spin, Math.min(spin, now + by * spin)) };
   };
 
-  const handAngle = (x, y) => Math.atan2(hero.places[1].y - y, x - hero.places[1].x);
+  const handAngle = (x, y, place = hero.places.slice(-1)[0]) => Math.atan2(place.y - y, x - place.x);
   /** What lies at a pixel: a body, or the ring of the one that spins. */
   const partAt = (x, y, kind) => {
-    if (!store.ride || hero.mode === "asking" || hero.places.length < 2) return null;
+    if (!store.ride || hero.mode === "asking" || hero.places.length === 0) return null;
     const beside = hero.places.map((place) => Math.hypot(place.x - x, place.y - y) - place.radius);
-    if (beside[1] > 0 && Math.abs(beside[1] - ringWidth) <= ringWidth + reach[kind]) return "ring";
+    const [own] = beside.slice(-1);
+    if (!hero.stone && own > 0 && Math.abs(own - ringWidth) <= ringWidth + reach[kind]) return "ring";
     if (Math.min(...beside) > reach[kind]) return null;
-    return isGame() ? (beside[1] <= 0 ? "ring" : null) : "body";
+    return isGame() && !hero.stone ? (own <= 0 ? "ring" : null) : "body";
   };
 
   listen(canvas, {
@@ -90,7 +94,7 @@ export function makeThrowing(store, hero, player, plane) {
       }
       const [dx, dy] = [x - from[0], from[1] - y];
       const heading = Math.round((Math.atan2(dy, dx) * 180) / Math.PI);
-      show({ from, pushed: true, slip: Math.hypot(dx, dy) / pixelsPerSpeed(), heading: Math.abs(heading) <= level ? 0 : heading });
+      show({ from, pushed: true, slip: Math.hypot(dx, dy) / pixelsPerSpeed(), heading: Math.abs(heading) <= level && !hero.stone ? 0 : heading });
     },
     turn: (radians) => show(spun(radians / (2 * Math.PI * turns))),
     release, cancel, leave: cancel, clear: cancel,
@@ -99,7 +103,7 @@ export function makeThrowing(store, hero, player, plane) {
       const part = partAt(x, y, "mouse");
       canvas.style.cursor = part ? "grab" : "";
       if (aim || Boolean(part) === Boolean(hero.ring) || (player.playing && !hero.ring)) return;
-      if (part) showRing();
+      if (part && !hero.stone) showRing();
       else hero.ring = null;
       hero.lanes.draw();
     },
@@ -107,7 +111,8 @@ export function makeThrowing(store, hero, player, plane) {
       if (!store.ride || hero.mode === "asking") return;
       const slip = aim?.slip ?? store.orbit.v;
       const pushed = aim?.pushed || dx !== 0;
-      if (isGame()) show(spun(dy / keySteps));
+      if (hero.stone) show({ pushed: true, heading: (aim?.heading ?? store.orbit.heading) + dy });
+      else if (isGame()) show(spun(dy / keySteps));
       else show({ pushed, slip: Math.max(0, Math.min(2 * most().slip, slip + (dx * most().slip) / keySteps)), ...spun(dy / keySteps) });
     },
     enter: () => (aim ? release() : store.ride && hero.mode !== "asking" && show({})),

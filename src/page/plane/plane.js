@@ -167,12 +167,12 @@ export class Plane {
     });
   }
 
-  /** @param heading  of a throw @param ask  as store.ask, unless what is rejected is to be thrown */
-  startOrbit({ u, v, heading = 0 }, ask = (edit, done) => this.store.ask(edit, done)) {
+  /** @param start  with heading of a throw, and along and across of a stroke @param ask  as store.ask, unless what is rejected is to be thrown */
+  startOrbit({ u, v, along = v, across = 0, heading = 0 }, ask = (edit, done) => this.store.ask(edit, done)) {
     const { store } = this;
     ask((state) => {
       this.zooming.freeze(state, { u, v });
-      state.orbits.push(startOf(u, v, v, 0, heading));
+      state.orbits.push(startOf(u, v, along, across, heading));
       Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
     }, () => this.announce(
       `Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${store.stopText(store.motion.stop)}.`));

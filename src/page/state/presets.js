@@ -2,7 +2,8 @@
 
 const bounce = "ball=gel&orbits=15,1";
 // Struck at 2.5 m/s, 0.4 radii to the right of the centre and 0.3 below it, by a cue that is raised by 60 degrees.
-const masse = "ball=pool&orbits=1.28866,3.91931,1.05927,-0.733885&rollingFriction=0.01";
+const stroke = "ball=pool&orbits=1.28866,3.91931,1.05927,-0.733885";
+const masse = `${stroke}&rollingFriction=0.01`;
 
 /** `shows`: the copies of a motion, or a card in the place of the plane. */
 export const tour = [
@@ -17,6 +18,11 @@ export const tour = [
 ].map(([title, text, fragment, shows = ""]) => ({ title, text, fragment, shows }));
 
 const stepThatShows = (card) => tour.findIndex(({ shows }) => shows === card);
+
+/** The rounds of the game: lines to reach by spin alone, then a mark behind a stone. */
+export const rounds = [
+  ...[1, 2, 3].map((line) => `ball=puck&orbits=2.286,0.5&line=${line}`), `${stroke}&line=0.6&step=${stepThatShows("cue")}`,
+];
 
 export const presets = [
   ["Puck", "", "Spun 9.5 times a second, a puck slides 4 times as far as one that does not spin."],

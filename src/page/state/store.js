@@ -192,20 +192,19 @@ export class Store {
     };
     const rest = rolls && (resistance > 0 || ball.slope) ? ride("own", 0, "rest").rest : null;
     const stop = own.stop / timeFactor;
-    // Also what rolls soon is seen to roll.
+    // Also what rolls soon is seen to roll, and what curls around a stone to pass the mark behind it.
     const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
-    const rolling = speed > 0 ? Math.min(longest, (6 * radius) / speed) / timeFactor : 0;
+    const rolling = speed > 0 ? Math.min(longest, Math.max(6 * radius, 2 * state.line) / speed) / timeFactor : 0;
     const whole = state.part === "whole" || v <= least;
     // At rest time passes all the same.
     const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
     return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
   }
 
-  /** How far the body of an orbit slides, in m. */
-  farOf(index) {
-    const { state, state: { ball, orbits: { [index]: orbit }, law, mu, body }, library: { plane } } = this;
-    const [shot, least] = [shotOf(ball ?? ballOf(1), orbit), this.leastOf(state, orbit)];
-    return this.keep(`far ${index}`, [law, mu, body, shot, least], () => (orbit.v === 0 ? 0 : plane.slide(shot, 0, least).path));
+  /** How the body of another orbit slides. */
+  rideAt(index) {
+    const { state, state: { orbits: { [index]: orbit }, law, mu, body } } = this;
+    return this.rideOf(state, orbit, (name, key, make) => this.keep(`${name} ${index}`, [law, mu, body, ...key], make));
   }
 
   /** A time until a stop, as it is told. */
