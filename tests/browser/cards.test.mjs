@@ -5,6 +5,11 @@ import { length, shown } from "../../src/page/numbers.js";
 import { assertClose, close, drawn, json, open, page, pass, slide, state } from "./browser.mjs";
 
 const says = (id) => page.textContent(`#${id}-says`);
+/** Where the ball's face is on the canvas of the cue. */
+const face = async () => {
+  const { x, y, width, height } = await page.locator("#cue").boundingBox();
+  return height > 0.9 * width ? [x + width / 2, y + height / 4] : [x + 0.24 * width, y + height / 2];
+};
 const slideTo = (id, share) => slide(`${id}-slider`, 1000 * share);
 
 /** The motion that the page shows, and that of the program's stroke. */
@@ -30,8 +35,7 @@ test("the dot is where the tip of a cue hits for this motion; who drags it strik
     assert.match(await says("cue"), /hits 0\.4 radii right of the centre and 0\.3 radii below the centre/);
     assert.deepEqual(await page.$$eval("#cue-sliders output:not(.error)", (all) => all.map((each) => each.textContent)), ["2.5 m/s", "60°"]);
     await page.locator("#cue").scrollIntoViewIfNeeded();
-    const box = await page.locator("#cue").boundingBox();
-    const centre = [box.x + 0.24 * box.width, box.y + box.height / 2];
+    const centre = await face();
     await page.mouse.move(...centre);
     await page.mouse.down();
     await page.mouse.move(centre[0] + 8, centre[1]);
@@ -49,8 +53,7 @@ test("the dot is where the tip of a cue hits for this motion; who drags it strik
     if (options.hasTouch) {
       // A finger taps a place of the ball.
       await page.locator("#cue").scrollIntoViewIfNeeded();
-      const { x, y, width, height } = await page.locator("#cue").boundingBox();
-      await page.touchscreen.tap(x + 0.24 * width, y + height / 2);
+      await page.touchscreen.tap(...await face());
       await comparesWith(4, [0, 0], 0);
     }
     assert.equal((await state()).orbits.length, 1);

@@ -51,9 +51,11 @@ export function makeBounce(store, controls) {
     /** The centre of a ball, in m. */
     const placeAt = (t, { after }) => [t * (t < 0 ? before : after), radius + (t < 0 ? drop - (gravity * (t + falls) ** 2) / 2 : (up - (gravity * t) / 2) * t)];
     const colours = [theme.soft, theme.swatch(chosen)];
+    const [low, high] = [-before * falls - radius, Math.max(...bodies.map(({ after }) => after)) * rises + radius];
+    // Where the picture is high, the floor lies low.
+    const most = Math.max(Math.max(drop, (up * rises) / 4) + 2 * radius, ((high - low) * (surface.height - 5 * theme.textSize)) / surface.width);
     const [frame] = drawFigure(surface, [bodies, radius, chosen], () => figureOf(theme, { columns: 1, narrowest: 230 }, [{
-      ...panelOf("", { name: "m", low: -before * falls - radius, high: Math.max(...bodies.map(({ after }) => after)) * rises + radius },
-        { low: 0, high: Math.max(drop, (up * rises) / 4) + 2 * radius },
+      ...panelOf("", { name: "m", low, high }, { low: 0, high: most },
         bodies.map((body, i) => ({ colour: colours[i], width: 2.5, lines: Array.from({ length: 121 }, (_, j) => placeAt(((falls + rises) * j) / 120 - falls, body)).flat() }))),
       toScale: true,
     }]), store);

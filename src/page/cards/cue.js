@@ -100,21 +100,24 @@ export function makeCue(store, controls, player) {
   return { picture, start: () => startOfBall(store.roller) };
 }
 
-/** The ball as the cue sees it, with the dot, and the cue from its side. @returns the ball's face, in pixels */
+/** The ball as the cue sees it, with the dot, and the cue from its side, beside or below it. @returns the ball's face, in pixels */
 function drawStroke(surface, { right, above, elevation }, isStruck, offset, colour, theme) {
   const [{ width, height }, size] = [surface, theme.textSize];
-  const radius = Math.min(0.19 * width, 0.5 * height - 2 * size);
-  const [y, x, side] = [height / 2, 0.24 * width, width - 1.15 * radius];
+  const isTall = height > 0.9 * width;
+  const radius = isTall ? Math.min(0.36 * width, 0.24 * height - 1.2 * size) : Math.min(0.19 * width, 0.5 * height - 2 * size);
+  const [x, y] = isTall ? [width / 2, 0.25 * height] : [0.24 * width, height / 2];
+  const [side, level] = isTall ? [x, height - 1.1 * radius] : [width - 1.15 * radius, y];
+  const half = isTall ? { left: 0, top: height / 2, width, height: height / 2 } : { left: 0.47 * width, top: 0, width: 0.53 * width, height };
   const ball = { radius, fill: theme.paper, stroke: theme.ink, width: 1.2 };
-  surface.shape([[x, y], [side, y]], ball);
+  surface.shape([[x, y], [side, level]], ball);
   surface.shape([[x, y]], { radius: offset * radius, stroke: theme.soft, dash: [3, 4] });
   surface.shape([[x - radius, y, x + radius, y], [x, y - radius, x, y + radius]], { stroke: theme.line });
-  surface.shape([[0.47 * width, y + radius, width, y + radius]], { stroke: theme.soft, width: 1.5 });
+  surface.shape([[half.left, level + radius, width, level + radius]], { stroke: theme.soft, width: 1.5 });
   const [cos, sin] = [Math.cos(elevation * degree), Math.sin(elevation * degree)];
   const depth = Math.sqrt(1 - right * right - above * above);
-  const [tipX, tipY] = [side + radius * (above * sin - depth * cos), y - radius * (above * cos + depth * sin)];
+  const [tipX, tipY] = [side + radius * (above * sin - depth * cos), level - radius * (above * cos + depth * sin)];
   const back = (far) => [tipX - far * radius * cos, tipY - far * radius * sin];
-  surface.inside({ left: 0.47 * width, top: 0, width: 0.53 * width, height }, () => {
+  surface.inside(half, () => {
     surface.shape([[...back(0.15), ...back(9)]], { stroke: theme.soft, width: 6 });
     surface.shape([[tipX, tipY, ...back(0.12)]], { stroke: colour, width: 6 });
   });
