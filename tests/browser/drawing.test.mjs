@@ -32,8 +32,25 @@ test("a start that a slider takes out of the window takes the window along", asy
 test("in a tall window bodies and plane keep together", async () => {
   await open("#lab=0", { viewport: { width: 1440, height: 2400 } });
   const [lanes, plane] = await page.$$eval("#lanes, #plane", (all) => all.map(({ clientHeight, clientWidth }) => clientHeight / clientWidth));
-  assert.ok(lanes < 0.7 && plane < 1, `${lanes}, ${plane}`);
+  // The plane fills its card, which is as high as 64 letters.
+  assert.ok(lanes < 0.7 && plane < 1.6, `${lanes}, ${plane}`);
+  assert.ok(await page.$eval("#first", ({ clientHeight }) => clientHeight) <= 1024);
   await close();
+});
+
+test("the card beside the table is full: plane, cue and ball that bounces", async () => {
+  for (const [width, height] of [[1440, 900], [1920, 1080], [2560, 1440]]) {
+    for (const [step, id] of [[0, "plane"], [6, "bounce"], [7, "cue"]]) {
+      await open(`#ball=gel&orbits=9,1&step=${step}&lab=0`, { viewport: { width, height } });
+      const [empty, share] = await page.$eval(`#${id}-card`, (card) => {
+        const bottoms = [...card.children].filter((child) => child.checkVisibility()).map((child) => child.getBoundingClientRect().bottom);
+        const { bottom, height } = card.getBoundingClientRect();
+        return [bottom - Math.max(...bottoms), card.querySelector("canvas").clientHeight / height];
+      });
+      assert.ok(empty < 40 && share > 0.6, `${id}, ${width}: ${empty} pixels are empty, the picture has ${share} of the card`);
+      await close();
+    }
+  }
 });
 
 test("the ball is seen until the motion ends, also long after it has ceased to slide", async () => {

@@ -37,11 +37,13 @@ async function film(page) {
 
 const light = { colorScheme: "light" };
 const dark = { colorScheme: "dark" };
+const struck = "1.28866,3.91931,1.05927,-0.733885";
+const curled = `#ball=pool&orbits=${[0, 0, 20, 27].map((aim) => `${struck},${aim}`).join(";")}&chosen=3&line=0.6&step=7`;
 const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1 };
 writeFileSync(join(out, "page.png"), await shot("", 0.6, light));
 const shots = [
   ["", 0.4, light], ["", 0.15, { ...phone, ...light }], ["#ball=gel&view=log&orbits=9,0.5;-4,0.5", 0.2, dark],
-  ["#ball=pool&orbits=3,4,0.9,0.9&rollingFriction=0.01&part=whole", 1, light], ["#ball=puck&view=disc&orbits=7.62,0.5", 0.6, light], ["#ball=rubber&view=blowup", 0.3, light],
+  [curled, 1, light], ["#ball=puck&view=disc&orbits=7.62,0.5", 0.6, light], ["#ball=rubber&view=blowup", 0.3, light],
   ["#ball=gel&against=pade", 0, light, film], ["#ball=puck&orbits=2.286,0.5;3.4,0.5;5,0.5;4.53,0.5&chosen=3&line=1", 1, { ...phone, ...dark }],
 ];
 const pictures = [];

@@ -220,7 +220,7 @@ export class Hero {
     const [plain, own] = bodies;
     const straight = bodies.every(({ stop: { x, y, path } }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
     const [to, path] = has[1] ? [own.stop, own.far] : [places[1], places[1].path];
-    const ruler = straight && has[0] && path > 1.02 * plain.far ? { from: plain.stop, to, more: path - plain.far } : null;
+    const ruler = mode !== "game" && straight && has[0] && path > 1.02 * plain.far ? { from: plain.stop, to, more: path - plain.far } : null;
     const slid = (body) => `${word(body)}, after ${length(body.far, contact ? "m" : "")} in ${duration(body.end, contact ? "s" : "")}`;
     return bodies.map((body, i) => {
       const slidUntil = Math.min(state.fraction, body.share);
