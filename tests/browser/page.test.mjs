@@ -335,7 +335,7 @@ test("one change changes one thing", async () => {
   const { orbits, ball } = await state();
   assertClose(orbits[0].u / 0.05, 100, 1e-12, "the spin stays");
   assert.equal(ball.patchBy, "spin_deceleration");
-  await page.fill("#mu", "0.05");
+  await page.fill("[name=mu]", "0.05");
   assert.equal((await state()).ball.patchBy, "spin_deceleration");
   assertClose((await state()).mu, 0.05, 1e-11, "mu");
   await page.selectOption("#law", "pade");

@@ -239,7 +239,7 @@ test("a link reproduces the page", async () => {
   await open("#law=exact&mu=0.25&window=2,3&orbits=1,2");
   await clickPlane(0.7, 1.2);
   await page.click("#views [value=patch]");
-  await page.fill("#mu", "0.125");
+  await page.fill("[name=mu]", "0.125");
   await dragSlider("time", 0.02, 0.3, 5);
   await page.click("#copy-link");
   const [link, before, times] = [page.url(), await state(), await stopTimes()];

@@ -317,7 +317,7 @@ test("each preset says in one sentence what is to be seen, with numbers that are
   await links[0].hover();
   assert.match(await page.textContent("#says"), /^Spun 9\.5 times/);
   await page.mouse.move(5, 5);
-  await page.fill("#mu", "0.9").catch(() => {});
+  await page.fill("[name=mu]", "0.9").catch(() => {});
   await page.fill("#ball-fields [name=friction]", "0.2");
   assert.equal(await page.textContent("#says"), "");
   await close();

@@ -6,7 +6,7 @@ import { close, drawn, open, page, pass, pixelOf, state } from "./browser.mjs";
 test("what was said of an orbit goes when the orbit does", async () => {
   await open("#law=exact&mu=0.3&window=1,4&orbits=0.8,3.5");
   const said = async () => (await page.textContent("#pointed")).trim();
-  for (const change of [() => page.selectOption("#ball", "pool"), () => page.fill("#mu", "0.05")]) {
+  for (const change of [() => page.selectOption("#ball", "pool"), () => page.fill("[name=mu]", "0.05")]) {
     await page.mouse.click(...await pixelOf(...await page.evaluate(() => globalThis.page.store.portrait.window.map((side) => -0.4 * side).map(Math.abs))));
     assert.match(await said(), /it stops at/);
     await change();
@@ -25,18 +25,18 @@ test("a number that is being typed is not announced key by key", async () => {
       if (region && region.getAttribute("aria-live") !== "off" && region.textContent.trim()) globalThis.announced.push(region.textContent);
     })).observe(document.body, { subtree: true, childList: true, characterData: true });
   });
-  await page.focus("#mu");
+  await page.focus("[name=mu]");
   await page.keyboard.press("Control+a");
   for (const key of ["Backspace", ..."0.05"]) await page.keyboard.press(key);
   await drawn();
   const announced = await page.evaluate(() => globalThis.announced);
   assert.deepEqual(announced.filter((text) => /must|needed|number/.test(text)), []);
   assert.equal((await state()).mu, 0.05);
-  assert.equal(await page.getAttribute("#mu", "aria-describedby"), "mu-error");
-  await page.fill("#mu", "abc");
+  assert.equal(await page.getAttribute("[name=mu]", "aria-describedby"), "mu-error");
+  await page.fill("[name=mu]", "abc");
   await page.keyboard.press("Tab");
-  assert.equal(await page.inputValue("#mu"), "0.05");
-  assert.equal(await page.getAttribute("#mu", "aria-invalid"), "false");
+  assert.equal(await page.inputValue("[name=mu]"), "0.05");
+  assert.equal(await page.getAttribute("[name=mu]", "aria-invalid"), "false");
   await close();
 });
 
@@ -166,7 +166,7 @@ test("numbers of any size are answered in the page's words", async () => {
     await page.fill(`#ball-fields [name=${field}]`, usual);
   }
   for (const value of [...values, "10", "1e-6"]) {
-    await page.fill("#mu", value);
+    await page.fill("[name=mu]", value);
     await look(`mu ${value}`);
   }
   await close();

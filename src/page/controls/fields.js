@@ -102,7 +102,6 @@ export function makeControls(store) {
      * @param of  (store): {share of its length, text, perhaps spoken and disabled}; hidden where there is none
      * @param edit  (state, share)
      * @param parent  of the element around it
-     * @returns the element around it, and that of its text
      */
     slider(name, label, of, edit, parent = $("sliders")) {
       const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });
@@ -121,7 +120,6 @@ export function makeControls(store) {
         write(output, shown.text);
         input.setAttribute("aria-valuetext", shown.spoken ?? shown.text);
       });
-      return { all, output };
     },
   };
 }

@@ -1,11 +1,11 @@
 // What moves, and on what: ball, body and law, what the plane shows, the sliders, and the card of a real ball.
 import { $, isStill, make, write } from "../dom.js";
-import { choiceButtons, numberField } from "./fields.js";
+import { choiceButtons } from "./fields.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
 import { isDark } from "../drawing/theme.js";
 import { shown } from "../numbers.js";
 import { save } from "../share/exports.js";
-import { allowed, bodyOf, initialState, moved, takeBall, unrolled } from "../state/page_state.js";
+import { bodyOf, initialState, moved, takeBall, unrolled } from "../state/page_state.js";
 
 /** The titles of entries of the library, by their names. */
 const titlesOf = (entries) => Object.fromEntries(entries.map(({ name, title = name.replace("-", " ") }) => [name, title]));
@@ -122,27 +122,17 @@ function makeSliders(controls, store, plane) {
   controls.slider("friction", "friction f", ({ state: { ball } }) => ball && { share: ball.friction / mostFriction, text: shown(ball.friction, 3) },
     (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * mostFriction)));
   const setMu = (state, mu) => {
-    allowed("mu", mu);
     // Patch radius and spin deceleration are proportional to mu.
     if (state.ball) state.ball.patch = Number(((state.ball.patch * mu) / state.mu).toPrecision(12));
     else state.mu = mu;
   };
   const isGiven = () => (store.state.ball ? store.state.ball.patchBy === "whole_face" : store.body.mu !== undefined);
-  const { all, output } = controls.slider("mu", "patch", ({ state: { mu }, contact }) => {
+  controls.slider("mu", "patch", ({ state: { mu }, contact }) => {
     const text = contact ? `${shown(1000 * contact.patchRadius, 3)} mm` : "";
     return { share: muToShare(mu), disabled: isGiven(), text, spoken: `${text && `${text}, `}mu ${shown(mu)}` };
   }, (state, share) => setMu(state, shareToMu(share)));
-  // And mu as a number.
-  const input = make("input", { id: "mu", className: "number", inputMode: "decimal", autocomplete: "off", ariaLabel: "mu, as a number" });
-  const field = numberField(input, (mu) => store.change((state) => setMu(state, mu)));
-  const line = make("span");
-  output.before(line);
-  line.append(output, " ", make("i", { textContent: "μ" }), " ", input);
-  all.append(field.output);
-  store.shows.push(({ ball, mu }) => {
-    input.disabled = isGiven();
-    field.show(ball ? Number(mu.toPrecision(6)) : mu);
-  });
+  const muShown = ({ state: { ball, mu } }) => (isGiven() ? undefined : ball ? Number(mu.toPrecision(6)) : mu);
+  controls.number($("settings"), "mu", "μ of the patch", muShown, setMu);
 }
 
 /** @param {Controls} controls @param {Store} store */
