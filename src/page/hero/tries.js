@@ -40,19 +40,23 @@ export function rightOf(/** @type {Start} */ { along, across, heading }, { x, y 
 
 /** Where earlier throws have ended that went straight; or tries to curl around the stone have touched it, or were nearest to the mark. */
 export function ghostsOf(store, mode) {
-  const { state: { orbits, chosen, ball, fraction }, theme, contact } = store;
+  const { state: { orbits, chosen, ball, law, mu, body, fraction }, theme } = store;
   const stone = stoneOf(store);
-  const isThere = ({ index, across }) => (stone ? index > 0 && (index !== chosen || fraction >= 1) : index !== chosen && across === 0);
+  const ended = fraction >= 1;
+  return store.keep("ghosts", [orbits, chosen, ball, law, mu, body, mode, stone, ended, theme.kind], () => ghosts(store, mode, stone, ended));
+}
+
+function ghosts(store, mode, stone, ended) {
+  const { state: { orbits, chosen, ball }, theme, contact } = store;
+  const isThere = ({ index, across }) => (stone ? index > 0 && (index !== chosen || ended) : index !== chosen && across === 0);
   const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(isThere);
   return earlier.filter((_, i) => i >= earlier.length - (kept[mode] ?? 0)).map((orbit) => {
     const { own: { path: far }, courses: [, course] } = store.rideAt(orbit.index);
     const colour = theme.swatch(orbit.index);
     if (stone) {
-      return store.keep(`try ${orbit.index}`, [orbit, stone, colour], () => {
-        const ride = rideOn(course, rightOf(orbit, course, stone), 1);
-        const { until, place: { x, y } } = passageOf(ride, stone);
-        return { x, y, words: String(orbit.index), colour, path: ride.until(until) };
-      });
+      const ride = rideOn(course, rightOf(orbit, course, stone), 1);
+      const { until, place: { x, y } } = passageOf(ride, stone);
+      return { x, y, words: String(orbit.index), colour, path: ride.until(until) };
     }
     const angle = ((orbit.heading + (orbit.along < 0 ? 180 : 0)) * Math.PI) / 180;
     const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
