@@ -163,18 +163,14 @@ export class Store {
     this.end = this.ride?.end ?? 1;
   }
 
-  /** The slip below which a ball rolls. */
-  leastOf({ ball, mu }, { u, v }) {
-    return ball ? this.library.rollingSlip : slow * (v + mu * Math.abs(u));
-  }
-
   /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
   rideOf(state, orbit, ofSystem) {
-    const { library: { plane }, body: { chi }, timeFactor } = this;
+    const { library, library: { plane }, body: { chi }, timeFactor } = this;
     const rolls = chi !== 1;
     const { v } = orbit;
     const ball = state.ball ?? ballOf(1);
-    const least = this.leastOf(state, orbit);
+    // The slip below which a ball rolls.
+    const least = state.ball ? library.rollingSlip : slow * (v + state.mu * Math.abs(orbit.u));
     const resistance = rolls ? ball.rollingFriction : 0;
     const starts = { plain: { ...orbit, u: 0 }, own: orbit };
     // A ball that spins and is held by rolling friction creeps as long as it spins: when it ceases to slide is told without.
