@@ -140,6 +140,7 @@ test("a ball curls around a stone: by mouse and by keys, one try touches it, one
   await page.click("#send");
   await page.waitForFunction(() => document.getElementById("told").textContent !== "");
   const link = page.url();
+  assert.doesNotMatch(link, /window|lab|part/);
   await close();
   await open(link.slice(link.indexOf("#")));
   assert.equal(await headline(), "Around the stone and over the mark, in 3 tries");
