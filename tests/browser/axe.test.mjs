@@ -13,7 +13,7 @@ test("axe finds nothing to complain of", async () => {
   const wrong = async () => {
     await page.setInputFiles("#film", { name: "film.csv", mimeType: "text/csv", buffer: Buffer.from("t,slip\n0,x\n") });
     await page.fill("[name=mu]", "7");
-    await page.fill("#png-width", "7");
+    await page.fill("[name=png-width]", "7");
   };
   for (const [fragment, options, act] of [["", {}], ["", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" }],
     ["#law=pressure:2&mu=0.3&view=patch&orbits=0.8,3.5;0.5,1&isochrone=3&against=pade", {}],

@@ -1,22 +1,26 @@
-// A field for a number: what is wrong with it is said beside it, and only what is right is used.
+// Fields, choices and sliders.
 import { $, make, write } from "../dom.js";
 import { parseNumber } from "../numbers.js";
 import { allowed } from "../state/page_state.js";
 
 /**
- * @param input  the text field
- * @param use    called with a number that was typed; throws an Error whose message says why it will not do
- * @returns show(value), and the element that says what is wrong, which is put where there is room
+ * A number field with its label, in `parent`. What is wrong with a number is said beside it.
+ *
+ * @param use  called with a number that was typed; throws an Error whose message says why it will not do
+ * @returns shows a value that came from elsewhere, unless the reader is typing; hides the field where it is shown none
  */
-export function numberField(input, use) {
+export function numberField(parent, { key, label, use }) {
   // Each key would be announced.
-  const output = make("output", { className: "error", id: `${input.id || input.name}-error`, htmlFor: input.id, ariaLive: "off" });
+  const output = make("output", { className: "error", id: `${key}-error`, ariaLive: "off" });
+  const input = make("input", { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
+  const wrapper = make("label", {}, label, input, output);
+  parent.append(wrapper);
   input.setAttribute("aria-describedby", output.id);
   const say = (problem) => {
     write(output, problem);
     input.setAttribute("aria-invalid", problem ? "true" : "false");
   };
-  let last = input.value;
+  let last = "";
   input.addEventListener("input", () => {
     try {
       use(parseNumber(input.value));
@@ -31,27 +35,13 @@ export function numberField(input, use) {
     input.value = last;
     say("");
   });
-  return {
-    output,
-    /** Shows a value that came from elsewhere, unless the reader is typing. */
-    show(value) {
-      const text = last = Math.abs(value) >= 1e6 ? value.toExponential() : String(value);
-      if (document.activeElement === input) return;
-      if (input.value !== text) input.value = text;
-      say("");
-    },
-  };
-}
-
-/** A number field with its label, in `parent`; hidden where it is shown no value. */
-export function addNumberField(parent, { key, label, use }) {
-  const input = make("input", { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
-  const { output, show } = numberField(input, use);
-  const wrapper = make("label", {}, label, input, output);
-  parent.append(wrapper);
   return (value) => {
     wrapper.hidden = value === undefined;
-    if (value !== undefined) show(value);
+    if (value === undefined) return;
+    last = Math.abs(value) >= 1e6 ? value.toExponential() : String(value);
+    if (document.activeElement === input) return;
+    if (input.value !== last) input.value = last;
+    say("");
   };
 }
 
@@ -92,7 +82,7 @@ export function makeControls(store) {
 
     /** A number with its label, in `parent`. @param of  (store): its value; hidden where it has none @param edit  (state, value) */
     number(parent, key, label, of, edit) {
-      const show = addNumberField(parent, { key, label, use: (value) => store.change((state) => edit(state, allowed(key, value))) });
+      const show = numberField(parent, { key, label, use: (value) => store.change((state) => edit(state, allowed(key, value))) });
       store.shows.push(() => show(of(store)));
     },
 

@@ -1,6 +1,6 @@
 // A choice among the laws, with a field for the number of a law that has one; and the reader's own pressure.
 import { $ } from "../dom.js";
-import { addNumberField, fillSelect } from "./fields.js";
+import { numberField, fillSelect } from "./fields.js";
 
 const table = "table:";  // what the name of a law begins with that is the reader's own; its CSV follows
 const longest = 6000;   // letters of it, which go with the link
@@ -33,7 +33,7 @@ export function lawField(id, store, { key, none, use }) {
   const numbers = new Map(laws.filter(({ letter }) => letter).map(({ name, example }) => [name, example]));
   const titles = laws.map(({ name, meaning, letter }) => [name, `${letter ? `${name}:${letter}` : name} – ${meaning}`]);
   fillSelect(select, { ...(none && { "": none }), ...Object.fromEntries(titles) });
-  const showNumber = addNumberField(place, {
+  const showNumber = numberField(place, {
     key, label: "its number",
     use: (value) => {
       use(`${select.value}:${value}`);

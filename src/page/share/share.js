@@ -64,12 +64,11 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     save(`${name}.svg`, surface.toString(), "image/svg+xml");
   });
   let pngWidth = Math.max(2000, screen.width * devicePixelRatio);
-  const pixels = numberField($("png-width"), (width) => {
+  const useWidth = (width) => {
     if (!(width >= 100 && width <= widest)) throw new Error(`100 to ${widest} pixels`);
     pngWidth = Math.round(width);
-  });
-  pixels.show(pngWidth);
-  $("pictures").append(pixels.output);
+  };
+  numberField($("pictures"), { key: "png-width", label: "pixels of the PNG", use: useWidth })(pngWidth);
   on("save-png", async () => {
     const { name, draw, ...size } = picture();
     save(`${name}.png`, await pngOf(draw, size, pngWidth), "image/png");
