@@ -17,6 +17,7 @@ import { presets, tour } from "../../src/page/state/presets.js";
 import { italic, plain, runsOf } from "../../src/page/drawing/runs.js";
 import { Store } from "../../src/page/state/store.js";
 import { answers, goal, judged, question, regimeOf, say } from "../../src/page/hero/story.js";
+import { passageOf, rightOf, stoneOf } from "../../src/page/hero/tries.js";
 import { rideOn, rotation, turnedBy } from "../../src/page/hero/turning.js";
 import { described } from "../../src/page/plane/views.js";
 
@@ -387,4 +388,20 @@ test("a value is computed again only when what it depends on changes", () => {
 test("every view has a title and a hint, and one that is not known its name", () => {
   for (const name of ["uv", "patch", "log", "similarity", "blowup", "disc"]) assert.ok(described({ name }).hint.length > 20, name);
   assert.deepEqual(described({ name: "new" }), { name: "new", title: "new", hint: "" });
+});
+
+test("a ball touches a stone or passes it, and a hit is near the mark", () => {
+  const stone = stoneOf({ state: { line: 0.6, ball: { radius: 0.03 } }, ride: { rolls: true } });
+  assert.equal(stoneOf({ state: { line: 0.6, ball: { radius: 0.03 } }, ride: { rolls: false } }), null);
+  const along = (y) => ({ at: (share) => ({ x: share, y: y(share) }) });
+  const passed = passageOf(along(() => 0.061), stone);
+  assert.deepEqual([passed.until, passed.hit], [1, false]);
+  assert.ok(Math.abs(passed.off - 0.061) < 1e-6);
+  const touched = passageOf(along(() => -0.059), stone);
+  assert.deepEqual([touched.until, touched.hit], [0.29, false]);
+  // Around the stone, and back to the line.
+  const curl = (miss) => passageOf(along((share) => (share < 0.4 ? 0.1 : 0.1 + (miss - 0.1) * Math.min(1, (share - 0.4) / 0.2))), stone);
+  assert.deepEqual([curl(0.019).hit, curl(0.021).hit], [true, false]);
+  // The cue points along the velocity at the start.
+  assert.ok(Math.abs(rightOf({ u: 0, v: 1, along: 1, across: 1, heading: 45 }, { x: [], y: [] }, stone)) < 1e-15);
 });

@@ -37,7 +37,7 @@ export function makeCue(store, controls, player) {
   let [isStruck, face, read] = [false, { x: 0, y: 0, radius: 1 }, /** @type {unknown} */ (null)];
   const { cueMass, largestTipOffset: offset } = store.library;
 
-  /** What the stroke gives to a ball. */
+  /** The start that the stroke gives to a ball. */
   const startOfBall = (ball) => {
     const { speed, right, above, elevation } = stroke;
     return startFrom(store.library.struck(shotOf(ball, store.orbit), speed, right, above, elevation), ball, 6);

@@ -1,4 +1,5 @@
-// What came of a try, and where earlier tries ended. The last round is a stone half way to a mark: a ball that rolls is to curl around it.
+// Verdicts on tries, and the places at which earlier tries ended. In the last round a stone stands half way to a mark, and a
+// ball that rolls is to curl around it.
 import { length, shown } from "../numbers.js";
 import { rideOn } from "./turning.js";
 
@@ -11,7 +12,7 @@ export const stoneOf = ({ state: { line, ball }, ride }) =>
   (line && ride?.rolls ? { x: line / 2, y: 0, radius: ball.radius, mark: line } : null);
 
 /**
- * How a ball goes by a stone and the mark behind it.
+ * Finds how a ball goes by a stone and the mark behind it.
  *
  * @param ride   of turning.js
  * @param stone  of stoneOf
@@ -38,7 +39,7 @@ export function rightOf(/** @type {Start} */ { along, across, heading }, { x, y 
   return (Math.abs(endY) > 1e-12 * Math.abs(endX) ? Math.atan2(endY, endX) : 0) - thrown;
 }
 
-/** Where earlier throws have ended that went straight; or tries to curl around the stone have touched it, or were nearest to the mark. */
+/** Places at which earlier straight throws ended; or at which tries touched the stone, or were nearest to the mark behind it. */
 export function ghostsOf(store, mode) {
   const { state: { orbits, chosen, ball, law, mu, body, fraction }, theme } = store;
   const stone = stoneOf(store);

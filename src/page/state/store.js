@@ -188,7 +188,7 @@ export class Store {
     };
     const rest = rolls && (resistance > 0 || ball.slope) ? ride("own", 0, "rest").rest : null;
     const stop = own.stop / timeFactor;
-    // Also what rolls soon is seen to roll, and what curls around a stone to pass the mark behind it.
+    // A ball that soon rolls is seen to roll, and one that curls around a stone, to pass the mark behind it.
     const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
     const rolling = speed > 0 ? Math.min(longest, Math.max(6 * radius, 2 * state.line) / speed) / timeFactor : 0;
     const whole = state.part === "whole" || v <= least;
