@@ -391,8 +391,8 @@ test("every view has a title and a hint, and one that is not known its name", ()
 });
 
 test("a ball touches a stone or passes it, and a hit is near the mark", () => {
-  const stone = stoneOf({ state: { line: 0.6, ball: { radius: 0.03 } }, ride: { rolls: true } });
-  assert.equal(stoneOf({ state: { line: 0.6, ball: { radius: 0.03 } }, ride: { rolls: false } }), null);
+  const stone = stoneOf({ line: 0.6, ball: { radius: 0.03 } }, true);
+  assert.equal(stoneOf({ line: 0.6, ball: { radius: 0.03 } }, false), null);
   const along = (y) => ({ at: (share) => ({ x: share, y: y(share) }) });
   const passed = passageOf(along(() => 0.061), stone);
   assert.deepEqual([passed.until, passed.hit], [1, false]);

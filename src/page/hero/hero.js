@@ -5,7 +5,7 @@ import { duration, length, shown } from "../numbers.js";
 import { answers, factsOf, goal, judged, nothing, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { borderOf, widthOf } from "../drawing/surface.js";
-import { ghostsOf, passageOf, reach, rightOf, stoneOf } from "./tries.js";
+import { ghostsOf, reach, rightOf, stoneOf } from "./tries.js";
 import { product, rideOn, rotation } from "./turning.js";
 
 const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // of a picture 640 pixels wide: sizes of words, height of the head, its rim
@@ -48,7 +48,7 @@ export class Hero {
   }
 
   get stone() {
-    return stoneOf(this.store);
+    return stoneOf(this.store.state, this.store.ride?.rolls);
   }
 
   /** Asks which body goes farther. The body that spins turns in place. */
@@ -121,7 +121,7 @@ export class Hero {
   get tryNow() {
     const { facts, store: { state: { line, orbits, chosen, fraction }, ride } } = this;
     const far = ride?.own.path ?? 0;
-    const passage = this.stone && this.bodies[1].passage;
+    const passage = ride?.passage;
     const hit = chosen > 0 && orbits.length > 1 && (passage ? passage.hit : Math.abs(far - line) <= reach);
     return { line, passage, far, slip: facts.slip, spin: facts.spin, tries: chosen, ended: fraction >= 1 && chosen > 0, hit };
   }
@@ -130,16 +130,12 @@ export class Hero {
   bodiesOf({ courses, plain, own, end }) {
     const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
     const lasts = end * timeFactor;
-    const { stone } = this;
-    const right = rightOf(orbit, courses[1], stone);
+    const right = rightOf(orbit, courses[1], this.stone);
     const titles = ["without spin", spin === 0 ? "this one" : ball ? `spinning, ${shown(spin, 3)} rad/s` : "spinning"];
     return [plain, own].map(({ end, path }, i) => {
       const ride = rideOn(courses[i], right, player.spinShown);
       const share = Math.min(1, end / lasts);
-      const passage = stone && passageOf(ride, stone);
-      // A ball that touches the stone is shown until then.
-      const seen = (share) => Math.min(share, passage?.until ?? 1);
-      return { ...ride, at: (share) => ride.at(seen(share)), until: (share) => ride.until(seen(share)), passage, title: titles[i], end, far: path, share, stop: ride.at(share) };
+      return { ...ride, title: titles[i], end, far: path, share, stop: ride.at(share) };
     });
   }
 

@@ -8,8 +8,8 @@ const kept = { game: 8, "": 3 };  // earlier throws that stay on the table
 const samples = 1000;  // of the time
 
 /** The stone that the ball is to curl around, as large as the ball; null if there is none. */
-export const stoneOf = ({ state: { line, ball }, ride }) =>
-  (line && ride?.rolls ? { x: line / 2, y: 0, radius: ball.radius, mark: line } : null);
+export const stoneOf = ({ line, ball }, rolls) =>
+  (line && rolls ? { x: line / 2, y: 0, radius: ball.radius, mark: line } : null);
 
 /**
  * Finds how a ball goes by a stone and the mark behind it.
@@ -42,7 +42,7 @@ export function rightOf(/** @type {Start} */ { along, across, heading }, { x, y 
 /** Places at which earlier straight throws ended; or at which tries touched the stone, or were nearest to the mark behind it. */
 export function ghostsOf(store, mode) {
   const { state: { orbits, chosen, ball, law, mu, body, fraction }, theme } = store;
-  const stone = stoneOf(store);
+  const stone = stoneOf(store.state, store.ride?.rolls);
   const ended = fraction >= 1;
   return store.keep("ghosts", [orbits, chosen, ball, law, mu, body, mode, stone, ended, theme.kind], () => ghosts(store, mode, stone, ended));
 }
@@ -52,12 +52,11 @@ function ghosts(store, mode, stone, ended) {
   const isThere = ({ index, across }) => (stone ? index > 0 && (index !== chosen || ended) : index !== chosen && across === 0);
   const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(isThere);
   return earlier.filter((_, i) => i >= earlier.length - (kept[mode] ?? 0)).map((orbit) => {
-    const { own: { path: far }, courses: [, course] } = store.rideAt(orbit.index);
+    const { own: { path: far }, courses: [, course], passage } = store.rideAt(orbit.index);
     const colour = theme.swatch(orbit.index);
     if (stone) {
-      const ride = rideOn(course, rightOf(orbit, course, stone), 1);
-      const { until, place: { x, y } } = passageOf(ride, stone);
-      return { x, y, words: String(orbit.index), colour, path: ride.until(until) };
+      const { x, y } = passage.place;
+      return { x, y, words: String(orbit.index), colour, path: rideOn(course, rightOf(orbit, course, stone), 1).until(1) };
     }
     const angle = ((orbit.heading + (orbit.along < 0 ? 180 : 0)) * Math.PI) / 180;
     const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");

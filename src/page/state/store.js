@@ -1,6 +1,8 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
 import { bodyOf, initialState, startOf, toFragment } from "./page_state.js";
 import { portraitRequest, shotOf } from "../plane/portrait_request.js";
+import { passageOf, rightOf, stoneOf } from "../hero/tries.js";
+import { rideOn } from "../hero/turning.js";
 import { shown } from "../numbers.js";
 import { isDark, themeOf } from "../drawing/theme.js";
 
@@ -193,8 +195,15 @@ export class Store {
     const rolling = speed > 0 ? Math.min(longest, Math.max(6 * radius, 2 * state.line) / speed) / timeFactor : 0;
     const whole = state.part === "whole" || v <= least;
     // At rest time passes all the same.
-    const end = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
-    return { own, plain, least, end, rolls, rest, radius, courses: [ride("plain", end), ride("own", end)] };
+    const lasts = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
+    const stone = stoneOf(state, rolls);
+    const passage = stone && ofSystem("passage", [shotOf(ball, orbit), orbit.heading, stone, lasts], () => {
+      const course = ride("own", lasts, "whole ride");
+      return passageOf(rideOn(course, rightOf(orbit, course, stone), 1), stone);
+    });
+    // A ball that touches the stone is shown until then.
+    const end = lasts * (passage?.until || 1);
+    return { own, plain, least, end, rolls, rest, radius, passage, courses: [ride("plain", end), ride("own", end)] };
   }
 
   /** How the body of another orbit slides. */
