@@ -15,6 +15,20 @@ expect "exit status" "$status" 1
 expect "what ran" "$(grep -c ' ran$' <<<"$told")" 2
 expect "table" "$(tail -n 4 <<<"$told" | sed -E 's/ +[0-9]+ s +[0-9]+ s +/: /')" \
   $'build: passed\ntest it: FAILED\nreport: not run\nlast: passed'
+told=$(bash -c '
+  source "$1"
+  slow() { sleep 0.2; echo slow ran; return 2; }
+  start beside slow
+  step now echo now ran
+  finish beside
+  start none after beside true
+  start fine after now true
+  finish none
+  finish fine' steps "$1" 2>&1)
+expect "exit status of steps beside each other" $? 1
+expect "order of their output" "$(grep ' ran$' <<<"$told" | grep -v = | tr '\n' ,)" "now ran,slow ran,"
+expect "their table" "$(tail -n 4 <<<"$told" | sed -E 's/ +[0-9]+ s +[0-9]+ s +/: /')" \
+  $'now: passed\nbeside: FAILED\nnone: not run\nfine: passed'
 bash -c 'source "$1"; step one true; step two after one true' steps "$1" >/dev/null
 expect "exit status of what passed" $? 0
 exit $failed
