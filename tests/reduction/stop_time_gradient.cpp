@@ -196,7 +196,8 @@ TEST_CASE("the gradient of an instant has its 13 digits against differences in l
     const Rate first = flow.system().field({at.u, at.v});
     const double larger = std::max(std::abs(at.u * first.v), std::abs(at.v * first.u));
     const double cancels = larger / std::abs(at.u * first.v - at.v * first.u);
-    for (double tau : {0.03 * stop, 0.3 * stop, 0.5 * stop}) {
+    const std::vector<double> all{0.03 * stop, 0.3 * stop, 0.5 * stop}, one{0.3 * stop};
+    for (double tau : CONTENSOU_FULL_TESTS ? all : one) {
       const InstantGradient found = instant_gradient(flow, {at.u, at.v}, tau);
       const std::array parts{found.u, found.v, found.slip_length, found.turned};
       const auto slopes = [&](Precise of_u, Precise of_v) {
