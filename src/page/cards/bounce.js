@@ -52,7 +52,7 @@ export function makeBounce(store, controls) {
     const placeAt = (t, { after }) => [t * (t < 0 ? before : after), radius + (t < 0 ? drop - (gravity * (t + falls) ** 2) / 2 : (up - (gravity * t) / 2) * t)];
     const colours = [theme.soft, theme.swatch(chosen)];
     const [low, high] = [-before * falls - radius, Math.max(...bodies.map(({ after }) => after)) * rises + radius];
-    // Where the picture is high, the floor lies low.
+    // The vertical axis fills the height of a picture that is higher than the motion; the floor stays at its lower end.
     const most = Math.max(Math.max(drop, (up * rises) / 4) + 2 * radius, ((high - low) * (surface.height - 5 * theme.textSize)) / surface.width);
     const [frame] = drawFigure(surface, [bodies, radius, chosen], () => figureOf(theme, { columns: 1, narrowest: 230 }, [{
       ...panelOf("", { name: "m", low, high }, { low: 0, high: most },

@@ -40,7 +40,7 @@ struct Line {
   }
 };
 
-/// Its functions compute with numbers, because Eigen is slow in a test, which is compiled without optimisation.
+/// The field and its parts compute with numbers. Expressions of Eigen are slow in tests, which are not optimised.
 struct RandomField {
   double degree, angular, radial, slant;
   std::vector<Line> lines = {};
