@@ -126,7 +126,7 @@ test("a ball curls around a stone: by mouse and by keys, one try touches it, one
   await comparesWith(2.5, [0.4, 0], 20);
   const missed = programPasses(2.5, [0.4, 0], 20, 30, 0.6);
   assert.ok(!missed.touches && missed.off > 0.1);
-  assert.equal(await headline(), `Try 2 passes ${length(missed.off, "m")} left of the mark`);
+  assert.equal(await headline(), `Try 2 misses the mark by ${length(missed.off, "m")}`);
   assert.ok(!(await page.isVisible("#send")));
   for (let i = 0; i < 6; ++i) await page.press("#cue", "ArrowDown");
   await slideTo("cue-elevation", 0.75);
@@ -154,6 +154,21 @@ test("a ball curls around a stone: by mouse and by keys, one try touches it, one
   assert.equal(await page.textContent("#told"), "26° to the left");
   await page.keyboard.press("Enter");
   assert.equal(await headline(), "Around the stone and over the mark, in 5 tries");
+  await close();
+});
+
+test("a ball that was struck to roll at once is aimed and struck again, and one of any size has no stone", async () => {
+  await open("#ball=pool&orbits=0,0;0,0,3,0&chosen=1&line=0.6&step=7");
+  await page.focus("#lanes");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("Enter");
+  assert.match(await page.textContent("#headline"), /^Try 2 /);
+  await close();
+  await open("#ball=gel&orbits=9,0.5;9,0.5&chosen=1&line=1&lab=1");
+  assert.match(await page.textContent("#headline"), /^Try 1 /);
+  await page.selectOption("#ball", "");
+  assert.match(await page.textContent("#headline"), /slides/);
+  assert.equal((await state()).line, 0);
   await close();
 });
 

@@ -31,7 +31,13 @@ export function strikeOf({ u, v, along, across }, { gamma, masses, elevation, of
   return { speed: digits((velocity * (1 + masses + gamma * (right * right + above * above))) / 2), right: digits(right), above: digits(above), elevation: digits(tilt / degree) };
 }
 
-/** @param {Store} store @param {Controls} controls @param {Player} player @returns its picture, and the start by the stroke */
+/** The place of a tip, in radii to the right and above; a tip beyond the rim slips off, so it is moved to the rim. */
+function onBall(tip, offset) {
+  const over = Math.hypot(...tip) / offset;
+  return over > 1 ? tip.map((part) => ((1 - 1e-12) * part) / over) : tip;
+}
+
+/** @param {Store} store @param {Controls} controls @param {Player} player @returns picture: of the cue; start(): what the stroke gives */
 export function makeCue(store, controls, player) {
   let stroke = { speed: 2, right: 0, above: 0, elevation: 0 };
   let [isStruck, face, read] = [false, { x: 0, y: 0, radius: 1 }, /** @type {unknown} */ (null)];
@@ -39,7 +45,8 @@ export function makeCue(store, controls, player) {
 
   /** The start that the stroke gives to a ball. */
   const startOfBall = (ball) => {
-    const { speed, right, above, elevation } = stroke;
+    const { speed, elevation } = stroke;
+    const [right, above] = onBall([stroke.right, stroke.above], offset);
     return startFrom(store.library.struck(shotOf(ball, store.orbit), speed, right, above, elevation), ball, 6);
   };
   /** Strikes the ball of a state. In the game the reader aims first. */
@@ -53,9 +60,7 @@ export function makeCue(store, controls, player) {
     Object.assign(state, { fraction: 0, isochrone: 0 });
   };
   const hit = (right, above) => {
-    const tip = [right, above].map((part) => Math.round(100 * part) / 100);
-    const over = Math.hypot(...tip) / offset;
-    const [toRight, toAbove] = over > 1 ? tip.map((part) => ((1 - 1e-12) * part) / over) : tip;
+    const [toRight, toAbove] = onBall([right, above].map((part) => Math.round(100 * part) / 100), offset);
     store.ask((state) => strike(state, { right: toRight, above: toAbove }));
   };
   const play = () => store.state.line || player.begin();
@@ -67,7 +72,8 @@ export function makeCue(store, controls, player) {
     const found = ball && store.keep("stroke", [store.orbit, ball, gamma], () =>
       strikeOf(store.orbit, { gamma, masses: ball.mass / cueMass, elevation: stroke.elevation, offset }));
     if (found !== read) stroke = { ...stroke, ...found };
-    [read, isStruck] = [found, Boolean(found)];
+    // In the game each stroke waits for its aim, whatever moved the ball before.
+    [read, isStruck] = [found, Boolean(found || (ball && store.state.line))];
     const { right, above } = stroke;
     const side = (value, more, less) => `${shown(Math.abs(value), 2)} radii ${value < 0 ? less : more} the centre`;
     write($("cue-says"), !ball ? "A cue strikes a real ball, one that can roll: choose one in the settings." : !isStruck ? "No cue gives this motion. Drag the dot for one that does."

@@ -38,7 +38,7 @@ function makeChoices(controls, store, plane) {
   controls.choose("ball", ofBalls, ({ ball }) => ball?.name ?? "", (state, value) => {
     const ball = balls.find(({ name }) => name === value);
     if (ball) takeBall(state, ball);
-    else Object.assign(state, { ball: null, part: "whole", orbits: state.orbits.map(unrolled) });
+    else Object.assign(state, { ball: null, line: 0, part: "whole", orbits: state.orbits.map(unrolled) });
   });
   controls.choose("body", titlesOf(bodies), ({ body }) => body, (state, body) => {
     state.body = body;

@@ -114,11 +114,11 @@ export function judged(guess, /** @type {Facts} */ { own, plain }) {
 const inTries = (tries) => `in ${tries} ${tries === 1 ? "try" : "tries"}`;
 
 /** The game of the stone: what is asked for, and what came of a try. */
-const around = ({ passage: { until, off, place }, tries, ended, hit }) => ({
+const around = ({ passage: { until, off }, tries, ended, hit }) => ({
   headline: !ended ? "Strike the ball around the stone and over the mark."
     : until < 1 ? `Try ${tries} touches the stone`
       : hit ? `Around the stone and over the mark, ${inTries(tries)}`
-        : `Try ${tries} passes ${length(off, "m")} ${place.y > 0 ? "left" : "right"} of the mark`,
+        : `Try ${tries} misses the mark by ${length(off, "m")}`,
   pieces: [["", "Drag the ball to aim, and let go to strike it. The keys ↑ and ↓ aim, too, and Enter strikes. " +
     "Dot, speed and butt of the cue are yours to set: a raised butt and a tip off the centre bend the path."]],
 });

@@ -9,7 +9,7 @@ const reach = { touch: 16, mouse: 4 };  // pixels beside a body or its ring from
 const widest = 0.55;   // of the picture's width: a throw of the full speed
 const full = { real: { slip: 2, spin: 500 }, free: { slip: 5, spin: 5 } };  // m/s and rad/s; without units
 const shortest = 12;   // pixels of a throw
-const arrow = 90;      // pixels, by which a stroke is aimed
+const arrow = 90;      // pixels of the arrow at first, by which a stroke is aimed
 const level = 5;       // degrees to either side that count as straight to the right
 const turns = 2;       // of the hand, for the full spin
 const keySteps = 40;   // to the full speed, and to the full spin
@@ -27,6 +27,8 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
   const pixelsPerSpeed = () => (widest * hero.lanes.width) / most().slip;
   const isGame = () => hero.mode === "game";
 
+  /** The place of the body that is thrown. */
+  const ownPlace = () => hero.places.slice(-1)[0];
   /** Shows the ring; without an aim, with the spin that the body has. */
   const showRing = (spin = store.orbit.u / radiusOf()) => {
     hero.ring = { share: spin / most().spin, words: `${shown(spin, 3)}${store.contact ? " rad/s" : ""}` };
@@ -34,10 +36,11 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
   /** Shows the throw as it would be now. */
   const show = (values) => {
     if (player.playing) player.toggle(false);
-    const [{ x, y }] = hero.places.slice(-1);
+    const { x, y } = ownPlace();
     const { u, v, heading } = store.orbit;
-    const next = aim = { slip: v, spin: u / radiusOf(), heading, from: [x, y], pushed: false, ...aim, ...values };
-    const far = hero.stone ? arrow : next.slip * pixelsPerSpeed();
+    const slip = hero.stone ? arrow / pixelsPerSpeed() : v;
+    const next = aim = { slip, spin: u / radiusOf(), heading, from: [x, y], pushed: Boolean(hero.stone), ...aim, ...values };
+    const far = next.slip * pixelsPerSpeed();
     const towards = (next.heading * Math.PI) / 180;
     const aside = `${shown(Math.abs(next.heading))}° to the ${next.heading < 0 ? "right" : "left"}`;
     const words = hero.stone ? aside : store.contact ? `${shown(next.slip, 3)} m/s, ${shown(next.spin, 3)} rad/s` : `v = ${shown(next.slip, 3)}, u = ${shown(next.spin, 3)}`;
@@ -68,7 +71,7 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
     return { spin: Math.max(-spin, Math.min(spin, now + by * spin)) };
   };
 
-  const handAngle = (x, y, place = hero.places.slice(-1)[0]) => Math.atan2(place.y - y, x - place.x);
+  const handAngle = (x, y) => Math.atan2(ownPlace().y - y, x - ownPlace().x);
   /** What lies at a pixel: a body, or the ring of the one that spins. */
   const partAt = (x, y, kind) => {
     if (!store.ride || hero.mode === "asking" || hero.places.length === 0) return null;
@@ -96,14 +99,15 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
       const heading = Math.round((Math.atan2(dy, dx) * 180) / Math.PI);
       show({ from, pushed: true, slip: Math.hypot(dx, dy) / pixelsPerSpeed(), heading: Math.abs(heading) <= level && !hero.stone ? 0 : heading });
     },
-    turn: (radians) => show(spun(radians / (2 * Math.PI * turns))),
+    turn: (radians) => hero.stone || show(spun(radians / (2 * Math.PI * turns))),
     release, cancel, leave: cancel, clear: cancel,
     tap: () => (aim ? release() : hero.mode !== "asking" && player.toggle()),
     point(x, y) {
       const part = partAt(x, y, "mouse");
       canvas.style.cursor = part ? "grab" : "";
-      if (aim || Boolean(part) === Boolean(hero.ring) || (player.playing && !hero.ring)) return;
-      if (part && !hero.stone) showRing();
+      const isRinged = Boolean(part) && !hero.stone;
+      if (aim || isRinged === Boolean(hero.ring) || (player.playing && !hero.ring)) return;
+      if (isRinged) showRing();
       else hero.ring = null;
       hero.lanes.draw();
     },
@@ -111,7 +115,7 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
       if (!store.ride || hero.mode === "asking") return;
       const slip = aim?.slip ?? store.orbit.v;
       const pushed = aim?.pushed || dx !== 0;
-      if (hero.stone) show({ pushed: true, heading: (aim?.heading ?? store.orbit.heading) + dy });
+      if (hero.stone) show({ heading: (aim?.heading ?? store.orbit.heading) + dy });
       else if (isGame()) show(spun(dy / keySteps));
       else show({ pushed, slip: Math.max(0, Math.min(2 * most().slip, slip + (dx * most().slip) / keySteps)), ...spun(dy / keySteps) });
     },
