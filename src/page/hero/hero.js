@@ -5,7 +5,7 @@ import { duration, length, shown } from "../numbers.js";
 import { answers, factsOf, goal, judged, nothing, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { borderOf, widthOf } from "../drawing/surface.js";
-import { ghostsOf, reach, rightOf, stoneOf } from "./tries.js";
+import { ghostsOf, reach, rightOf } from "./tries.js";
 import { product, rideOn, rotation } from "./turning.js";
 
 const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // of a picture 640 pixels wide: sizes of words, height of the head, its rim
@@ -48,7 +48,7 @@ export class Hero {
   }
 
   get stone() {
-    return stoneOf(this.store.state, this.store.ride?.rolls);
+    return this.store.ride?.stone ?? null;
   }
 
   /** Asks which body goes farther. The body that spins turns in place. */
@@ -114,7 +114,7 @@ export class Hero {
     write($("heard"), mode === "judged" || (mode === "game" && this.tryNow.ended) ? headline : "");
     const hit = mode === "game" && this.tryNow.ended && this.tryNow.hit;
     $("send").hidden = $("film-line").hidden = $("next-line").hidden = !hit;
-    $("lanes").setAttribute("aria-label", `Two equal bodies from above. ${$("story").textContent}`);
+    $("lanes").setAttribute("aria-label", `${this.stone ? "A ball and a stone" : "Two equal bodies"} from above. ${$("story").textContent}`);
   }
 
   /** The last try for the line. */

@@ -41,10 +41,11 @@ export function rightOf(/** @type {Start} */ { along, across, heading }, { x, y 
 
 /** Places at which earlier straight throws ended; or at which tries touched the stone, or were nearest to the mark behind it. */
 export function ghostsOf(store, mode) {
-  const { state: { orbits, chosen, ball, law, mu, body, fraction }, theme } = store;
-  const stone = stoneOf(store.state, store.ride?.rolls);
+  const { state: { orbits, chosen, ball, law, mu, body, part, fraction }, theme } = store;
+  const stone = store.ride?.stone;
   const ended = fraction >= 1;
-  return store.keep("ghosts", [orbits, chosen, ball, law, mu, body, mode, stone, ended, theme.kind], () => ghosts(store, mode, stone, ended));
+  const key = [orbits, chosen, ball, law, mu, body, part, mode, stone, ended, theme.kind];
+  return store.keep("ghosts", key, () => ghosts(store, mode, stone, ended));
 }
 
 function ghosts(store, mode, stone, ended) {
@@ -52,7 +53,7 @@ function ghosts(store, mode, stone, ended) {
   const isThere = ({ index, across }) => (stone ? index > 0 && (index !== chosen || ended) : index !== chosen && across === 0);
   const earlier = orbits.map((orbit, index) => ({ ...orbit, index })).filter(isThere);
   return earlier.filter((_, i) => i >= earlier.length - (kept[mode] ?? 0)).map((orbit) => {
-    const { own: { path: far }, courses: [, course], passage } = store.rideAt(orbit.index);
+    const { own: { path: far }, courses: [, course], passage } = store.rideOf(store.state, orbit.index);
     const colour = theme.swatch(orbit.index);
     if (stone) {
       const { x, y } = passage.place;

@@ -29,6 +29,8 @@ export class Store {
   view = /** @type {View} */ ({});
   request = /** @type {PortraitRequest} */ ({});
   portrait = /** @type {Portrait} */ ({});
+  /** @type {[string, number, number, number, number]} law, mu, chi, gamma and drive */
+  system = ["", 1, 1, 1, 0];
   body = { chi: 1, gamma: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
@@ -145,10 +147,8 @@ export class Store {
     if (this.contact) state.mu = this.contact.mu;
     this.timeFactor = this.contact?.secondsPerTau ?? 1;
     const drive = this.contact?.drive ?? 0;
-    /** @type {[string, number, number, number, number]} */
-    const system = [state.law, state.mu, chi, gamma, drive];
-    const ofSystem = (name, key, make) => this.keep(name, [...system, ...key], make);
-    this.facts = ofSystem("facts", [], () => plane.choose(...system));
+    this.system = [state.law, state.mu, chi, gamma, drive];
+    this.facts = this.keep("facts", this.system, () => plane.choose(...this.system));
     this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
     // While the reader holds something, what lies behind his orbits stays where its window does.
     const stays = this.held && state.window !== null;
@@ -156,18 +156,20 @@ export class Store {
     this.portrait = this.keep("portrait", behind, () => plane.portrait(this.request));
     this.motions = this.keep("own", [behind, this.request], () => plane.own({ ...this.request, window: this.portrait.window }));
     const { against } = this.request;
-    this.others = against ? ofSystem("others", [against, state.ball, state.orbits], () => {
+    this.others = against ? this.keep("others", [...this.system, against, state.ball, state.orbits], () => {
       const mu = state.ball ? contactBy(against).mu : state.mu;
       return state.orbits.map(({ u, v }) => plane.stopBy(against, mu, u, v));
     }) : null;
     this.motion = this.motions[state.chosen];
-    this.ride = orbit ? this.rideOf(state, orbit, ofSystem) : null;
+    this.ride = orbit ? this.rideOf(state, state.chosen) : null;
     this.end = this.ride?.end ?? 1;
   }
 
   /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
-  rideOf(state, orbit, ofSystem) {
+  rideOf(state, index) {
     const { library, library: { plane }, body: { chi }, timeFactor } = this;
+    const orbit = state.orbits[index];
+    const ofSystem = (name, key, make) => this.keep(`${name} ${index}`, [...this.system, ...key], make);
     const rolls = chi !== 1;
     const { v } = orbit;
     const ball = state.ball ?? ballOf(1);
@@ -182,7 +184,7 @@ export class Store {
       return ofSystem(`${name} slide`, [shot, least], () => plane.slide(shot, 0, least));
     };
     const plain = slide("plain");
-    const own = { ...slide("own"), ...(resistance > 0 && !this.contact?.without ? { stop: this.motion.stop * timeFactor } : {}) };
+    const own = { ...slide("own"), ...(resistance > 0 && !this.contact?.without ? { stop: this.motions[index].stop * timeFactor } : {}) };
     const radius = state.ball?.radius ?? (Math.max(own.path, plain.path) / 4 || 1);
     const ride = (name, until, kept = `${name} ride`) => {
       const shot = shotOf(state.ball ?? ballOf(radius), starts[name]);
@@ -198,18 +200,12 @@ export class Store {
     const lasts = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
     const stone = stoneOf(state, rolls);
     const passage = stone && ofSystem("passage", [shotOf(ball, orbit), orbit.heading, stone, lasts], () => {
-      const course = ride("own", lasts, "whole ride");
+      const course = ride("own", lasts);
       return passageOf(rideOn(course, rightOf(orbit, course, stone), 1), stone);
     });
     // A ball that touches the stone is shown until then.
     const end = lasts * (passage?.until || 1);
-    return { own, plain, least, end, rolls, rest, radius, passage, courses: [ride("plain", end), ride("own", end)] };
-  }
-
-  /** How the body of another orbit slides. */
-  rideAt(index) {
-    const { state, state: { orbits: { [index]: orbit }, law, mu, body } } = this;
-    return this.rideOf(state, orbit, (name, key, make) => this.keep(`${name} ${index}`, [law, mu, body, ...key], make));
+    return { own, plain, least, end, rolls, rest, radius, stone, passage, courses: [ride("plain", end), ride("own", end)] };
   }
 
   /** A time until a stop, as it is told. */
