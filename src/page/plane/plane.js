@@ -171,8 +171,7 @@ export class Plane {
   startOrbit({ u, v, along = v, across = 0, heading = 0 }, ask = (edit, done) => this.store.ask(edit, done)) {
     const { store } = this;
     ask((state) => {
-      // A link of the game has no window.
-      if (!state.line) this.zooming.freeze(state, { u, v });
+      this.zooming.freeze(state, { u, v });
       state.orbits.push(startOf(u, v, along, across, heading));
       Object.assign(state, { chosen: state.orbits.length - 1, fraction: 0, isochrone: 0 });
     }, () => this.announce(

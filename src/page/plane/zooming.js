@@ -13,6 +13,7 @@ export class Zooming {
   freeze(state, { u, v } = { u: 0, v: 0 }) {
     const [U, V] = this.store.portrait.window;
     if (this.before === undefined) this.before = state.window;
+    if (state.line) return;  // a link of the game has no window
     state.window = Math.abs(u) > U || v > V ? null : state.window ?? [U, V];
   }
 
