@@ -443,8 +443,8 @@ std::string complaint(const std::string& body, double mu) {
   return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }
 
-/// Returns for each view {name, layered: true if it has isochrones and a field}. Views of moments and the view of two
-/// panels are left out: a click there determines no state.
+/// Returns for each view {name, layered: true if it has isochrones and a field}. Views of moments, where a click
+/// determines no state, and the view of two panels are left out.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
   std::erase_if(shown,

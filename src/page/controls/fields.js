@@ -7,7 +7,7 @@ import { allowed } from "../state/page_state.js";
  * A number field with its label, in `parent`. What is wrong with a number is said beside it.
  *
  * @param use  called with a number that was typed; throws an Error whose message says why it will not do
- * @returns shows a value that came from elsewhere, unless the reader is typing; hides the field where it is shown none
+ * @returns a function that shows a value from elsewhere, unless the reader is typing; undefined hides the field
  */
 export function numberField(parent, { key, label, use }) {
   // Each key would be announced.

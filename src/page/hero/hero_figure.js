@@ -45,7 +45,7 @@ export function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) 
  *   {from, to: places, more: m} between the end of the other body and this one; radius; unit: "m" or "", lengths in m; rolls: seen
  *   at an angle; ghosts: {x, y, words, colour, perhaps path: a line} of earlier throws; line: {at, reach, words, stone: of tries.js
  *   or null} to reach, or null; ring: {share, words} of the full spin, or null; aim: {from, to: pixels, words} of a throw
- * @returns {{places: {x: number, y: number, radius: number}[]}} where the bodies are, in pixels, and from where one is to curl around a stone
+ * @returns {{places: {x: number, y: number, radius: number}[]}} places of the bodies in pixels; with a stone also the start of the ball
  */
 export function drawLanes(surface, scene, theme) {
   const { lanes, radius, unit, rolls, ghosts, line, ring, aim } = scene;

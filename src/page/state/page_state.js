@@ -127,7 +127,7 @@ const parts = {
     read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startIn, start) ?? []) }),
   },
   chosen: value("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
-  // The line to reach by spin alone, or for a ball that rolls the mark behind a stone, in m; 0 for none.
+  // The line to reach by spin alone; for a ball that rolls, the mark behind a stone. In m; 0 for none.
   line: value("line", 0, (text) => numberOf("line", text)),
   // The fall of a ball that bounces: its height in m, and its coefficient of restitution.
   drop: value("drop", 0.1, (text) => numberOf("drop", text)),
