@@ -18,6 +18,7 @@ struct LeadingPower {
 
 /// A direction with the error of its angle. The error is 0 for an axis.
 struct Place {
+  // NOLINTNEXTLINE(google-explicit-constructor): a direction is a place
   Place(const Eigen::Vector2d& at) : Place(at, at[0] == 0 || at[1] == 0 ? 0 : 2 * eps) {}
   Place(const Eigen::Vector2d& at, double known_to) : n(at), error(known_to) {}
 

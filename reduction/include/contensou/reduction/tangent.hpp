@@ -13,7 +13,7 @@ struct ByDifferences {
   Law law;
 
   /// @throws std::domain_error  if the law throws
-  kernel::Friction<double> operator()(const kernel::Slip<double>& at) const;
+  kernel::Friction<double> operator()(const kernel::Slip<double>& slip) const;
 };
 
 /// A law that returns its slopes. The laws of contensou/wrench_kernel.h have slopes in closed form, to 4 eps.
