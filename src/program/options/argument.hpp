@@ -106,7 +106,7 @@ inline auto quantity(std::string_view symbol) {
 /// @param holds    condition, such as is_positive
 /// @param message  sentence that says which numbers are allowed
 template <class Read, class Holds>
-auto checked(Read read, Holds holds, std::string message) {
+auto checked(Read read, Holds holds, const std::string& message) {
   return [=](const std::string& typed) {
     const double value = read(typed);
     if (!holds(value)) throw NotAllowed(message);
