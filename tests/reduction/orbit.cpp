@@ -396,7 +396,7 @@ TEST_CASE("when a speed has fallen to a value", "[orbit][route]") {
 TEST_CASE("the integral of a function of v", "[orbit][route]") {
   for (const char* name : {"exact", "pade", "ring"}) {
     if (!CONTENSOU_FULL_TESTS && name == std::string_view("ring")) continue;  // as slow as all other laws together
-    for (double r : CONTENSOU_FULL_TESTS ? std::vector{1e-6, 5.0 / 7, 3.0, 6.0} : std::vector{1e-6, 6.0}) {
+    for (double r : CONTENSOU_FULL_TESTS ? std::vector{1e-6, 5.0 / 7, 3.0, 6.0} : std::vector{6.0}) {
       const ReducedSystem system(*find_law(name), 0.3, {.chi = 3.5, .gamma = r * 3.5 / 0.09});
       const Flow flow(system);
       for (double k0 : {1e-2, 3.0, 1e3}) {

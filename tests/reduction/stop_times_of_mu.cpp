@@ -98,7 +98,7 @@ TEST_CASE("with a drive stop times of any mu are those of its flow", "[stop_time
       WorstCase cases(fmt::format("{}, drive = {}", law.name(), drive));
       Rows rows(8);
       int alone = 0;
-      constexpr int count = CONTENSOU_FULL_TESTS ? 20 : 10;
+      constexpr int count = CONTENSOU_FULL_TESTS ? 20 : 5;
       for (int i = 0; i < count; ++i) {
         auto [mu, start] = rows.next();
         if (i == 0) start.v = 0;
@@ -123,7 +123,7 @@ TEST_CASE("gradients of any mu are those of its flow", "[stop_times_of_mu][gradi
       double worst = 0, worst_of_u = 0;
       std::string where;
       int alone = 0;
-      constexpr int count = CONTENSOU_FULL_TESTS ? 12 : 6;
+      constexpr int count = CONTENSOU_FULL_TESTS ? 12 : 4;
       for (int i = 0; i < count; ++i) {
         const auto [mu, start] = rows.next();
         const StopTimeGradient wanted = Flow({law, mu, homogeneous_ball, drive}).stop_time_gradient(start);
