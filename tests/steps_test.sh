@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Tests how the steps of .ci/test and .ci/full report a step that fails: steps_test.sh FILE, where FILE is .ci/steps.
+# Tests how the steps of the scripts in .ci report a step that fails: steps_test.sh FILE, where FILE is .ci/steps.
 told=$(bash -c '
   source "$1"
   good() { echo "$1 ran" >&2; }
   half_good() { false; echo half; return 3; }
   step build good build
   step "test it" after build half_good
-  step report after "test it" good report
+  step report after build after "test it" good report
   step last good last' steps "$1" 2>&1)
 status=$?
 failed=0
