@@ -153,7 +153,7 @@ Json members_of(const PhasePortrait& portrait, const PortraitSource& source) {
 
 /// Returns a name as a CSV cell, quoted if necessary.
 std::string cell(const std::string& name) {
-  if (name.find_first_of(",\"\n") == name.npos) return name;
+  if (name.find_first_of(",\"\n") == std::string::npos) return name;
   std::string quoted;
   for (char each : name) quoted += each == '"' ? "\"\"" : std::string(1, each);
   return '"' + quoted + '"';

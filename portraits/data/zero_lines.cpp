@@ -49,7 +49,9 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) values.push_back(piece.value(corner(i, j)));
   }
-  const auto value = [&](int i, int j) -> double& { return values[static_cast<std::size_t>(j * (columns + 1) + i)]; };
+  const auto value = [&](int i, int j) -> double& {
+    return values[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns + 1) + static_cast<std::size_t>(i)];
+  };
   // On a border at which the function is 0, rounding decides the sign. The value gets the sign opposite to that inside.
   constexpr double rounding = 1e-12;
   for (int j = 0; j <= rows; ++j) {

@@ -34,7 +34,7 @@ constexpr std::string_view signs =
 std::string tex_character(std::string_view one, bool mathematics) {
   const auto first = static_cast<unsigned char>(one.front());
   if (one == no_break_space) return "~";
-  if (const std::size_t sign = signs.find(fmt::format(" {}", one)); first > ' ' && sign != signs.npos) {
+  if (const std::size_t sign = signs.find(fmt::format(" {}", one)); first > ' ' && sign != std::string::npos) {
     const std::size_t tex = sign + 1 + one.size();
     const std::string_view math = signs.substr(tex, signs.find(' ', tex) - tex);
     return mathematics ? fmt::format("{}{}", math, math[0] == '\\' ? " " : "")

@@ -96,7 +96,8 @@ std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2
   const auto place = [&](const Vector2d& x) { return Vector2d((x - low).cwiseQuotient(sides)); };
   std::vector<Equilibrium> found;
   for (int i = 0; i < across * across; ++i) {
-    Vector2d x = low + Vector2d((i % across + 0.5) / across, (i / across + 0.5) / across).cwiseProduct(sides);
+    const int row = i / across, column = i % across;
+    Vector2d x = low + Vector2d((column + 0.5) / across, (row + 0.5) / across).cwiseProduct(sides);
     const Vector2d from = place(x);
     for (int step = 0; step < most; ++step) {
       const auto here = jet_of(field, x);

@@ -91,8 +91,8 @@ class Polynomial {
  public:
   static constexpr int degree = 4, side = degree + 1;
 
-  Whole& at(int i, int j) { return terms_[static_cast<std::size_t>(i * side + j)]; }
-  Whole at(int i, int j) const { return terms_[static_cast<std::size_t>(i * side + j)]; }
+  Whole& at(int i, int j) { return terms_[place(i, j)]; }
+  Whole at(int i, int j) const { return terms_[place(i, j)]; }
 
   double operator()(const Vector2d& x) const {
     double value = 0;
@@ -146,7 +146,7 @@ class Polynomial {
         const int j = total - i;
         if (at(i, j) == 0) continue;
         const std::string of_u = power('u', i), of_v = power('v', j);
-        names.push_back(of_u + (of_u.empty() || of_v.empty() ? "" : " ") + of_v);
+        names.push_back(fmt::format("{}{}{}", of_u, of_u.empty() || of_v.empty() ? "" : " ", of_v));
         factors.above.push_back(at(i, j));
       }
     }
@@ -165,6 +165,8 @@ class Polynomial {
     }
     return {0, 0};
   }
+
+  static std::size_t place(int i, int j) { return static_cast<std::size_t>(i) * side + static_cast<std::size_t>(j); }
 
   std::array<Whole, side* side> terms_ = {};
 };
@@ -194,7 +196,7 @@ std::string factorised(Polynomial rest) {
   if (found.size() == 1 && found[0].second == 1) return found[0].first;
   std::string text;
   for (const auto& [factor, times] : found) {
-    const bool bare = factor.find(' ') == factor.npos;
+    const bool bare = factor.find(' ') == std::string::npos;
     text += (text.empty() ? "" : " ") + (bare ? factor : "(" + factor + ")");
     if (times > 1) text += fmt::format("^{}", times);
   }

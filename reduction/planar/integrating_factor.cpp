@@ -121,7 +121,7 @@ void FactorReduction::Solved::look_for_factor() {
   }
 }
 
-FactorReduction::FactorReduction(SmoothField field, const Vector2d& start) {
+FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start) {
   const auto value = value_of(field.value, start);
   if (!start.allFinite() || !value) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));

@@ -199,7 +199,7 @@ std::string as_typed(const std::vector<std::string>& arguments) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-_=.,:/@%";
   std::string line = "contensou";
   for (const std::string& argument : arguments) {
-    const bool is_plain = !argument.empty() && argument.find_first_not_of(plain) == argument.npos;
+    const bool is_plain = !argument.empty() && argument.find_first_not_of(plain) == std::string::npos;
     line += is_plain ? ' ' + argument : " '" + argument + '\'';
   }
   return line;

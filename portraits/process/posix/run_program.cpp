@@ -15,7 +15,7 @@
 #include <sys/prctl.h>
 #endif
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX has it in no header
 
 namespace contensou::portraits {
 

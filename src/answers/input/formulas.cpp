@@ -489,7 +489,7 @@ Factors divisors(const Steps& formula) {
 /// Returns the text before the equals sign, without blanks; empty if there is no equals sign.
 std::string left_side(std::string_view formula) {
   const std::size_t equals = formula.find('=');
-  std::string left(equals == formula.npos ? "" : formula.substr(0, equals));
+  std::string left(equals == std::string::npos ? "" : formula.substr(0, equals));
   std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
   return left;
 }
@@ -533,7 +533,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
       const std::size_t equals = text.find('=', first);
       const std::string left = formula_parts::left_side(text.substr(first, end - first));
       const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
-      const bool bare = shape.left[0].empty() && equals == text.npos && !found[0];
+      const bool bare = shape.left[0].empty() && equals == std::string::npos && !found[0];
       if (!bare && (which == shape.left.size() || left.empty())) {
         const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
         if (!may_be_parameter(left) || !is_number(value)) {

@@ -24,10 +24,10 @@ bool is_internal(std::string_view word, bool first) {
   const auto is_lower = [](char letter) { return letter >= 'a' && letter <= 'z'; };
   const auto uppers = count(is_upper), lowers = count(is_lower);
   const auto others = std::ssize(word) - uppers - lowers - std::ranges::count(word, '_');
-  const bool scoped = word.find("::") != word.npos;
+  const bool scoped = word.find("::") != std::string::npos;
   if (word.empty() || others != (scoped ? 2 : 0) || lowers == 0) return false;
   if (scoped || (is_upper(word[0]) && uppers > 1)) return true;
-  return first && (is_upper(word[0]) || word == "verify" || (uppers == 0 && word.find('_') != word.npos));
+  return first && (is_upper(word[0]) || word == "verify" || (uppers == 0 && word.find('_') != std::string::npos));
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ bool is_internal(std::string_view word, bool first) {
 std::string words_of(std::string message) {
   constexpr std::string_view colon = ": ";
   std::size_t begin = 0;
-  for (std::size_t end = 0; (end = message.find(colon, begin)) != message.npos;) {
+  for (std::size_t end = 0; (end = message.find(colon, begin)) != std::string::npos;) {
     if (is_internal(std::string_view(message).substr(begin, end - begin), begin == 0))
       message.erase(begin, end + colon.size() - begin);
     else

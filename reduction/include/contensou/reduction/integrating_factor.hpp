@@ -61,7 +61,7 @@ class FactorReduction {
   /// The forms are tried in turn; the search ends at the first form that satisfies the equation. If the field f has a
   /// denominator D and no form fits V, the forms are tried for V D, an inverse integrating factor of D f.
   /// @throws std::domain_error  unless the start is finite and the field has a value there
-  FactorReduction(SmoothField field, const Eigen::Vector2d& start);
+  FactorReduction(const SmoothField& field, const Eigen::Vector2d& start);
 
   bool found() const { return !form().empty(); }
 
