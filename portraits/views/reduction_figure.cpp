@@ -160,7 +160,7 @@ Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Ve
     figure.size = fitted({270, 105}, 3, size);
     return figure;
   }
-  const Eigen::Vector2d centre = plane.centre();
+  const Eigen::Vector2d& centre = plane.centre();
   const double half = plane_widths * (start - centre).lpNorm<Eigen::Infinity>();
   const double first = from.rays.empty() ? 0 : from.rays[0];
   in_plane.x = {math("u"), centre[0] - half, centre[0] + half, false, {}};
