@@ -50,7 +50,7 @@ Told told(const char* name, const std::vector<Observable>& columns, int films, V
 }  // namespace
 
 TEST_CASE("films of other motions do not fit, or leave friction and patch radius open", "[invariant]") {
-  constexpr int films = CONTENSOU_FULL_TESTS ? 200 : 3;
+  constexpr int films = CONTENSOU_FULL_TESTS ? 50 : 3;
   using enum Observable;
   const std::vector<Observable> place{x, y};
   std::mt19937_64 random(1);
