@@ -553,7 +553,7 @@ TEST_CASE("a steep field has no points at rest off the centre", "[planar][exact]
 TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
   const auto sign = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
   const PlanarReduction passed = reduced([=](const Vector2d& x) { return Vector2d(1, 2 + sign(x[1])); }, {-3, -1});
-  for (const double v : {-1.0, -0.5, -2.0, -0.1}) {
+  for (const double v : CONTENSOU_FULL_TESTS ? std::vector{-1.0, -0.5, -2.0, -0.1} : std::vector{-0.5, -2.0}) {
     for (const double t : {0.05, 1.5, 2.0, 4.0}) {
       CAPTURE(v, t);
       const double height = v + t < 0 ? v + t : 3 * (v + t);
@@ -564,7 +564,7 @@ TEST_CASE("states beyond a jump that the orbit crosses", "[planar][exact]") {
   const PlanarReduction circle = reduced(
       [=](const Vector2d& x) -> Vector2d { return (2 + sign(x[0] - 2 * x[1])) * Vector2d(x[1], -x[0]); }, {1, 0.3});
   CHECK(circle.end({1, 0.3}) == PlanarEnd::periodic);
-  for (const int turns : CONTENSOU_FULL_TESTS ? std::vector{1, 5, 40} : std::vector{1, 5}) {
+  for (const int turns : CONTENSOU_FULL_TESTS ? std::vector{1, 5, 40} : std::vector{5}) {
     CHECK((circle.orbit({1, 0.3}).at(turns * 4 * pi / 3) - Vector2d(1, 0.3)).norm() < 1e-11);
   }
 }
