@@ -1,8 +1,11 @@
 // If writing a file fails at any place, either the old or the new file must exist, complete, and no other file.
 #include <algorithm>
 #include <csignal>
+#include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <catch2/catch.hpp>
