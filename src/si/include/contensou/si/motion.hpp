@@ -201,9 +201,12 @@ class SharedFlows;
 class Shots {
  public:
   /// @param ball  its start is not used
-  /// @param flow  flow of undriven_system(ball, law)
   /// @throws std::domain_error  as undriven_system and require_stop
   Shots(const Experiment& ball, const reduction::Law& law);
+
+  /// @param ball  its start is not used
+  /// @param flow  flow of undriven_system(ball, law)
+  /// @throws std::domain_error  as undriven_system and require_stop
   Shots(const Experiment& ball, const reduction::Flow& flow);
 
   /// Returns Motion::reduced from a start.
