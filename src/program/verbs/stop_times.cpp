@@ -44,7 +44,8 @@ StopTimes::StopTimes(const reduction::Law& law, reduction::Inertia body, double 
       many_mus_(mus >= mus_that_pay && starts_ < starts_that_pay) {}
 
 const reduction::StopTimesOfMu& StopTimes::of_every_mu() {
-  std::call_once(of_every_mu_made_, [this] { of_every_mu_.emplace(law_, body_, drive_); });
+  const std::lock_guard lock(guard_);
+  if (!of_every_mu_) of_every_mu_.emplace(law_, body_, drive_);
   return *of_every_mu_;
 }
 

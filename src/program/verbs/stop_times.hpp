@@ -65,7 +65,6 @@ class StopTimes {
   std::optional<si::Experiment> resisted_;
   std::size_t starts_ = 0;  ///< number of starts for each mu of a grid
   bool many_mus_ = false;
-  std::once_flag of_every_mu_made_;
   std::optional<reduction::StopTimesOfMu> of_every_mu_;
   std::atomic<bool> told_ = false;  ///< true if the message on slow starts was printed
   std::mutex guard_;
