@@ -88,6 +88,7 @@ Vector2d FactorMotion::at(double time) const {
 }
 
 /// Follows an orbit from part to part, and from one box, in which V is fitted, to the next.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): one object exists for each orbit
 class Follower {
   using Samples = LegendreSeries::Samples;
   using Panel = FactorMotion::Panel;

@@ -80,6 +80,7 @@ const std::vector<Engine>& engines() {
        face_on_rim("friction[0]", points),
        "the larger of the two geoms, number by number: set both; a geom of higher priority counts alone",
        {"The manual calls friction[1] the diameter of the contact patch; f and Psi(0) are missing in that.",
+        // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one note of two lines
         "Under the pyramidal cone a ball that slides and spins never rolls before its spin ends: its slip\n"
         "stays at (friction[1]/f) omega. Shown for a slip along a tangent axis; across, friction is weaker.",
         "Of friction[0] the larger counts, too: a plane with its default of 1 has friction 1.",
