@@ -216,9 +216,9 @@ py::dict dict_of(const si::Spreads& spreads) {
       const double both = spreads.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       if (both != 0) row[py::str(spreads.numbers[j].of.name())] = both;
     }
-    if (row.size() > 0) correlation[name] = row;
+    if (!row.empty()) correlation[name] = row;
   }
-  if (correlation.size() > 0) result[correlation_field] = correlation;
+  if (!correlation.empty()) result[correlation_field] = correlation;
   return result;
 }
 
