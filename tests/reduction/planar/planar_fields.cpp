@@ -13,7 +13,10 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/planar_reduction.hpp"
