@@ -37,7 +37,14 @@ std::string message_of(const BadLine& error, std::string_view name, long lines_b
   fuzz::require(message.starts_with(fmt::format("{}:", name)), message);
   std::size_t digits = 0;
   const long line = std::stol(message.substr(name.size() + 1), &digits);
-  return fmt::format("{}{}", line - lines_before, message.substr(name.size() + 1 + digits));
+  std::string rest = message.substr(name.size() + 1 + digits);
+  // A message about an open quote also names the line that closes the quote.
+  constexpr std::string_view open_quote = ": a quote inside a field, or one that closes on line ";
+  if (rest.starts_with(open_quote)) {
+    const long last = std::stol(rest.substr(open_quote.size()), &digits);
+    rest.replace(open_quote.size(), digits, fmt::format("{}", last - lines_before));
+  }
+  return fmt::format("{}{}", line - lines_before, rest);
 }
 
 /// @param cut  returns the size of the next piece, 1 or more
