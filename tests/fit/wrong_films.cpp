@@ -77,7 +77,8 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
     const Told slowing =
         told("pool", place, films, [&](double t) { return with_errors(1 - std::exp(-2 * t), 1e-3, 0, 1e-3); });
     // In the model a fast spin makes v fall like exp(-2 t), too. Some films determine this spin by a combination.
-    CHECK(slowing.misfits + slowing.open >= 0.85 * films);
+    // A count of films may lie two standard deviations below its mean.
+    CHECK(slowing.misfits + slowing.open >= 0.85 * films - 2 * std::sqrt(0.85 * 0.15 * films));
   }
   SECTION("a slip 2/(1 + t) beside a spin that falls as exp(-t/2)") {
     const Told hyperbolic = told("pool", {slip, spin}, films,
