@@ -111,7 +111,7 @@ TEST_CASE("random fields with poles and zeros of any order, through a linear map
   const auto one_of = [&](std::vector<int> values) {
     return values[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
   };
-  const int count = CONTENSOU_FULL_TESTS ? 1000 : 50;
+  const int count = CONTENSOU_FULL_TESTS ? 1000 : 100;
   int ordinary = 0, decided = 0, compared = 0, accurate = 0;
   for (int i = 0; i < count; ++i) {
     RandomField field{double(one_of({-1, 0, 0, 1, 2, 3})), uniform(0.5, 2) * one_of({-1, 1}),
