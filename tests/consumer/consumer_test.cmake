@@ -68,7 +68,8 @@ if(MODE STREQUAL "shared")
   set(BUILD ${WORK}/shared)
   # Compiling many sources at a time takes a third of the processor time. MODE add compiles each source alone.
   run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD} ${options} -D BUILD_TESTING=OFF -D BUILD_SHARED_LIBS=ON
-    -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=16 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
+    -D CONTENSOU_PAGE=OFF -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=16
+    -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
   run(${CMAKE_COMMAND} --build ${BUILD})
 endif()
 if(MODE STREQUAL "find" OR MODE STREQUAL "shared")
