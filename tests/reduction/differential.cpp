@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-// Before 1.77 Boost derives from std::unary_function, which LLVM's library for C++20 does not have.
+// Boost 1.74 derives from std::unary_function, which LLVM's library for C++20 does not have.
 #define BOOST_NO_CXX98_FUNCTION_BASE
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
