@@ -31,6 +31,10 @@ struct SmoothField {
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
   /// If the basis is not empty, V is sought only among sums of these functions.
   Basis basis = {};
+  /// The switching functions with their derivatives, one row each: value, d/du, d/dv. Between their zeros f is smooth.
+  /// Their number is the same at every point. A value is NaN where the function has none. Where a switching function
+  /// changes its sign or touches 0, f may jump, have a kink or end. If empty, the places are found by comparing sides.
+  std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> switches = {};
 };
 
 /// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
