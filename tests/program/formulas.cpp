@@ -548,3 +548,186 @@ TEST_CASE("equations of first and second order are systems in u and v", "[system
   CHECK_THAT(refusal("y' = x; y' = 3"), Contains("stands there twice"));
   CHECK_THAT(refusal("y = 3"), Contains("is missing"));
 }
+
+TEST_CASE("every function and operator names the places where it breaks", "[formulas]") {
+  struct Row {
+    std::string op, formula;
+    double u, v;
+  };
+  constexpr double half_pi = std::numbers::pi / 2;
+  const std::vector<Row> broken{
+      {"abs", "|u - 2|*v", 2, 1},
+      {"abs", "|u*v*u|", 3, 0},
+      {"sign", "sign(u + v) + u", 1, -1},
+      {"rint", "rint(3*u)", 2.5, 7},
+      {"rint", "rint(-u)", 1e15 + 0.5, 7},
+      {"tan", "tan(u)", half_pi, 7},
+      {"asin", "asin(u/2)", 2, 7},
+      {"acos", "acos(-v)", 7, 1},
+      {"acosh", "acosh(v)", 7, 1},
+      {"atanh", "atanh(u)", -1, 7},
+      {"sqrt", "sqrt(u - v)", 3, 3},
+      {"sqrt", "sqrt(4*(u - 1)^2/exp(v)^2)", 1, 7},
+      {"sqrt", "sqrt(max(0, u - 1))", 1, 7},
+      {"ln", "ln(u)", 0, 7},
+      {"log", "log(u)", 0, 7},
+      {"log2", "log2(u - 3)", 3, 7},
+      {"log10", "log10(u)", 0, 7},
+      {"hypot", "hypot(u - 1, v)", 1, 0},
+      {"hypot", "hypot(0, u - 1)", 1, 7},
+      {"atan2", "atan2(u - 1, v)", 1, -1},
+      {"atan2", "atan2(0, v)", 7, 0},
+      {"min", "min(u, 3, v)", 3, 5},
+      {"max", "max(7, 3, v)", 0, 7},
+      {"<", "u < 2", 2, 7},
+      {">", "u*v > 6", 2, 3},
+      {"<=", "0 <= u - 1", 1, 7},
+      {">=", "u >= v ? u : v", 3, 3},
+      {"==", "u == v", 3, 3},
+      {"!=", "u - 1 != 2", 3, 7},
+      {"&&", "u < 1 && v - 1", 7, 1},
+      {"||", "u - 1 || v > 9", 1, 7},
+      {"!", "!(u - 1)", 1, 7},
+      {"?", "u - 1 ? 2 : 3", 1, 7},
+      {"/", "v/(u - 1)^2", 1, 7},
+      {"^", "(u - 1)^0.5", 1, 7},
+      {"^", "(u - 1)^-2", 1, 7},
+      {"^", "(u - 1)^v", 1, 7},
+      {"^", "0^(u - 1)", 1, 7},
+      {"sin", "sin(|u|)", 0, 7},
+  };
+  const auto switches = [](const std::string& formula, double u, double v) {
+    return formulas("u' = " + formula + "; v' = 1").switches({u, v});
+  };
+  std::vector<std::string> answered;
+  for (const auto& [op, formula, u, v] : broken) {
+    CAPTURE(formula);
+    answered.push_back(op);
+    const Eigen::MatrixX3d here = switches(formula, u, v), beside = switches(formula, u + 0.5, v - 0.375);
+    CHECK((here.col(0).array().abs() < 1e-15).count() == 1);
+    CHECK((beside.col(0).array().abs() < 1e-15).count() == 0);
+    CHECK(beside.rows() == here.rows());
+  }
+  for (const std::string smooth : {"sin", "cos", "atan", "sinh", "cosh", "tanh", "asinh", "exp", "sum", "avg", "-"}) {
+    CAPTURE(smooth);
+    answered.push_back(smooth);
+    CHECK(switches(smooth + "(u - v)", 1, 1).rows() == 0);
+  }
+  for (const std::string smooth : {"u + v*u - v", "u^3 - v^2.0*u^0", "sqrt(2)*|3 - pi|*u", "hypot(u, 2)", "2^u",
+                                   "atan2(v, 1)", "(1 > 2 ? 3 : 4)*v/5", "u/exp(v)", "u/cosh(v)^2"}) {
+    CAPTURE(smooth);
+    CHECK(switches(smooth, 1, 1).rows() == 0);
+  }
+  const std::string sentence = mistake("_e(u)"), opening = "functions are ";
+  const std::size_t begin = sentence.find(opening) + opening.size();
+  const std::string names = sentence.substr(begin, sentence.find(", at character") - begin) + ", ";
+  CHECK(std::ranges::count(names, ',') == 27);
+  for (std::size_t at = 0; at < names.size(); at = names.find(", ", at) + 2) {
+    const std::string function = names.substr(at, names.find(", ", at) - at);
+    INFO("the function " << function << " needs a row above");
+    CHECK(std::ranges::count(answered, function) > 0);
+  }
+
+  // Equal functions are one row, and a row has no value where its function has none.
+  CHECK(switches("|u| + sign(-2*u)*u^0.5/u + (0 < u) + sqrt(u*u)", 1, 1).rows() == 1);
+  CHECK(switches("atan2(u, v)", 1, 1).array().isNaN().all());
+  CHECK(switches("|ln(u)|", -1, 1).array().isNaN().any());
+}
+
+TEST_CASE("between the zeros of the switching functions random formulas are smooth", "[formulas]") {
+  Random random(20261127);
+  Typist typed(random);
+  int breaks = 0, slopes_compared = 0;
+  // Larger values are rounded, and their sines turn fast. Both look like breaks of the formula.
+  const std::function<bool(const Tree&, double, double)> is_tame = [&](const Tree& tree, double u, double v) {
+    const double size = std::fabs(tree.at(u, v).value);
+    return (std::isnan(size) || size == 0 || (size > 1e-12 && size < 1e6)) &&
+           std::ranges::all_of(tree.parts, [&](const Tree& part) { return is_tame(part, u, v); });
+  };
+  for (int n = 0; n < 20000; ++n) {
+    const Tree tree = random_tree(random, 1 + static_cast<int>(below(random, 4)));
+    const std::string text = typed(tree);
+    const Formulas compiled = formulas("v' = 2; u' = " + text);
+    const Eigen::Vector2d from(between(random, -3, 3), between(random, -3, 3));
+    const Eigen::Vector2d way(between(random, -1, 1), between(random, -1, 1));
+    const auto switches = [&](double s) {
+      const Eigen::Vector2d x = from + s * way;
+      return compiled.switches({x[0], x[1]});
+    };
+    CAPTURE(text, from, way);
+    const Eigen::MatrixX3d here = switches(0);
+    for (const int by : {0, 1}) {
+      const auto difference = [&](double h) {
+        const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(by), more = from + step, less = from - step;
+        const Eigen::VectorXd change =
+            compiled.switches({more[0], more[1]}).col(0) - compiled.switches({less[0], less[1]}).col(0);
+        return Eigen::VectorXd(change / (2 * h));
+      };
+      const Eigen::VectorXd coarse = difference(1e-4), fine = difference(5e-5), finest = difference(2.5e-5);
+      for (Eigen::Index i = 0; i < here.rows(); ++i) {
+        const double most = 1e-5 * std::fabs(finest[i]);
+        if (!(std::fabs(coarse[i] - finest[i]) < most && std::fabs(fine[i] - finest[i]) < most)) continue;
+        if (std::isnan(here(i, 1 + by))) continue;  // a part has no slope, such as ln(u) in 0*ln(u) for u < 0
+        slopes_compared += 1;
+        CAPTURE(i, here(i, 0));
+        CHECK(std::fabs(here(i, 1 + by) - finest[i]) <= 10 * most + 1e-9 * std::fabs(here(i, 0)));
+      }
+    }
+    // Look for a jump of the value or of the slope: halve the way, and keep the half with the greater change.
+    for (const bool of_slope : {false, true}) {
+      const auto quantity = [&](double s) {
+        const Eigen::Vector2d x = from + s * way;
+        const Dual<2> all = compiled.with_slopes(std::array{x[0], x[1]})[0];
+        return of_slope ? all[1] * way[0] + all[2] * way[1] : all[0];
+      };
+      const auto change = [&](double a, double b) {
+        if (std::isfinite(a) == std::isfinite(b)) return std::isfinite(a) ? std::fabs(a - b) : 0;
+        return of_slope ? 0 : std::numeric_limits<double>::infinity();
+      };
+      double begin = 0, end = 1, first = quantity(begin), last = quantity(end);
+      double most = 0;
+      for (int halvings = 0; halvings < 30; ++halvings) {
+        const double middle = (begin + end) / 2, between_them = quantity(middle);
+        const double at_left = change(first, between_them), at_right = change(between_them, last);
+        if (std::isfinite(at_left + at_right)) most = std::max({most, at_left, at_right});
+        const bool left = at_left > at_right;
+        (left ? end : begin) = middle;
+        (left ? last : first) = between_them;
+      }
+      double noise = 1e-14 * std::fmax(std::fabs(first), std::fabs(last));
+      for (int i = 1; i < 8; ++i) {
+        for (const double from_end : {begin - (end - begin), end + (end - begin)}) {
+          const double rounding = change(quantity(from_end + i * 1e-14), quantity(from_end));
+          if (std::isfinite(rounding)) noise = std::max(noise, rounding);
+        }
+      }
+      if (!(change(first, last) > 1e-3 * most) || !(change(first, last) > 1e3 * noise)) continue;
+      const auto tame_at = [&](double s) { return is_tame(tree, from[0] + s * way[0], from[1] + s * way[1]); };
+      if (!tame_at(begin) || !tame_at(end)) continue;
+      breaks += 1;
+      const Eigen::VectorXd before = switches(begin).col(0), after = switches(end).col(0);
+      const Eigen::VectorXd far_before = switches(begin - 1e-3).col(0), far_after = switches(end + 1e-3).col(0);
+      bool found = false;
+      for (Eigen::Index i = 0; i < before.size(); ++i) {
+        const double far = std::fmax(std::fabs(far_before[i]), std::fabs(far_after[i]));
+        const double size = std::fmin(std::fabs(before[i]), std::fabs(after[i]));
+        found = found || before[i] * after[i] <= 0 || size <= 1e-4 * far;
+      }
+      CAPTURE(of_slope, begin, end - begin, first, last, most, before, after);
+      CHECK(found);
+    }
+  }
+  CHECK(breaks > 600);
+  CHECK(slopes_compared > 10000);
+}
+
+TEST_CASE("a planar system has the switching functions of its formulas", "[system]") {
+  const auto switches = [](const std::string& text) -> Eigen::MatrixXd {
+    const contensou::reduction::SmoothField field = parse_planar_system(text, {});
+    return field.switches ? field.switches({2, 3}) : Eigen::MatrixX3d(0, 3);
+  };
+  CHECK(switches("u' = v; v' = -sin(u)").rows() == 0);
+  CHECK(switches("u' = v*|u|; v' = max(u, v)") == (Eigen::MatrixXd(2, 3) << 2, 1, 0, -1, 1, -1).finished());
+  CHECK(switches("x'' = -x - 0.2*sign(x' - 0.5)") == Eigen::RowVector3d(2.5, 0, 1));
+  CHECK(switches("y' = |x*y - 4|") == Eigen::RowVector3d(2, 3, 2));
+}

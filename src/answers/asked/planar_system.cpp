@@ -95,6 +95,9 @@ FormulaField::operator reduction::SmoothField() const {
       return Eigen::RowVector3d(value, by_u, by_v);
     };
   }
+  if (formulas.switches({0, 0}).rows() > 0) {
+    field.switches = [formulas = formulas](const Eigen::Vector2d& x) { return formulas.switches({x[0], x[1]}); };
+  }
   return field;
 }
 

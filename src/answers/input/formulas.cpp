@@ -4,8 +4,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -23,9 +25,33 @@ namespace formula_parts {
 
 using Pair = std::array<double, 2>;
 
+class Switches;
+struct Operand;
+
+/// Zeros of a function: at most those of its operands, at most those of the first operand, at most those of its own
+/// switching functions, or others.
+enum class Zeros : unsigned char { own, of_operands, of_first, edges };
+
+/// The places where a function is not smooth. The table of functions does not compile without them.
+struct Breaks {
+  /// Adds the switching functions of a function of x, or of x and y.
+  using Rule = void(Switches& all, const Operand& x, const Operand& y);
+  constexpr Breaks(Rule* add_switches, Zeros of = Zeros::own)  // NOLINT(google-explicit-constructor): a table's cell
+      : add(add_switches), zeros(of) {}
+  Breaks(std::nullptr_t, Zeros = Zeros::own) = delete;
+
+  Rule* add;
+  Zeros zeros;
+};
+
+void nowhere(Switches&, const Operand&, const Operand&) {}
+Breaks::Rule at_zero, at_zeros, at_divisor, at_equals, at_halves, at_one, at_ones, at_poles, at_origin, at_cut, at_base;
+constexpr Breaks of_extremum{at_equals, Zeros::of_operands}, of_base{at_base, Zeros::of_first};
+
 /// A function of one number, of two, or of more (combined two at a time). A null `slope` or `slopes` means slopes of 0.
 struct Function {
   std::string_view name;
+  Breaks breaks;
   double (*one)(double) = nullptr;
   double (*slope)(double x, double value) = nullptr;
   double (*two)(double, double) = nullptr;
@@ -44,46 +70,50 @@ Pair of_angle(double y, double x, double) {
 }
 
 constexpr Function functions[] = {
-    {"abs", std::fabs, [](double x, double) { return x < 0 ? -1.0 : 1.0; }},
-    {"sign", sign},
-    {"rint", std::rint},
-    {"sin", std::sin, [](double x, double) { return std::cos(x); }},
-    {"cos", std::cos, [](double x, double) { return -std::sin(x); }},
-    {"tan", std::tan, [](double, double tan) { return 1 + tan * tan; }},
-    {"asin", std::asin, [](double x, double) { return 1 / std::sqrt((1 - x) * (1 + x)); }},
-    {"acos", std::acos, [](double x, double) { return -1 / std::sqrt((1 - x) * (1 + x)); }},
-    {"atan", std::atan, [](double x, double) { return 1 / (1 + x * x); }},
-    {"sinh", std::sinh, [](double x, double) { return std::cosh(x); }},
-    {"cosh", std::cosh, [](double x, double) { return std::sinh(x); }},
-    {"tanh", std::tanh, [](double x, double) { return 1 / std::cosh(x) / std::cosh(x); }},
-    {"asinh", std::asinh, [](double x, double) { return 1 / std::hypot(1, x); }},
-    {"acosh", std::acosh, [](double x, double) { return 1 / std::sqrt(x - 1) / std::sqrt(x + 1); }},
-    {"atanh", std::atanh, [](double x, double) { return 1 / (1 - x) / (1 + x); }},
-    {"exp", std::exp, [](double, double exp) { return exp; }},
-    {"sqrt", std::sqrt, [](double, double root) { return 0.5 / root; }},
-    {"ln", std::log, [](double x, double) { return 1 / x; }},
-    {"log", std::log, [](double x, double) { return 1 / x; }},
-    {"log2", std::log2, [](double x, double) { return 1 / x / std::numbers::ln2; }},
-    {"log10", std::log10, [](double x, double) { return 1 / x / std::numbers::ln10; }},
-    {"hypot", nullptr, nullptr, std::hypot, of_length},
-    {"atan2", nullptr, nullptr, std::atan2, of_angle},
-    {"min", nullptr, nullptr, [](double x, double y) { return y < x ? y : x; },
+    {"abs", {at_zero, Zeros::of_first}, std::fabs, [](double x, double) { return x < 0 ? -1.0 : 1.0; }},
+    {"sign", {at_zero, Zeros::of_first}, sign},
+    {"rint", {at_halves, Zeros::edges}, std::rint},
+    {"sin", nowhere, std::sin, [](double x, double) { return std::cos(x); }},
+    {"cos", nowhere, std::cos, [](double x, double) { return -std::sin(x); }},
+    {"tan", at_poles, std::tan, [](double, double tan) { return 1 + tan * tan; }},
+    {"asin", {at_ones, Zeros::of_first}, std::asin, [](double x, double) { return 1 / std::sqrt((1 - x) * (1 + x)); }},
+    {"acos", {at_ones, Zeros::edges}, std::acos, [](double x, double) { return -1 / std::sqrt((1 - x) * (1 + x)); }},
+    {"atan", {nowhere, Zeros::of_first}, std::atan, [](double x, double) { return 1 / (1 + x * x); }},
+    {"sinh", {nowhere, Zeros::of_first}, std::sinh, [](double x, double) { return std::cosh(x); }},
+    {"cosh", {nowhere, Zeros::edges}, std::cosh, [](double x, double) { return std::sinh(x); }},
+    {"tanh", {nowhere, Zeros::of_first}, std::tanh, [](double x, double) { return 1 / std::cosh(x) / std::cosh(x); }},
+    {"asinh", {nowhere, Zeros::of_first}, std::asinh, [](double x, double) { return 1 / std::hypot(1, x); }},
+    {"acosh",
+     {at_one, Zeros::edges},
+     std::acosh,
+     [](double x, double) { return 1 / std::sqrt(x - 1) / std::sqrt(x + 1); }},
+    {"atanh", {at_ones, Zeros::of_first}, std::atanh, [](double x, double) { return 1 / (1 - x) / (1 + x); }},
+    {"exp", {nowhere, Zeros::edges}, std::exp, [](double, double exp) { return exp; }},
+    {"sqrt", {at_zero, Zeros::of_first}, std::sqrt, [](double, double root) { return 0.5 / root; }},
+    {"ln", at_zero, std::log, [](double x, double) { return 1 / x; }},
+    {"log", at_zero, std::log, [](double x, double) { return 1 / x; }},
+    {"log2", at_zero, std::log2, [](double x, double) { return 1 / x / std::numbers::ln2; }},
+    {"log10", at_zero, std::log10, [](double x, double) { return 1 / x / std::numbers::ln10; }},
+    {"hypot", {at_origin, Zeros::edges}, nullptr, nullptr, std::hypot, of_length},
+    {"atan2", at_cut, nullptr, nullptr, std::atan2, of_angle},
+    {"min", of_extremum, nullptr, nullptr, [](double x, double y) { return y < x ? y : x; },
      [](double x, double y, double) { return of_either(!(y < x)); }, true},
-    {"max", nullptr, nullptr, [](double x, double y) { return x < y ? y : x; },
+    {"max", of_extremum, nullptr, nullptr, [](double x, double y) { return x < y ? y : x; },
      [](double x, double y, double) { return of_either(!(x < y)); }, true},
-    {"sum", nullptr, nullptr, plus, ones, true},
-    {"avg", nullptr, nullptr, plus, ones, true},
+    {"sum", nowhere, nullptr, nullptr, plus, ones, true},
+    {"avg", nowhere, nullptr, nullptr, plus, ones, true},
 };
 
-constexpr Function negative{"-", [](double x) { return -x; }, [](double, double) { return -1.0; }};
-constexpr Function opposite{"!", [](double x) { return x == 0 ? 1.0 : 0.0; }};
+constexpr Function negative{
+    "-", {nowhere, Zeros::of_first}, [](double x) { return -x; }, [](double, double) { return -1.0; }};
+constexpr Function opposite{"!", {at_zero, Zeros::edges}, [](double x) { return x == 0 ? 1.0 : 0.0; }};
 
 /// Slopes of x^y by x and by y. The slope by y is 0 at x = 0 < y, and NaN for x < 0. The slope by x is set to 0 at 0^0.
 Pair of_power(double x, double y, double value) {
   return {y == 0 ? 0 : y * std::pow(x, y - 1), value == 0 && x >= 0 ? 0 : value * std::log(x)};
 }
-constexpr Function power{"^", nullptr, nullptr, [](double x, double y) { return y == 2 ? x * x : std::pow(x, y); },
-                         of_power};
+constexpr Function power{
+    "^", of_base, nullptr, nullptr, [](double x, double y) { return y == 2 ? x * x : std::pow(x, y); }, of_power};
 
 const Function* function_of(std::string_view name) {
   const auto* const found = std::ranges::find(functions, name, &Function::name);
@@ -103,6 +133,8 @@ struct Step {
   };
 };
 
+constexpr Function quotient{"/", {at_divisor, Zeros::of_first}};
+
 /// Operators that bind more tightly have a higher level. "<=" must precede "<", so that the longer sign is found first.
 struct Operator {
   Function function;
@@ -110,18 +142,20 @@ struct Operator {
   Kind kind = Kind::two;
 };
 constexpr Operator operators[] = {
-    {{"||", nullptr, nullptr, [](double x, double y) -> double { return x != 0 || y != 0; }}, 0},
-    {{"&&", nullptr, nullptr, [](double x, double y) -> double { return x != 0 && y != 0; }}, 1},
-    {{"<=", nullptr, nullptr, [](double x, double y) -> double { return x <= y; }}, 2},
-    {{">=", nullptr, nullptr, [](double x, double y) -> double { return x >= y; }}, 2},
-    {{"==", nullptr, nullptr, [](double x, double y) -> double { return x == y; }}, 2},
-    {{"!=", nullptr, nullptr, [](double x, double y) -> double { return x != y; }}, 2},
-    {{"<", nullptr, nullptr, [](double x, double y) -> double { return x < y; }}, 2},
-    {{">", nullptr, nullptr, [](double x, double y) -> double { return x > y; }}, 2},
-    {{"+"}, 3, Kind::add},
-    {{"-"}, 3, Kind::subtract},
-    {{"*"}, 4, Kind::multiply},
-    {{"/"}, 4, Kind::divide},
+    {{"||", {at_zeros, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x != 0 || y != 0; }},
+     0},
+    {{"&&", {at_zeros, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x != 0 && y != 0; }},
+     1},
+    {{"<=", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x <= y; }}, 2},
+    {{">=", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x >= y; }}, 2},
+    {{"==", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x == y; }}, 2},
+    {{"!=", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x != y; }}, 2},
+    {{"<", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x < y; }}, 2},
+    {{">", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x > y; }}, 2},
+    {{"+", nowhere}, 3, Kind::add},
+    {{"-", nowhere}, 3, Kind::subtract},
+    {{"*", {nowhere, Zeros::of_operands}}, 4, Kind::multiply},
+    {quotient, 4, Kind::divide},
 };
 constexpr int tightest = 5;  ///< above the level of every operator
 constexpr int deepest = 250;
@@ -131,7 +165,7 @@ constexpr std::size_t most_values = 2 * deepest + 2;
 
 /// Computes the formula with N slopes; with N = 0 the value alone.
 template <std::size_t N>
-Dual<N> run(const std::vector<Step>& steps, const double* values) {
+Dual<N> run(std::span<const Step> steps, const double* values) {
   std::array<Dual<N>, most_values> stack;
   if (steps.empty()) return {};
   Dual<N>* end = stack.data() + 1;
@@ -360,7 +394,7 @@ class Parser {
     if (function.one) add({.kind = Kind::one, .function = &function}, 1);
     if (function.name == "avg") {
       add({.kind = Kind::number, .number = 1.0 * count}, 0);
-      add({.kind = Kind::divide, .number = 0}, 2);
+      add({.kind = Kind::divide, .function = &quotient}, 2);
     }
   }
 
@@ -408,18 +442,191 @@ class Parser {
 
 using Steps = std::vector<Step>;
 
+bool equal(std::span<const Step> some, std::span<const Step> others) {
+  return std::ranges::equal(some, others, [](const Step& a, const Step& b) {
+    return a.kind == b.kind && (a.kind == Kind::number     ? a.number == b.number
+                                : a.kind == Kind::variable ? a.variable == b.variable
+                                                           : a.function == b.function);
+  });
+}
+
+int operands_of(const Step& step) {
+  return step.kind == Kind::number || step.kind == Kind::variable ? 0
+         : step.kind == Kind::one                                 ? 1
+         : step.kind == Kind::choose                              ? 3
+                                                                  : 2;
+}
+
+/// Steps that compute a part of a formula.
+struct Operand {
+  std::span<const Step> steps = {};
+  unsigned char variables = 0;  ///< coded like Step::left
+
+  bool is_constant() const { return variables == 0; }
+  double constant() const { return run<0>(steps, nullptr)[0]; }
+  bool is_zero() const { return is_constant() && constant() == 0; }
+};
+
+/// The switching functions of formulas: functions of parts of these formulas.
+class Switches {
+ public:
+  struct Edge {
+    double value, by_x, by_y;
+  };
+  using EdgeOf = Edge(double x, double y);
+
+  /// Adds the switching functions of all steps of a formula. The formula must outlive this object.
+  void add(std::span<const Step> formula) {
+    parts_.clear();
+    formula_ = formula;
+    std::vector<Part> stack;
+    for (std::size_t i = 0; i < formula.size(); ++i) {
+      const Step& step = formula[i];
+      Part part{i, static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0)};
+      for (int left = operands_of(step); left > 0; --left) {
+        part.begin = stack.back().begin;
+        part.variables |= stack.back().variables;
+        stack.pop_back();
+      }
+      stack.push_back(part);
+      parts_.push_back(part);
+      const std::array<Operand, 3> operands = operands_before(i);
+      if (step.kind == Kind::choose)
+        add_zeros(operands[0]);
+      else if (operands_of(step) > 0)
+        step.function->breaks.add(*this, operands[0], operands[1]);
+    }
+  }
+
+  /// Adds the function `edge` of x, or of x and y.
+  void add(EdgeOf* edge, const Operand& x, const Operand& y = {}) {
+    if (x.is_constant() && y.is_constant()) return;
+    const auto same = [&](const Row& row) {
+      return row.edge == edge && equal(row.x.steps, x.steps) && equal(row.y.steps, y.steps);
+    };
+    if (std::ranges::none_of(rows_, same)) rows_.push_back({edge, x, y});
+  }
+
+  /// Adds functions that vanish wherever x does. For a product these are its factors.
+  void add_zeros(Operand x) {
+    while (!x.is_constant()) {
+      const Step& last = x.steps.back();
+      const std::array<Operand, 3> operands = operands_before(static_cast<std::size_t>(&last - formula_.data()));
+      if (last.kind == Kind::subtract) return add_difference(operands[0], operands[1]);
+      if (last.kind == Kind::choose) {
+        add_zeros(operands[2]);
+        x = operands[1];
+        continue;
+      }
+      const Zeros zeros = last.kind == Kind::variable ? Zeros::own : last.function->breaks.zeros;
+      if (zeros == Zeros::edges) return;
+      if (zeros == Zeros::own) return add([](double value, double) -> Edge { return {value, 1, 0}; }, x);
+      if (zeros == Zeros::of_operands) add_zeros(operands[1]);
+      x = operands[0];
+    }
+  }
+
+  void add_difference(const Operand& x, const Operand& y) {
+    if (y.is_zero()) return add_zeros(x);
+    if (x.is_zero()) return add_zeros(y);
+    add([](double a, double b) -> Edge { return {a - b, 1, -1}; }, x, y);
+  }
+
+  Eigen::MatrixX3d at(const double* values) const {
+    Eigen::MatrixX3d all(std::ssize(rows_), 3);
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      const auto& [edge, x, y] = rows_[static_cast<std::size_t>(i)];
+      const Dual<2> first = run<2>(x.steps, values), second = run<2>(y.steps, values);
+      const auto [value, by_x, by_y] = edge(first[0], second[0]);
+      all(i, 0) = value;
+      for (std::size_t j = 1; j <= 2; ++j) {
+        const double left = x.variables >> j & 1 ? by_x * first[j] : 0;
+        all(i, static_cast<Eigen::Index>(j)) = left + (y.variables >> j & 1 ? by_y * second[j] : 0);
+      }
+      if (std::isnan(value)) all.row(i).setConstant(value);
+    }
+    return all;
+  }
+
+ private:
+  struct Row {
+    EdgeOf* edge;
+    Operand x, y;
+  };
+  struct Part {
+    std::size_t begin;
+    unsigned char variables;
+  };
+
+  std::array<Operand, 3> operands_before(std::size_t step) const {
+    std::array<Operand, 3> operands;
+    std::size_t end = step;
+    for (int left = operands_of(formula_[step]); left > 0; --left) {
+      const auto [begin, variables] = parts_[end - 1];
+      operands[static_cast<std::size_t>(left - 1)] = {formula_.subspan(begin, end - begin), variables};
+      end = begin;
+    }
+    return operands;
+  }
+
+  std::span<const Step> formula_;
+  std::vector<Part> parts_;  ///< for each step of the formula, the part that this step completes
+  std::vector<Row> rows_;
+};
+
+void at_zero(Switches& all, const Operand& x, const Operand&) { all.add_zeros(x); }
+void at_zeros(Switches& all, const Operand& x, const Operand& y) {
+  all.add_zeros(x);
+  all.add_zeros(y);
+}
+void at_divisor(Switches& all, const Operand&, const Operand& y) { all.add_zeros(y); }
+void at_equals(Switches& all, const Operand& x, const Operand& y) { all.add_difference(x, y); }
+void at_halves(Switches& all, const Operand& x, const Operand&) {
+  all.add(
+      [](double value, double) -> Switches::Edge {
+        constexpr double pi = std::numbers::pi;
+        const double rest = std::remainder(value, 2);  // cos(pi x) vanishes exactly where |rest| = 0.5
+        return {std::sin(pi * (0.5 - std::fabs(rest))), -pi * std::sin(pi * rest), 0};
+      },
+      x);
+}
+void at_one(Switches& all, const Operand& x, const Operand&) {
+  all.add([](double value, double) -> Switches::Edge { return {value - 1, 1, 0}; }, x);
+}
+void at_ones(Switches& all, const Operand& x, const Operand&) {
+  all.add([](double value, double) -> Switches::Edge { return {(1 - value) * (1 + value), -2 * value, 0}; }, x);
+}
+void at_poles(Switches& all, const Operand& x, const Operand&) {
+  all.add([](double value, double) -> Switches::Edge { return {std::cos(value), -std::sin(value), 0}; }, x);
+}
+void at_origin(Switches& all, const Operand& x, const Operand& y) {
+  if (y.is_zero()) return all.add_zeros(x);
+  if (x.is_zero()) return all.add_zeros(y);
+  if (x.is_constant() || y.is_constant()) return;
+  all.add(
+      [](double a, double b) -> Switches::Edge {
+        const double length = std::hypot(a, b);
+        return {length, a / length, b / length};
+      },
+      x, y);
+}
+void at_cut(Switches& all, const Operand& y, const Operand& x) {
+  if (y.is_zero()) return all.add_zeros(x);
+  if (y.is_constant() || (x.is_constant() && x.constant() > 0)) return;
+  all.add([](double a, double b) -> Switches::Edge { return {b <= 0 ? a : std::nan(""), 1, 0}; }, y, x);
+}
+void at_base(Switches& all, const Operand& x, const Operand& y) {
+  if (x.is_zero()) return all.add_zeros(y);
+  const double exponent = y.is_constant() ? y.constant() : std::nan("");
+  if (!(exponent >= 0 && std::rint(exponent) == exponent)) all.add_zeros(x);
+}
+
 /// A factor of a product: the steps that compute this factor, and the variables in it.
 struct Factor {
   Steps steps;
   unsigned char variables;  ///< coded like Step::left
 
-  bool operator==(const Factor& other) const {
-    return std::ranges::equal(steps, other.steps, [](const Step& a, const Step& b) {
-      return a.kind == b.kind && (a.kind == Kind::number     ? a.number == b.number
-                                  : a.kind == Kind::variable ? a.variable == b.variable
-                                                             : a.function == b.function);
-    });
-  }
+  bool operator==(const Factor& other) const { return equal(steps, other.steps); }
 };
 using Factors = std::vector<Factor>;
 
@@ -447,11 +654,7 @@ void make_multiple(Factors& product, const Factors& of) {
 Factors divisors(const Steps& formula) {
   std::vector<Quotient> stack;
   for (const Step& step : formula) {
-    const int operands = step.kind == Kind::number || step.kind == Kind::variable ? 0
-                         : step.kind == Kind::one                                 ? 1
-                         : step.kind == Kind::choose                              ? 3
-                                                                                  : 2;
-    const std::vector<Quotient> parts(stack.end() - operands, stack.end());
+    const std::vector<Quotient> parts(stack.end() - operands_of(step), stack.end());
     stack.resize(stack.size() - parts.size());
     Quotient joined{{{}, static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0)}, {}};
     for (const auto& [part, over, under] : parts) {
@@ -508,6 +711,7 @@ std::vector<std::string> left_sides(const std::string& text) {
 
 struct Formulas::Compiled {
   std::array<std::vector<formula_parts::Step>, 2> formulas;
+  formula_parts::Switches switches = {};
 };
 
 Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
@@ -561,12 +765,17 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
   if (!unused.empty()) {
     throw BadInput("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first));
   }
+  for (const auto& formula : compiled.formulas) compiled.switches.add(formula);
   compiled_ = std::make_shared<Compiled>(std::move(compiled));
 }
 
 std::array<double, 2> Formulas::operator()(std::initializer_list<double> values) const {
   const auto& [first, second] = compiled_->formulas;
   return {formula_parts::run<0>(first, values.begin())[0], formula_parts::run<0>(second, values.begin())[0]};
+}
+
+Eigen::MatrixX3d Formulas::switches(const std::array<double, 2>& values) const {
+  return compiled_->switches.at(values.data());
 }
 
 std::optional<Formulas> Formulas::denominator() const {

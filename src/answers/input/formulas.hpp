@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace contensou::answers {
 
 /// A value followed by its slopes, the derivatives by N variables.
@@ -59,6 +61,16 @@ class Formulas {
   /// sqrt(u*u) at 0, it is infinite or NaN. A part of a formula without u adds exactly 0 to the slope by u.
   template <std::size_t N>
   std::array<Dual<N>, 2> with_slopes(const std::array<double, N>& values) const;
+
+  /// Returns the switching functions of both formulas, one row each: value, d/du, d/dv. Between their zeros the
+  /// formulas are smooth. Their number is the same for all values, and a switching function depends on a variable.
+  ///
+  /// These functions are the arguments of abs, sign, min, max, comparisons and conditions, the edges of functions such
+  /// as sqrt and ln, the bases of powers, and divisors. A product is replaced by its factors: sqrt(u*u) has the
+  /// switching function u. For rint(x), cos(pi x) is used. For atan2(y, x), y is used where x <= 0.
+  ///
+  /// @return NaN where a switching function has no value. A change from NaN to a number is no change of sign.
+  Eigen::MatrixX3d switches(const std::array<double, 2>& values) const;
 
   /// Returns the common denominator as the first formula of the result. This denominator is the product of the
   /// divisors that depend on variables and stand outside functions, each to its highest power; empty without a divisor.
