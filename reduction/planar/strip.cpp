@@ -61,7 +61,8 @@ Strip::Strip(const SectionField& field, const std::vector<Vector2d>& breaks, dou
   solve(edges, 0);
   turn_ = -panels_.back().ln_rho.at_end();
   const double change = field.time_degree() * turn_;
-  if (std::abs(turn_) < 1e-13) turn_ = 0;
+  constexpr double least = 1e-13, margin = 8;
+  if (std::abs(turn_) <= std::max(least, margin * turn_error_)) turn_ = 0;
   timed_ = turn_ != 0 && change < 0;
   if (!timed_) return;
   // M is the solution that repeats after a turn: M(2 pi) = M_0(2 pi) + exp(change) M(0) = M(0), where M_0(0) = 0.
@@ -162,6 +163,7 @@ void Strip::solve(std::vector<double> edges, double first_time) {
   edges.erase(std::unique(edges.begin(), edges.end(), [](double a, double b) { return b - a < 1e-14; }), edges.end());
   panels_.clear();
   last_time_ = first_time;
+  turn_error_ = 0;
   for (std::size_t i = 1; i < edges.size(); ++i) march(edges[i - 1], edges[i], 0);
   join(panels_, &Panel::ln_rho, 0);  // from the middle, because L can be large next to the ends
 }
@@ -191,13 +193,15 @@ void Strip::march(double left, double right, int depth) {
                          time.tail() / std::max(std::abs(time.at_end()), 1 / largest)});
   }
   left_out *= std::min(right - left, 1.0);
-  // A jump of R or s beyond the outermost samples shows only in the values at the ends.
+  // A jump of R or s beyond the outermost samples shows only in the values at the ends. In a narrow panel next to a
+  // kink the rounding of xi is no small part of the panel.
+  const double placed = 4 * eps * std::max(std::abs(left), std::abs(right)) / half;
   const auto jumps_at = [&](int end) {
     constexpr double inside = 1 - 1e-12;
     const Terms there = terms(left + half * (1 + inside * end));
     const auto differs = [&](double value, const Samples& samples) {
       const double largest = samples.abs().maxCoeff();
-      return std::abs(LegendreSeries::at_end(samples, end) - value) > (1e-10 + 100 * rounding) * largest;
+      return std::abs(LegendreSeries::at_end(samples, end) - value) > (1e-10 + 100 * rounding + placed) * largest;
     };
     return differs(there.rate, rate) || differs(there.radial, radial);
   };
@@ -211,6 +215,9 @@ void Strip::march(double left, double right, int depth) {
   }
   last_time_ = time.at_end();
   panels_.push_back({{left, right}, ln_rho, time});
+  // The series are cut off, and the values of the field have errors of a tenth of the tolerance.
+  const double of_values = tolerance_ / 10 * rounding / eps * (1 + slope.abs().maxCoeff());
+  turn_error_ += (right - left) * (LegendreSeries::tail(slope) + of_values);
 }
 
 /// Finds a jump of R or s between two xi by bisection. Each step keeps the half between whose ends R or s differs more.

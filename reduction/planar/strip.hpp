@@ -45,9 +45,11 @@ class Strip {
   /// Return the limits of p at the end of the orbit and at its beginning.
   Limit limit() const;
   Limit origin() const;
-  /// Returns the growth of p in one turn.
+  /// Returns the growth of p in one turn; 0 if the growth is smaller than its error.
   double turn() const { return turn_; }
   double turn_sigma() const;
+  /// Returns M at xi = 2 pi, the time of a turn that begins there, divided by exp(c p). Only if orbits are not timed.
+  double turn_time() const { return last_time_; }
 
   /// In a sector, below this xi, R and T equal their leading powers.
   static constexpr double first = -40;
@@ -59,7 +61,8 @@ class Strip {
   /// Returns L(xi), which is 0 at xi = 0.
   double ln_rho(double xi) const;
 
-  /// Returns true if orbits reach their end in finite time. time_left is then the time left divided by exp(c p).
+  /// Returns true if orbits reach their end in finite time. time_left is then the time left divided by exp(c p). In a
+  /// closed strip it is otherwise the time until the next xi that is a multiple of 2 pi.
   bool timed() const { return timed_; }
   double time_left(double xi) const;
 
@@ -96,7 +99,7 @@ class Strip {
   double tolerance_;
   bool timed_ = false;
   double time_order_ = 0;  ///< exponent a in M ~ exp(a xi) next to the end
-  double turn_ = 0;
+  double turn_ = 0, turn_error_ = 0;
   double last_time_ = 0;
   std::vector<Panel> panels_;
 };
