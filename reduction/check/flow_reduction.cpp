@@ -13,6 +13,7 @@
 #include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/planar_kinds.hpp"
 #include "planar/directions.hpp"
+#include "planar/inverse_factor.hpp"
 #include "planar/solution.hpp"
 #include "system/balance.hpp"
 
@@ -67,7 +68,7 @@ struct FlowSolution final : SectionSolution {
     }
   }
   std::shared_ptr<const Solution> reversed() const override {
-    return solved_by_scaling(reversed_field(), *scaling, {1, 0}, 0);
+    return solved_by_scaling(backward(field), *scaling, {1, 0}, 0);
   }
 
   const Flow* flow() const override { return &motions; }

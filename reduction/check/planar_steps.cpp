@@ -18,6 +18,10 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/root.hpp"
+#include "planar/inverse_factor.hpp"
+#include "planar/region.hpp"
 #include "planar/solution.hpp"
 
 namespace contensou::reduction {
@@ -31,7 +35,7 @@ using Pair = std::array<double, 2>;
 
 /// The field with the call operator that a stepper needs.
 struct Equations {
-  const PlanarField& field;
+  const SmoothField& field;
 
   void operator()(const Pair& x, Pair& rate, double /*t*/) const {
     const Vector2d f = field({x[0], x[1]});
@@ -39,81 +43,100 @@ struct Equations {
   }
 };
 
-/// The steps of one orbit, computed up to the latest requested time.
+/// The steps of one orbit, computed up to the latest requested time. No step crosses a zero of a switching function.
 class SteppedMotion final : public PlanarOrbit::Motion {
  public:
-  SteppedMotion(PlanarField field, const Vector2d& start)
-      : field_(std::move(field)), states_{{0, {start[0], start[1]}}} {
+  SteppedMotion(SmoothField field, const Vector2d& start, double tolerance)
+      : field_(std::move(field)), tolerance_(tolerance), size_(length_scale(field_, start)) {
     end = PlanarEnd::undecided;
     end_time = std::numeric_limits<double>::quiet_NaN();
     undecided = "no reduction was found: orbits are followed by steps";
-    const double speed = field_(start).norm(), size = start.norm();
+    const Vector2d f = field_(start);
+    states_.push_back({0, {start[0], start[1]}, std::make_shared<const Region>(field_, start, f)});
     constexpr double first = 1e-3;
-    step_ = first * (speed > 0 && size > 0 ? size / speed : 1);
+    step_ = first * (f.stableNorm() > 0 ? size_ / f.stableNorm() : 1);
   }
 
   Vector2d at(double time) const override {
     const std::scoped_lock lock(guard_);
     while (states_.back().t < time) extend();
-    const auto after = std::ranges::upper_bound(states_, time, {}, &State::t);
-    State state = *std::prev(after);
+    const State& state = *std::prev(std::ranges::upper_bound(states_, time, {}, &State::t));
     // This step is a part of a step whose error was accepted, so the error of this step is smaller.
-    auto stepper = odeint::runge_kutta_dopri5<Pair>();
-    if (time > state.t) stepper.do_step(Equations{field_}, state.x, state.t, time - state.t);
-    return {state.x[0], state.x[1]};
+    return vector_of(stepped(state, time - state.t));
   }
   Vector2d at_end() const override { throw std::logic_error("an orbit by steps has no end"); }
 
  private:
+  using Stepper = odeint::runge_kutta_dopri5<Pair>;
   struct State {
     double t;
     Pair x;
+    std::shared_ptr<const Region> region;  ///< region that the orbit enters here; null if no single motion leaves x
   };
+
+  static Vector2d vector_of(const Pair& x) { return {x[0], x[1]}; }
+
+  static Pair stepped(const State& from, double step) {
+    Pair x = from.x;
+    if (step > 0) Stepper().do_step(Equations{from.region->field()}, x, from.t, step);
+    return x;
+  }
 
   void extend() const {
     constexpr std::size_t most = 10000;
-    constexpr double tolerance = 1e-12;
-    State next = states_.back();
+    const State& last = states_.back();
+    State next = last;
     const auto stop = [&](const char* reason) {
-      throw std::domain_error(fmt::format("steps follow this orbit to the time {}, at ({}, {}), where {}", next.t,
-                                          next.x[0], next.x[1], reason));
+      throw std::domain_error(fmt::format("steps follow this orbit to the time {}, at ({}, {}), where {}", last.t,
+                                          last.x[0], last.x[1], reason));
     };
     if (states_.size() > most) stop("10000 steps are made");
-    auto stepper = odeint::make_controlled(tolerance * 1e-3, tolerance, odeint::runge_kutta_dopri5<Pair>());
-    while (stepper.try_step(Equations{field_}, next.x, next.t, step_) == odeint::fail) {
+    if (!last.region) stop("no single motion crosses a jump of the field");
+    auto stepper = odeint::make_controlled(tolerance_ * 1e-3 * size_, tolerance_, Stepper());
+    while (stepper.try_step(Equations{last.region->field()}, next.x, next.t, step_) == odeint::fail) {
       if (!(step_ > 1e-300) || next.t + step_ == next.t) stop("the field has no value, or changes too fast");
     }
-    if (!std::isfinite(next.x[0]) || !std::isfinite(next.x[1])) {
-      next = states_.back();
-      stop("it leaves the numbers");
+    if (!std::isfinite(next.x[0]) || !std::isfinite(next.x[1])) stop("it leaves the numbers");
+    if (!last.region->contains(vector_of(next.x))) {
+      // The state at the border, or at most one rounding of the time beyond.
+      const auto inside = [&](double step) { return last.region->contains(vector_of(stepped(last, step))); };
+      const double whole = next.t - last.t, part = last_where(inside, 0, whole);
+      next.t = last.t + part;
+      next.x = stepped(last, part);
+      const Vector2d x = vector_of(next.x), way = last.region->field()(x);
+      next.region = std::make_shared<const Region>(field_, x, way);
+      if (!last.region->crosses_to(*next.region, x)) next.region = nullptr;
     }
-    states_.push_back(next);
+    states_.push_back(std::move(next));
   }
 
-  PlanarField field_;
+  SmoothField field_;
+  double tolerance_, size_;
   mutable std::mutex guard_;
   mutable std::vector<State> states_;
   mutable double step_;
 };
 
 struct SteppedSolution final : PlanarReduction::Solution {
-  explicit SteppedSolution(PlanarField of) : Solution(std::move(of), "") {}
+  SteppedSolution(SmoothField of, double relative) : Solution(std::move(of), ""), tolerance(relative) {}
 
   double factor(const Vector2d&) const override { throw std::domain_error("no inverse integrating factor was found"); }
   double end_time_error(const Vector2d&) const override { return std::numeric_limits<double>::quiet_NaN(); }
   PlanarOrbit orbit(const Vector2d& start) const override {
-    return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start));
+    return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start, tolerance));
   }
   std::optional<double> first_integral(const Vector2d&) const override { return std::nullopt; }
   std::shared_ptr<const Solution> reversed() const override {
-    return std::make_shared<const SteppedSolution>(reversed_field());
+    return std::make_shared<const SteppedSolution>(backward(field), tolerance);
   }
+
+  double tolerance;
 };
 
 }  // namespace
 
-PlanarReduction by_steps(PlanarField field) {
-  return PlanarReduction(std::make_shared<const SteppedSolution>(std::move(field)));
+PlanarReduction by_steps(SmoothField field, double tolerance) {
+  return PlanarReduction(std::make_shared<const SteppedSolution>(std::move(field), tolerance));
 }
 
 }  // namespace contensou::reduction

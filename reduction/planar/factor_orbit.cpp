@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +18,8 @@
 #include "numerics/legendre_series.hpp"
 #include "numerics/linear_ode.hpp"
 #include "planar/matrix_exponential.hpp"
+#include "planar/region.hpp"
+#include "planar/reversal.hpp"
 
 namespace contensou::reduction {
 
@@ -42,19 +45,21 @@ struct FactorMotion final : PlanarOrbit::Motion {
     }
   };
 
-  explicit FactorMotion(const Vector2d& from) : start(from) {
+  FactorMotion(const Vector2d& from, double length) : start(from), unit(length) {
     end = PlanarEnd::undecided;
     end_time = std::numeric_limits<double>::quiet_NaN();
     border_time_known = true;
   }
-  Vector2d at(double time) const override;
-  Vector2d at_end() const override { return rest; }
+  Vector2d at(double time) const override { return unit * in_units(time); }
+  Vector2d at_end() const override { return unit * rest; }
   std::optional<double> period() const override {
     return end == PlanarEnd::periodic ? std::optional(turn_end) : std::nullopt;
   }
+  Vector2d in_units(double time) const;
   Vector2d in_panels(double time) const;
 
   Vector2d start;
+  double unit;  ///< length by which all coordinates of this motion are divided
   std::vector<Panel> panels = {};
   double followed = 0;                  ///< time up to which the orbit is computed
   double turn_begin = 0, turn_end = 0;  ///< times at the beginning and end of the last turn
@@ -70,7 +75,7 @@ Vector2d FactorMotion::in_panels(double time) const {
   return panel.at(root_between([&](double t) { return panel.time(t) - left; }, -1, 1));
 }
 
-Vector2d FactorMotion::at(double time) const {
+Vector2d FactorMotion::in_units(double time) const {
   if ((end == PlanarEnd::periodic || end == PlanarEnd::cycle) && time > turn_end) {
     time = turn_begin + std::fmod(time - turn_begin, turn_end - turn_begin);
   }
@@ -94,9 +99,9 @@ class Follower {
   using Panel = FactorMotion::Panel;
 
  public:
-  Follower(const SmoothField& field, const SmoothField& fitted, const InverseFactor& factor, FactorMotion& motion)
-      : field_(field),
-        fitted_(fitted),
+  Follower(const SmoothField& field, bool cleared, const InverseFactor& factor, FactorMotion& motion)
+      : whole_(field),
+        cleared_(cleared),
         motion_(motion),
         x_(motion.start),
         form_(factor.form()),
@@ -107,16 +112,18 @@ class Follower {
         anchor_(x_),
         forward_(x_),
         passed_(x_) {
+    if (const auto way = value_of(field.value, x_)) enter_region(*way);
+    first_ = jet_of(field_, x_);
     if (box_.centre == x_) {
       factor_ = factor;
       on_curve_ = factor.vanishes;
+      unfitted_ = false;
     }
   }
 
-  void follow(int most_panels) {
-    const int most_fits = most_panels / 7;
+  void follow(int most_work) {
     int next_anchor = 0;
-    for (int i = 0; i < most_panels && fits_ < most_fits; ++i) {
+    for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);
       if (!here) return stop("the field has no derivatives");
       if (i == next_anchor) {
@@ -128,25 +135,38 @@ class Follower {
       if (at_border(*here, 4)) return end(PlanarEnd::border, motion_.followed);
       constexpr double edge = 0.7, near = 0.2, shortest = 256;
       const bool enters =
-          i == 0 ? !factor_ : box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near;
+          unfitted_ || (i > 0 && (box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near));
       const bool holds = !enters || enter(*here);
+      unfitted_ &= !holds;
       if (!holds || !step(*here)) {
         if (at_border(*here, shortest)) return end(PlanarEnd::border, motion_.followed);
         return stop(holds ? "the field is not smooth" : "the form of V does not hold");
       }
+      if (motion_.end == PlanarEnd::border) return;
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
-    stop("the orbit has too many parts; the last ends");
+    stop(fmt::format("the orbit takes more than {} evaluations of the field; it comes", most_work));
   }
 
  private:
+  /// Goes on in the region into which a direction leads from this point.
+  void enter_region(const Vector2d& way) {
+    region_.emplace(whole_, x_, way);
+    field_ = region_->field();
+    fitted_ = cleared_ ? with_cleared_denominator(field_) : field_;
+    factor_.reset();
+    unfitted_ = true;
+  }
+
   void end(PlanarEnd kind, double time) {
     motion_.end = kind;
     motion_.end_time = time;
   }
 
-  void stop(std::string_view reason) { motion_.undecided = fmt::format("{} about ({}, {})", reason, x_[0], x_[1]); }
+  void stop(std::string_view reason) {
+    motion_.undecided = fmt::format("{} about ({}, {})", reason, motion_.unit * x_[0], motion_.unit * x_[1]);
+  }
 
   /// Returns true if the orbit tends to a zero of the field, so near that the linear flow is exact except for rounding.
   bool rests(const Jet& here) {
@@ -158,7 +178,8 @@ class Follower {
     }
     // The distance from the origin falls to the smallest numbers, while every part of the orbit takes longer.
     constexpr double tiny = 1e-30, longer = 0.01;
-    if (x_.norm() <= tiny * size_ && motion_.panels.back().time.at_end() > longer * motion_.followed) {
+    if (!motion_.panels.empty() && x_.stableNorm() <= tiny * size_ &&
+        motion_.panels.back().time.at_end() > longer * motion_.followed) {
       motion_.rest.setZero();
       end(PlanarEnd::equilibrium, infinity);
       return true;
@@ -185,6 +206,7 @@ class Follower {
       way = step_to_rest(*there);
       if (!(way.norm() <= (x_ - rest).norm())) return false;
     }
+    if (!region_->contains(rest)) return false;
     const Vector2d offset = x_ - rest;
     constexpr double found = 1e-6;
     if (!(left <= found * here.f.norm())) return false;
@@ -289,15 +311,21 @@ class Follower {
       return true;
     }
 
+    // In a region a field is analytic, so that V continues with its form: fitted once, a series need not be fitted
+    // again. A V of few terms is fitted again, because it proves that orbits are closed.
+    if (!unfitted_ && !on_curve_ && whole_.jacobian && form_ > FactorForm::polynomial && form_ < FactorForm::basis) {
+      return true;
+    }
     // If the rounding of x alone hides the form of V, do not fit V: the rest of the orbit does not need V.
     constexpr double hidden = 1e-12;
     if (noise_.norm() > hidden * here.f.norm()) return true;
     constexpr int halvings = 10;
     for (int i = 0; i <= halvings; ++i, box_.radii /= 2, fraction_ /= 2) {
-      ++fits_;
       const auto samples = sample(fitted_, box_);
       if (!samples) continue;
       const auto fit = fit_factor(form_, *samples);
+      // The singular values take as long as so many evaluations of the field.
+      work_ += static_cast<int>(samples->points.size()) + (fit ? 3 * fit->factor.terms() * fit->factor.terms() : 0);
       if (!fit || !fit->small) continue;
       factor_ = fit->factor;
       on_curve_ = fit->factor.vanishes;
@@ -318,17 +346,39 @@ class Follower {
     const double room = 1 - sense * box_.inside(x_)[along];
     double length = std::min(2 * stretch_, room) * box_.radii[along];
     for (; length > 64 * eps * std::abs(x_[along]) && length > least_length_ * size_; length /= 2) {
-      if (solve(along, sense * length, here)) {
-        stretch_ = length / box_.radii[along];
+      const auto panel = solve(along, sense * length, here);
+      if (!panel) continue;
+      stretch_ = length / box_.radii[along];
+      const auto inside = [&](double t) { return region_->contains(panel->at(t)); };
+      const auto leaves = std::ranges::find_if_not(LegendreSeries::points(), inside);
+      if (leaves == LegendreSeries::points().end() && inside(1)) {
+        append(*panel);
         return true;
       }
+      // Cut the panel where it leaves the region.
+      const double before = leaves == LegendreSeries::points().begin() ? -1 : *std::prev(leaves);
+      const double last = last_where(inside, before, leaves == LegendreSeries::points().end() ? 1 : *leaves);
+      if (const auto part = last > -1 ? solve(along, sense * length * (1 + last) / 2, here) : std::nullopt) {
+        append(*part);
+      }
+      const auto way = value_of(field_.value, x_);
+      const Region from = *region_;
+      if (way) enter_region(*way);
+      if (!way || !from.crosses_to(*region_, x_)) end(PlanarEnd::border, motion_.followed);
+      return true;
     }
     return false;
   }
 
+  void append(const Panel& panel) {
+    x_ = panel.at(1);
+    motion_.followed += panel.time.at_end();
+    motion_.panels.push_back(panel);
+  }
+
   /// Finds the coordinate w (across) at the points of a panel of s (along). q approximates dw/ds. Along w = w_0 +
   /// integral of q ds, H changes by the integral of (q - G/F) F/V ds, and dH/dw = F/V. Newton's method, README (R67).
-  bool solve(int along, double length, const Jet& start) {
+  std::optional<Panel> solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
     const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
     const double noise = noise_[along] / std::abs(start.f[along]);
@@ -342,8 +392,9 @@ class Follower {
       const Samples w = x_[across] + half * LegendreSeries::through(q).antiderivative().samples();
       constexpr double edge = 1.05;
       const bool inside = ((w - box_.centre[across]).abs() <= edge * box_.radii[across]).all();
-      if (iteration >= first && !inside) return false;
+      if (iteration >= first && !inside) return std::nullopt;
       const bool linearised = missed > coarse * (size + std::abs(half * q[0]));
+      work_ += LegendreSeries::order;
       for (int i = 0; i < LegendreSeries::order; ++i) {
         Vector2d x;
         x[along] = s[i];
@@ -354,10 +405,10 @@ class Follower {
         } else if (const auto f = value_of(field_.value, x)) {
           here = {*f, Matrix2d::Zero()};
         }
-        if (!here) return false;
+        if (!here) return std::nullopt;
         rate[i] = 1 / here->f[along];
         slopes[i] = here->f[across] * rate[i];
-        if (!(rate[i] * length > 0)) return false;
+        if (!(rate[i] * length > 0)) return std::nullopt;
         if (linearised) growth[i] = (here->slopes(across, across) - slopes[i] * here->slopes(along, across)) * rate[i];
       }
       const Samples defect = slopes - q;
@@ -366,7 +417,7 @@ class Follower {
       const double largest = std::abs(half) * slopes.abs().maxCoeff();
       q = slopes + growth * solve_linear_ode(one, -half * growth, half * defect, 0).samples();
       if (missed <= 4 * (eps * (size + largest) + noise_across + noise * largest)) break;
-      if (iteration == most || (iteration > first && !(missed < before / 2))) return false;
+      if (iteration == most || (iteration > first && !(missed < before / 2))) return std::nullopt;
     }
     constexpr double accurate = 1e-14, timed = 1e-13, smooth = 1e-3, little = 1e-6, varied = 100;
     const double largest = std::abs(half) * q.abs().maxCoeff();
@@ -378,7 +429,7 @@ class Follower {
                           LegendreSeries::tail(rate) <= std::max(timed, 8 * noise) * rate.abs().maxCoeff() &&
                           LegendreSeries::tail(growth) <= smooth * growth.abs().maxCoeff() + little / std::abs(half);
     if (!resolved) {
-      return false;
+      return std::nullopt;
     }
     Panel panel{along,
                 x_[along],
@@ -387,10 +438,7 @@ class Follower {
                 LegendreSeries::through(half * q).antiderivative(),
                 LegendreSeries::through(half * rate).antiderivative()};
     panel.other += x_[across];
-    x_ = panel.at(1);
-    motion_.followed += panel.time.at_end();
-    motion_.panels.push_back(panel);
-    return true;
+    return panel;
   }
 
   /// Moves the point onto the curve V = 0, along which the orbit runs.
@@ -427,7 +475,7 @@ class Follower {
     const double missed = (motion_.in_panels(motion_.turn_end - motion_.turn_begin) - motion_.start).norm();
     const bool from_start = missed <= near_ * extent;
     constexpr double doubtful = 1e-6;
-    if (!from_start && missed <= doubtful * extent) {
+    if (missed <= doubtful * extent && !(from_start && proves_return())) {
       stop("rounding hides whether the orbit returns or nears a closed one; it comes");
       return true;
     }
@@ -436,10 +484,33 @@ class Follower {
     return true;
   }
 
+  /// Returns true if the orbit that has returned within rounding is closed. Either the equation of V holds up to
+  /// rounding with a form of few terms, so that H is constant; or the orbit lies on a curve V = 0, which is closed; or
+  /// a reversor maps the orbit onto itself, and the orbit meets its axis.
+  bool proves_return() const {
+    const bool of_few_terms = form_ <= FactorForm::polynomial || form_ == FactorForm::basis;
+    if (on_curve_ || (of_few_terms && whole_.jacobian)) return true;
+    return std::ranges::any_of(reflections, [this](const Matrix2d& reflection) {
+      int sides[2] = {0, 0};
+      for (const Panel& panel : motion_.panels) {
+        for (const double t : {-0.6, 0.1, 0.8}) {
+          const Vector2d x = panel.at(t), away = x - reflection * x;
+          ++sides[away[0] + away[1] * std::numbers::phi > 0 ? 1 : 0];
+          if (!reverses(whole_, reflection, Vector2d::Zero(), x).value_or(false)) return false;
+        }
+      }
+      return sides[0] > 0 && sides[1] > 0;
+    });
+  }
+
   static constexpr double near_ = 1e-11, accurate_ = 1e-8, far_ = 1e6, least_length_ = 1e-150, small_ = 1e-4;
 
-  const SmoothField& field_;
-  const SmoothField& fitted_;
+  const SmoothField& whole_;
+  bool cleared_;  ///< V is fitted for the product of the field and its denominator
+  std::optional<Region> region_ = {};
+  SmoothField field_ = {};   ///< the field of the region
+  SmoothField fitted_ = {};  ///< the field of the region for which V is fitted
+  bool unfitted_ = true;     ///< V is not fitted yet in this region
   FactorMotion& motion_;
   Vector2d x_;
   FactorForm form_;
@@ -454,15 +525,15 @@ class Follower {
   double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
   Vector2d anchor_, forward_, passed_;  ///< returns are sought on the line through anchor_ normal to forward_
   double extent_ = 0, along_ = 0;
-  int fits_ = 0;
+  int work_ = 0;  ///< evaluations of the field
 };
 
 }  // namespace
 
-std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
-                                                  const InverseFactor& factor, const Vector2d& start, int most_parts) {
-  auto motion = std::make_shared<FactorMotion>(start);
-  Follower(field, fitted, factor, *motion).follow(most_parts);
+std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, bool cleared, const InverseFactor& factor,
+                                                  const Vector2d& start, double unit, int most_work) {
+  auto motion = std::make_shared<FactorMotion>(start, unit);
+  Follower(field, cleared, factor, *motion).follow(most_work);
   return motion;
 }
 

@@ -9,10 +9,11 @@
 namespace contensou::reduction {
 
 /// Follows the orbit through the start, a level line of the first integral H, to its end.
-/// @param fitted  field in which V was fitted: `field`, or `field` times the denominator of `field`
+/// @param cleared  true if V was fitted for the product of the field and its denominator
 /// @param factor  inverse integrating factor in a box about `start`
-std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, const SmoothField& fitted,
-                                                  const InverseFactor& factor, const Eigen::Vector2d& start,
-                                                  int most_parts);
+/// @param most_work  number of evaluations of the field after which the end is left undecided
+/// @param unit    length by which u and v are divided in all arguments; the motion has no units
+std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, bool cleared, const InverseFactor& factor,
+                                                  const Eigen::Vector2d& start, double unit, int most_work);
 
 }  // namespace contensou::reduction

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -20,24 +21,61 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Returns false if V fails in wider boxes. In a small box every smooth V is near a polynomial: a fit proves no form.
-bool holds_widely(const SmoothField& field, const FactorFit& fit) {
-  const bool of_basis = fit.factor.form() == FactorForm::basis;
-  return std::ranges::all_of(std::array{4., of_basis ? 2. : 64.}, [&](double factor) {
-    const auto samples = sample(field, widened(fit.factor.form(), fit.factor.box(), factor));
+/// Returns false if the misfit of a V of few terms exceeds rounding at 100 points that the fit did not use. Then V has
+/// only nearly this form, which derivatives that are exact except for rounding can tell. Rounding is compared with the
+/// terms at the point and with their mean: at a single point all terms can be small.
+bool holds_exactly(const SmoothField& field, const FieldSamples& samples, const InverseFactor& factor) {
+  constexpr double rounding = 1e-14;
+  if (!field.jacobian || factor.form() > FactorForm::polynomial) return true;
+  std::vector<InverseFactor::Misfit> misfits;
+  double mean = 0;
+  for (auto i = static_cast<std::size_t>(samples.fitted()); i < samples.points.size(); ++i) {
+    misfits.push_back(factor.misfit(samples.points[i], samples.jets[i]));
+    mean += misfits.back().size;
+  }
+  mean /= static_cast<double>(misfits.size());
+  return std::ranges::all_of(
+      misfits, [&](const InverseFactor::Misfit& at) { return std::abs(at.value) <= rounding * (at.size + mean); });
+}
+
+/// Returns false if V fails in wider boxes, or farther from the origin if the box is much nearer to it than all changes
+/// of sign of the field. In a small box every smooth V is near a polynomial: a fit proves no form.
+/// @param size  distance from the origin within which the field changes its signs
+bool holds_widely(const SmoothField& field, const FactorFit& fit, double size) {
+  const FactorForm form = fit.factor.form();
+  const Box& box = fit.factor.box();
+  std::vector<Box> boxes{widened(form, box, 4), widened(form, box, form == FactorForm::basis ? 2 : 64)};
+  constexpr double near = 0.25, farther = 3;
+  const double distance = box.centre.lpNorm<Eigen::Infinity>();
+  if (distance < near * size) boxes.push_back(box_about(farther * size / distance * box.centre));
+  return std::ranges::all_of(boxes, [&](const Box& wide) {
+    const auto samples = sample(field, wide);
     if (!samples) return true;  // the field has no values there
-    const auto again = fit_factor(fit.factor.form(), *samples);
-    return again && again->small;
+    const auto again = fit_factor(form, *samples);
+    if (!again || !again->small) return false;
+    // In a still wider box the terms of high degree hide a misfit.
+    return &wide != &boxes.front() || holds_exactly(field, *samples, again->factor);
   });
 }
 
 }  // namespace
 
+/// The solution in units of length: all members except those of Solution divide u and v by `unit`.
 struct FactorReduction::Solved final : PlanarReduction::Solution,
                                        std::enable_shared_from_this<FactorReduction::Solved> {
-  Solved(const SmoothField& given, const Vector2d& from)
-      : Solution(given.value, ""), smooth(given), fitted(given), start(from) {}
+  Solved(SmoothField of, const Vector2d& from, double length)
+      : Solution(std::move(of), ""),
+        unit(length),
+        smooth(in_units(field, length)),
+        fitted(smooth),
+        start(from / length) {}
 
+  void clear_denominator() {
+    fitted = with_cleared_denominator(smooth);
+    cleared = true;
+  }
+
+  double unit;
   SmoothField smooth;
   SmoothField fitted;  ///< field for which V has its form: the field, or its product with the denominator
   Vector2d start;
@@ -47,19 +85,19 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
 
   void look_for_factor();
 
-  double factor(const Vector2d& x) const override { return at(x).first; }
+  double factor(const Vector2d& x) const override { return at(x / unit).first; }
   std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override;
   PlanarOrbit orbit(const Vector2d& from) const override {
-    constexpr int parts = 32000;
-    return followed(from, parts);
+    constexpr int evaluations = 3'000'000;  // about one second
+    return followed(from, evaluations);
   }
   PlanarOrbit part_of_orbit(const Vector2d& from) const override {
-    constexpr int parts = 150;
-    return followed(from, parts);
+    constexpr int evaluations = 100'000;
+    return followed(from, evaluations);
   }
-  PlanarOrbit followed(const Vector2d& from, int most_parts) const;
+  PlanarOrbit followed(const Vector2d& from, int most_work) const;
   double end_time_error(const Vector2d&) const override { return 1e-12; }
-  std::optional<double> first_integral(const Vector2d& x) const override { return integral(x); }
+  std::optional<double> first_integral(const Vector2d& x) const override { return unit * unit * integral(x / unit); }
   std::shared_ptr<const Solution> reversed() const override;
 
   const InverseFactor& found() const {
@@ -71,9 +109,9 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
   std::pair<double, Vector2d> at(const Vector2d& x) const {
     const InverseFactor& fit = found();
     if (!holds_everywhere(fit.form()) && !(fit.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
-      throw std::domain_error(
-          fmt::format("FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", x[0], x[1],
-                      start[0], start[1], fit.box().radii[0], fit.box().radii[1]));
+      throw std::domain_error(fmt::format(
+          "FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", unit * x[0], unit * x[1],
+          unit * start[0], unit * start[1], unit * fit.box().radii[0], unit * fit.box().radii[1]));
     }
     const auto f = value_of(smooth.value, x);
     std::optional<Jet> of_form;
@@ -83,7 +121,8 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
       of_form = {*g, Eigen::Matrix2d::Zero()};
     }
     if (!f || !of_form) {
-      throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", x[0], x[1]));
+      throw std::domain_error(
+          fmt::format("FactorReduction: the field has no value at ({}, {})", unit * x[0], unit * x[1]));
     }
     const double value = fit(x, *of_form)[0];
     return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
@@ -117,8 +156,45 @@ void FactorReduction::Solved::look_for_factor() {
     if (!fit) continue;
     tried.push_back(fit->tried);
     tried.back().cleared = cleared;
-    if (fit->small && fit->tried.gap >= large && holds_widely(fitted, *fit)) v = fit->factor;
+    if (fit->small && fit->tried.gap >= large && holds_exactly(fitted, *samples, fit->factor) &&
+        holds_widely(fitted, *fit, length_scale(fitted, Vector2d::Zero()))) {
+      v = fit->factor;
+    }
   }
+}
+
+double length_scale(const SmoothField& field, const Vector2d& start) {
+  constexpr double smallest = 1e-290, largest = 1e290;  // beyond, units of length underflow or overflow
+  const double size = start.lpNorm<Eigen::Infinity>();
+  if (size > 0) return std::clamp(size, smallest, largest);
+  // Walk outwards along several directions, in steps of a factor 2, until a component of the field or a switching
+  // function changes its sign.
+  constexpr int directions = 16, farthest = 60;
+  const auto signs = [&](double length, int i) {
+    const double angle = (i + std::numbers::phi - 1) * 2 * std::numbers::pi / directions;
+    const Vector2d x = length * Vector2d(std::cos(angle), std::sin(angle));
+    std::vector<bool> negative;
+    if (const auto f = value_of(field.value, x)) negative = {(*f)[0] < 0, (*f)[1] < 0};
+    if (field.switches) {
+      const Eigen::MatrixX3d switches = field.switches(x);
+      for (Eigen::Index row = 0; row < switches.rows(); ++row) negative.push_back(switches(row, 0) < 0);
+    }
+    return negative;
+  };
+  std::array<std::vector<bool>, directions> before;
+  for (int k = -farthest; k <= farthest; ++k) {
+    const double length = std::ldexp(1, k);
+    for (int i = 0; i < directions; ++i) {
+      auto there = signs(length, i);
+      if (k > -farthest && there != before[static_cast<std::size_t>(i)]) return length;
+      before[static_cast<std::size_t>(i)] = std::move(there);
+    }
+  }
+  return 1;
+}
+
+Vector2d sampled_about(const SmoothField& field, const Vector2d& start) {
+  return start.isZero(0) ? Vector2d::Constant(length_scale(field, start)) : start;
 }
 
 FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start) {
@@ -128,11 +204,11 @@ FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start
   }
   // V can vanish at an equilibrium, so the search begins beside an equilibrium.
   const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
-  auto solved = std::make_shared<Solved>(field, value->isZero(0) ? beside : start);
+  const double unit = std::ldexp(1, std::ilogb(length_scale(field, start)));
+  auto solved = std::make_shared<Solved>(field, value->isZero(0) ? beside : start, unit);
   solved->look_for_factor();
   if (!solved->v && field.denominator) {
-    solved->fitted = with_cleared_denominator(field);
-    solved->cleared = true;
+    solved->clear_denominator();
     solved->look_for_factor();
   }
   if (solved->v) solved->form = name(solved->v->form());
@@ -143,17 +219,8 @@ std::string_view FactorReduction::form() const { return solved_->form; }
 const std::vector<TriedForm>& FactorReduction::tried() const { return solved_->tried; }
 
 std::shared_ptr<const PlanarReduction::Solution> FactorReduction::Solved::reversed() const {
-  const auto back = [](const SmoothField& forth) {
-    SmoothField turned = forth;
-    turned.value = [f = forth.value](const Vector2d& x) -> Vector2d { return -f(x); };
-    if (forth.jacobian) {
-      turned.jacobian = [slopes = forth.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
-    }
-    return turned;
-  };
-  auto other = std::make_shared<Solved>(back(smooth), start);
-  other->fitted = back(fitted);
-  other->cleared = cleared;
+  auto other = std::make_shared<Solved>(backward(field), unit * start, unit);
+  if (cleared) other->clear_denominator();
   other->v = v;  // V of the reversed field is the same
   other->form = form;
   return other;
@@ -171,7 +238,7 @@ std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& 
   if (holds_everywhere(shape)) {
     return {{low, high, [solved = shared_from_this()](const Vector2d& x) {
                try {
-                 return solved->at(x).first;
+                 return solved->at(x / solved->unit).first;
                } catch (const std::domain_error&) {
                  return none;
                }
@@ -187,7 +254,8 @@ std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& 
     const auto fit = samples ? fit_factor(shape, *samples) : std::nullopt;
     if (fit && fit->small) {
       if (!fit->unique) return;
-      pieces.push_back({from, to, [part = fit->factor](const Vector2d& x) { return part(x, {})[0]; }});
+      pieces.push_back({unit * from, unit * to,
+                        [part = fit->factor, length = unit](const Vector2d& x) { return part(x / length, {})[0]; }});
     } else if (halvings > 0) {
       for (int i = 0; i < 4; ++i) {
         const Vector2d part(i % 2, i / 2);
@@ -197,20 +265,22 @@ std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& 
     }
   };
   constexpr int most = 3;
-  add(add, low, high, most);
+  add(add, low / unit, high / unit, most);
   return pieces;
 }
 
 FactorFormula FactorReduction::formula() const {
   solved_->found();
-  return recognised(solved_->fitted, solved_->start);
+  const SmoothField& given = solved_->field;
+  const Vector2d start = solved_->unit * (solved_->start.isZero(0) ? Vector2d(1, 1) : solved_->start);
+  return recognised(solved_->cleared ? with_cleared_denominator(given) : given, start);
 }
 
-PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_parts) const {
+PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_work) const {
   if (!from.allFinite() || !value_of(smooth.value, from)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
-  return PlanarOrbit(follow(smooth, fitted, found(), from, most_parts));
+  return PlanarOrbit(follow(smooth, cleared, found(), from / unit, unit, most_work));
 }
 
 }  // namespace contensou::reduction

@@ -107,6 +107,39 @@ SmoothField with_cleared_denominator(const SmoothField& field) {
   return cleared;
 }
 
+SmoothField in_units(const SmoothField& field, double unit) {
+  if (unit == 1) return field;
+  // Multiplies the columns d/du and d/dv by the unit.
+  const auto slopes_in_units = [unit](const auto& function) {
+    return [unit, function](const Vector2d& x) {
+      auto rows = function(unit * x);
+      rows.template rightCols<2>() *= unit;
+      return rows;
+    };
+  };
+  SmoothField scaled;
+  scaled.value = [unit, f = field.value](const Vector2d& x) -> Vector2d { return f(unit * x) / unit; };
+  if (field.jacobian) scaled.jacobian = [unit, slopes = field.jacobian](const Vector2d& x) { return slopes(unit * x); };
+  if (field.denominator) scaled.denominator = slopes_in_units(field.denominator);
+  if (field.switches) scaled.switches = slopes_in_units(field.switches);
+  if (field.branch) {
+    scaled.branch = [unit, branch = field.branch](const Vector2d& x) { return in_units(branch(unit * x), unit); };
+  }
+  scaled.basis.names = field.basis.names;
+  if (field.basis.values) scaled.basis.values = slopes_in_units(field.basis.values);
+  return scaled;
+}
+
+SmoothField backward(const SmoothField& field) {
+  SmoothField turned = field;
+  turned.value = [f = field.value](const Vector2d& x) -> Vector2d { return -f(x); };
+  if (field.jacobian) {
+    turned.jacobian = [slopes = field.jacobian](const Vector2d& x) -> Eigen::Matrix2d { return -slopes(x); };
+  }
+  if (field.branch) turned.branch = [branch = field.branch](const Vector2d& x) { return backward(branch(x)); };
+  return turned;
+}
+
 Vector2d evenly_spread(int i) {
   constexpr double plastic = 1.32471795724474602596;
   const auto fraction = [](double x) { return x - std::floor(x); };
@@ -175,6 +208,14 @@ double InverseFactor::size(const Vector2d& x, const Jet& jet) const {
   return form_ == FactorForm::affine ? largest * jet.f.norm() * (1 + box_.inside(x).norm()) : largest;
 }
 
+InverseFactor::Misfit InverseFactor::misfit(const Vector2d& x, const Jet& jet) const {
+  const Terms<3> all = terms(form_, box_, x, jet);
+  const Value value = coefficients_.transpose() * all;
+  const Value sizes = coefficients_.cwiseAbs().transpose() * all.cwiseAbs();
+  return {value.tail<2>() * jet.f - value[0] * jet.slopes.trace(),
+          sizes.tail<2>() * jet.f.cwiseAbs() + sizes[0] * jet.slopes.cwiseAbs().sum()};
+}
+
 double InverseFactor::residual(const Vector2d& x, const Jet& jet) const {
   const Value value = (*this)(x, jet);
   const double change = value.tail<2>() * jet.f - value[0] * jet.slopes.trace();
@@ -182,7 +223,7 @@ double InverseFactor::residual(const Vector2d& x, const Jet& jet) const {
 }
 
 std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
-  constexpr int tried = 220;
+  constexpr int tried = 260;
   const auto centre = jet_of(field, box.centre);
   if (!centre || centre->f.isZero(0)) return std::nullopt;
   FieldSamples samples{box, *centre};

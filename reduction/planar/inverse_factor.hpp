@@ -27,6 +27,12 @@ std::optional<Jet> jet_of(const SmoothField& field, const Eigen::Vector2d& x);
 /// Returns D f for a field f with a denominator D.
 SmoothField with_cleared_denominator(const SmoothField& field);
 
+/// Returns the field of x/unit, f(unit x)/unit. A unit that is a power of 2 causes no rounding.
+SmoothField in_units(const SmoothField& field, double unit);
+
+/// Returns the field -f, whose motions are those of f with the time reversed.
+SmoothField backward(const SmoothField& field);
+
 /// Returns point i of a sequence of points spread evenly over the square [0, 1] x [0, 1] (M. Roberts' R2).
 Eigen::Vector2d evenly_spread(int i);
 
@@ -76,10 +82,17 @@ class InverseFactor {
   /// Returns the misfit (R66) at one point, but divided by V at this point, not by the mean square of V over the box.
   double residual(const Eigen::Vector2d& x, const Jet& jet) const;
 
+  /// f . grad V - V div f, and the sum of the sizes of its terms and of the terms of V and div f. Not for a product.
+  struct Misfit {
+    double value, size;
+  };
+  Misfit misfit(const Eigen::Vector2d& x, const Jet& jet) const;
+
   /// Returns the magnitude of V: the sum of the absolute values of its terms, which cancel in V.
   double size(const Eigen::Vector2d& x, const Jet& jet) const;
 
   FactorForm form() const { return form_; }
+  int terms() const { return static_cast<int>(coefficients_.size()); }
   const Box& box() const { return box_; }
 
   /// True if the centre of the box lies on the invariant curve V = 0.
@@ -102,7 +115,7 @@ struct FieldSamples {
   std::vector<Jet> jets = {};
   double error = 0;  ///< error of the derivatives, relative to the divisor of the misfit (R66)
 
-  int fitted() const { return static_cast<int>(points.size()) * 8 / 11; }
+  int fitted() const { return static_cast<int>(points.size()) * 8 / 13; }
 };
 
 /// Returns the samples; empty if the field has no values in a fifth of the box or more.

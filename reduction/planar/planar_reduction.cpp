@@ -15,6 +15,8 @@
 #include "contensou/reduction/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/directions.hpp"
+#include "planar/inverse_factor.hpp"
+#include "planar/reversal.hpp"
 #include "planar/solution.hpp"
 #include "planar/strip.hpp"
 
@@ -36,6 +38,28 @@ double root_below(const std::function<double(double)>& function, double high) {
   return root_between(function, low, high);
 }
 
+/// The motion that stays at the centre.
+struct Rest final : PlanarOrbit::Motion {
+  explicit Rest(const Vector2d& at) : x(at) {}
+  Vector2d at(double) const override { return x; }
+  Vector2d at_end() const override { return x; }
+  Vector2d x;
+};
+
+/// The motion from a centre that the field leaves in more than one way, or in none that is known.
+struct OpenMotion final : PlanarOrbit::Motion {
+  explicit OpenMotion(const Vector2d& from) : x(from) {
+    end = PlanarEnd::undecided;
+    end_time = std::numeric_limits<double>::quiet_NaN();
+  }
+  Vector2d at(double time) const override {
+    if (time == 0) return x;
+    throw std::domain_error(fmt::format("PlanarOrbit: the point at the time {} is not known: {}", time, undecided));
+  }
+  Vector2d at_end() const override { return x; }
+  Vector2d x;
+};
+
 /// The place of a point among the orbits: its strip, and xi in this strip. An orbit with constant q has no strip.
 struct StripPlace {
   const Strip* strip = nullptr;
@@ -45,17 +69,19 @@ struct StripPlace {
 
 /// The solution by a scaling: README (R42) to (R45).
 struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<ScalingSolution> {
-  ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around, double given_noise);
+  ScalingSolution(SmoothField given, const Generator& generator, const Vector2d& around, double given_noise);
 
   PlanarOrbit orbit(const Vector2d& start) const override;
+  PlanarOrbit orbit_from_centre() const override;
   double end_time_error(const Vector2d& x) const override;
   std::optional<double> first_integral(const Vector2d& x) const override;
   std::shared_ptr<const Solution> reversed() const override {
-    return std::make_shared<const ScalingSolution>(reversed_field(), *scaling, point(0, 0), noise);
+    return std::make_shared<const ScalingSolution>(backward(field), *scaling, point(0, 0), noise);
   }
 
   void leave_branching_open();
   void make_strips();
+  bool proves_center() const;
   std::string_view classify() const;
   StripPlace place(const Vector2d& n) const;
   PlanarEnd end(const StripPlace& place) const;
@@ -67,7 +93,7 @@ struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<Sca
   std::vector<Strip> strips;
 };
 
-ScalingSolution::ScalingSolution(PlanarField given, const Generator& generator, const Vector2d& around,
+ScalingSolution::ScalingSolution(SmoothField given, const Generator& generator, const Vector2d& around,
                                  double given_noise)
     : SectionSolution(std::move(given), generator, around), noise(std::max(given_noise, eps)) {
   const auto refuse = [](const Vector2d& n) {
@@ -133,6 +159,9 @@ void ScalingSolution::make_strips() {
     strips.emplace_back(section, directions.smooth, rates->angular > 0 ? -1.0 : 1.0, tolerance);
     const Strip& strip = strips.back();
     turn = {std::exp(strip.turn()), strip.turn_sigma()};
+    if (strip.turn() == 0 && !proves_center()) {
+      undecided = "a turn multiplies the distance by 1 within its error, and no reversor proves that orbits are closed";
+    }
     return;
   }
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -173,6 +202,33 @@ void ScalingSolution::make_strips() {
   std::ranges::sort(rays, {}, &PlanarRay::q);
 }
 
+/// Returns true if a proof shows that orbits which turn with a factor of 1 within its error are closed: a reflection
+/// about an axis through the centre reverses all motions, or the field is divergence-free. The latter needs exact
+/// derivatives.
+bool ScalingSolution::proves_center() const {
+  constexpr int angles = 60;
+  std::vector<Vector2d> points;
+  for (int i = 0; i < angles; ++i) {
+    points.push_back(point(2 * pi * (i + std::numbers::phi - 1) / angles, static_cast<double>(i % 3 - 1) / 2));
+  }
+  const auto keeps_p = [&](const Vector2d& x) {
+    const auto rates = section(section.canonical(x).first);
+    constexpr double roundings = 8;
+    return rates && std::abs(rates->radial) <= roundings * eps * rates->radial_terms;
+  };
+  if (std::ranges::all_of(points, keeps_p)) return true;
+  const auto free_of_divergence = [&](const Vector2d& x) {
+    const auto here = jet_of(field, x);
+    constexpr double rounding = 1e-14;
+    return here && std::abs(here->slopes.trace()) <= rounding * here->slopes.cwiseAbs().sum();
+  };
+  if (field.jacobian && std::ranges::all_of(points, free_of_divergence)) return true;
+  return std::ranges::any_of(reflections, [&](const Eigen::Matrix2d& reflection) {
+    return std::ranges::all_of(
+        points, [&](const Vector2d& x) { return reverses(field, reflection, centre, x).value_or(true); });
+  });
+}
+
 std::string_view ScalingSolution::classify() const {
   const auto of_sign = [](bool all_in, bool all_out, std::string_view in, std::string_view out) {
     return all_in ? in : all_out ? out : planar_kind("mixed");
@@ -186,6 +242,7 @@ std::string_view ScalingSolution::classify() const {
     }
     return of_sign(all_in, all_out, planar_kind("stable star"), planar_kind("unstable star"));
   }
+  if (turn && strips.front().turn() == 0 && !undecided.empty()) return planar_kind("center or focus");
   if (!undecided.empty()) return "";
   if (directions.dividing.empty()) {
     const double turn_growth = strips.front().turn();
@@ -231,7 +288,10 @@ PlanarEnd ScalingSolution::end(const StripPlace& place) const {
   };
   if (place.strip == nullptr) return by_sign(place.radial);
   const Strip& strip = *place.strip;
-  if (strip.closed()) return strip.turn() == 0 ? PlanarEnd::periodic : by_sign(strip.turn());
+  if (strip.closed()) {
+    if (strip.turn() != 0) return by_sign(strip.turn());
+    return undecided.empty() ? PlanarEnd::periodic : PlanarEnd::undecided;
+  }
   switch (strip.limit()) {
     case Limit::centre:
       return PlanarEnd::centre;
@@ -318,12 +378,42 @@ struct ScalingMotion final : PlanarOrbit::Motion {
     return solution->section.point(strip.to().n(), p + (strip.ln_rho(-infinity) - strip.ln_rho(place.xi)));
   }
 
+  /// Returns the time from xi to the next multiple of 2 pi below xi on a closed strip that is not timed.
+  double until_mark(double xi, double integral) const {
+    const double c = solution->section.time_degree();
+    return std::exp(c * (integral + place.strip->ln_rho(xi))) * place.strip->time_left(xi);
+  }
+  /// Returns the time of a turn from a multiple of 2 pi to the next.
+  double from_mark(double integral) const {
+    const double c = solution->section.time_degree();
+    return std::exp(c * (integral + place.strip->ln_rho(2 * pi))) * place.strip->turn_time();
+  }
+
   /// Returns the time of one turn, for orbits that turn for ever.
   double turn_time() const {
     const Strip& strip = *place.strip;
-    Walk turn{strip, solution->section.time_degree(), p - strip.ln_rho(place.xi), place.xi};
+    const double integral = p - strip.ln_rho(place.xi);
+    if (!strip.timed()) {
+      const double next = integral + strip.turn();
+      return until_mark(place.xi, integral) + (from_mark(next) - until_mark(place.xi, next));
+    }
+    Walk turn{strip, solution->section.time_degree(), integral, place.xi};
     turn.go(infinity, place.xi - 2 * pi);
     return turn.passed;
+  }
+
+  /// Returns xi after a time of less than a turn, on a closed strip that is not timed.
+  double xi_within_turn(double time) const {
+    const Strip& strip = *place.strip;
+    const double integral = p - strip.ln_rho(place.xi), first = until_mark(place.xi, integral);
+    if (time < first) {
+      return root_between([&](double xi) { return until_mark(xi, integral) - (first - time); }, 0, place.xi);
+    }
+    const double next = integral + strip.turn(), whole = from_mark(next);
+    const auto left = [&](double xi) {
+      return (xi < 2 * pi ? until_mark(xi, next) : whole) - (whole - (time - first));
+    };
+    return root_between(left, place.xi, 2 * pi) - 2 * pi;
   }
   std::optional<double> period() const override {
     return end == PlanarEnd::periodic ? std::optional(turn_time()) : std::nullopt;
@@ -335,6 +425,38 @@ struct ScalingMotion final : PlanarOrbit::Motion {
   StripPlace place;
 };
 
+/// The motion from a centre at which the field f is not 0. X maps f onto itself, so that the orbit through the centre
+/// is invariant, too: it leaves along a ray. There dp/dt = exp(-c p) R, so that exp(c p) = c R t.
+struct MotionFromCentre final : PlanarOrbit::Motion {
+  Vector2d at(double time) const override {
+    const double c = solution->section.time_degree();
+    return time == 0 ? solution->centre : solution->section.point(n, std::log(c * radial * time) / c);
+  }
+  Vector2d at_end() const override { throw std::logic_error("a motion from the centre goes to infinity"); }
+
+  std::shared_ptr<const ScalingSolution> solution;
+  Vector2d n;
+  double radial = 0;
+};
+
+PlanarOrbit ScalingSolution::orbit_from_centre() const {
+  if (!section.regular()) return SectionSolution::orbit_from_centre();
+  auto motion = std::make_shared<MotionFromCentre>();
+  motion->solution = shared_from_this();
+  motion->end_time = infinity;
+  const auto leaves = [&](const PlanarRay& ray) { return section.time_degree() * ray.radial > 0; };
+  if (std::ranges::count_if(rays, leaves) == 1) {
+    const PlanarRay& ray = *std::ranges::find_if(rays, leaves);
+    motion->end = PlanarEnd::infinity;
+    motion->n = std::ranges::find(directions.dividing, ray.q, [](const Direction& end) { return angle_of(end.n); })->n;
+    motion->radial = ray.radial;
+    return PlanarOrbit(std::move(motion));
+  }
+  auto open = std::make_shared<OpenMotion>(centre);
+  open->undecided = "the field determines no single motion from the centre";
+  return PlanarOrbit(std::move(open));
+}
+
 PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
   auto motion = std::make_shared<ScalingMotion>();
   motion->solution = shared_from_this();
@@ -342,7 +464,11 @@ PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
   motion->place = place(motion->n);
   motion->end = end(motion->place);
   motion->end_time = end_time(motion->place, motion->p);
-  if (motion->end == PlanarEnd::undecided) motion->undecided = undecided;
+  motion->border_time_known = motion->place.strip != nullptr && motion->place.strip->timed();
+  if (motion->end == PlanarEnd::undecided) {
+    motion->undecided = undecided;
+    motion->end_time = std::numeric_limits<double>::quiet_NaN();
+  }
   return PlanarOrbit(std::move(motion));
 }
 
@@ -378,7 +504,9 @@ Vector2d ScalingMotion::at(double time) const {
   if (strip.closed()) {
     const double turn = turn_time(), growth = c * strip.turn();
     const double turns = std::floor(growth == 0 ? time / turn : std::log1p(time / turn * std::expm1(growth)) / growth);
-    walk.go((time - turn * terms(growth, turns)) * std::exp(-growth * turns), place.xi - 2 * pi);
+    const double rest = (time - turn * terms(growth, turns)) * std::exp(-growth * turns);
+    if (!strip.timed()) return at_coordinate(xi_within_turn(rest) - 2 * pi * turns);
+    walk.go(rest, place.xi - 2 * pi);
     return at_coordinate(walk.xi - 2 * pi * turns);
   }
   const bool decided = strip.to().decided(), joins = strip.joins_ray();
@@ -402,14 +530,6 @@ Vector2d ScalingMotion::at(double time) const {
   return at_coordinate(walk.xi - rate * (growth == 0 ? sigma : std::log1p(growth * sigma) / growth));
 }
 
-/// The motion that stays at the centre.
-struct Rest final : PlanarOrbit::Motion {
-  explicit Rest(const Vector2d& at) : x(at) {}
-  Vector2d at(double) const override { return x; }
-  Vector2d at_end() const override { return x; }
-  Vector2d x;
-};
-
 void require_point(const Vector2d& x) {
   if (!x.allFinite()) throw std::domain_error(fmt::format("({}, {}) is no point of the plane", x[0], x[1]));
 }
@@ -422,16 +542,20 @@ std::string_view name(PlanarEnd end) {
   return names[static_cast<std::size_t>(end)];
 }
 
-std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(PlanarField field, const Generator& scaling,
+std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(SmoothField field, const Generator& scaling,
                                                                    const Vector2d& around, double noise) {
   return std::make_shared<const ScalingSolution>(std::move(field), scaling, around, noise);
 }
 
-PlanarReduction::PlanarReduction(PlanarField field, const Generator& scaling, const Vector2d& around, double noise)
+PlanarOrbit PlanarReduction::Solution::orbit_from_centre() const {
+  return PlanarOrbit(std::make_shared<const Rest>(centre));
+}
+
+PlanarReduction::PlanarReduction(SmoothField field, const Generator& scaling, const Vector2d& around, double noise)
     : solution_(solved_by_scaling(std::move(field), scaling, around, noise)) {}
 PlanarReduction::PlanarReduction(std::shared_ptr<const Solution> solution) : solution_(std::move(solution)) {}
 
-const PlanarField& PlanarReduction::field() const { return solution_->field; }
+const SmoothField& PlanarReduction::field() const { return solution_->field; }
 std::string_view PlanarReduction::form() const { return solution_->form; }
 const Generator* PlanarReduction::scaling() const { return solution_->scaling ? &*solution_->scaling : nullptr; }
 const Flow* PlanarReduction::flow() const { return solution_->flow(); }
@@ -478,7 +602,7 @@ double PlanarReduction::first_integral(const Vector2d& x) const {
 
 PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {
   require_point(start);
-  if (start == centre()) return PlanarOrbit(std::make_shared<const Rest>(start));
+  if (start == centre()) return solution_->orbit_from_centre();
   return solution_->orbit(start);
 }
 

@@ -38,7 +38,7 @@ Unknowns unknowns_of(const Generator& g) {
 /// The field, with a count of its failures (points without a value) and the message of the first failure.
 class Sampler {
  public:
-  explicit Sampler(const PlanarField& field) : field_(field) {}
+  explicit Sampler(const SmoothField& field) : field_(field) {}
 
   /// Sets the units of the points and of the values. They are powers of 2, so that no rounding occurs.
   void set_units(double length, double value) {
@@ -58,6 +58,24 @@ class Sampler {
     return std::nullopt;
   }
 
+  /// Returns the derivatives by u and by v, with their errors: exact except for rounding, or differences.
+  std::optional<std::array<Slope, 2>> slopes(const Vector2d& in_units, const Vector2d& first_steps) {
+    if (!field_.jacobian) {
+      const auto by_u = slope(*this, in_units, 0, first_steps[0]), by_v = slope(*this, in_units, 1, first_steps[1]);
+      return by_u && by_v ? std::optional(std::array{*by_u, *by_v}) : std::nullopt;
+    }
+    try {
+      const Matrix2d all = length_ / value_ * field_.jacobian(length_ * in_units);
+      constexpr double roundings = 4;
+      const double error = roundings * eps * all.norm();
+      if (all.allFinite()) return std::array{Slope{all.col(0), error}, Slope{all.col(1), error}};
+    } catch (const std::exception& failure) {
+      remember(failure.what());
+    }
+    return std::nullopt;
+  }
+
+  bool is_exact() const { return static_cast<bool>(field_.jacobian); }
   const std::string& first_failure() const { return first_failure_; }
 
  private:
@@ -65,7 +83,7 @@ class Sampler {
     if (first_failure_.empty()) first_failure_ = failure;
   }
 
-  const PlanarField& field_;
+  const SmoothField& field_;
   double length_ = 1, value_ = 1;
   std::string first_failure_;
 };
@@ -115,17 +133,18 @@ Equations determining_equations(Sampler& field, const Vector2d& around) {
       smallest = std::min(smallest, f->stableNorm());
       largest = std::max(largest, f->stableNorm());
     }
-    const auto by_u = slope(field, x, 0, std::abs(x[0]) / 8), by_v = slope(field, x, 1, std::abs(x[1]) / 8);
-    if (!by_u || !by_v) continue;
+    const auto slopes = field.slopes(x, x.cwiseAbs() / 8);
+    if (!slopes) continue;
+    const auto& [by_u, by_v] = *slopes;
     const auto of_derivatives = [&](const Vector2d& du, const Vector2d& dv) {
       return (Eigen::Matrix<double, 2, 7>() << du * x[0], du * x[1], dv * x[0], dv * x[1], du, dv, Vector2d(0, 0))
           .finished();
     };
     Eigen::Matrix<double, 2, 7> of_values;
     of_values << f->transpose(), 0, 0, 0, 0, -(*f)[0], 0, 0, f->transpose(), 0, 0, -(*f)[1];
-    const auto derivatives = of_derivatives(by_u->value, by_v->value);
+    const auto derivatives = of_derivatives(by_u.value, by_v.value);
     samples.push_back({x, of_values - derivatives,
-                       of_derivatives(Vector2d::Constant(by_u->error), Vector2d::Constant(by_v->error)).cwiseAbs(),
+                       of_derivatives(Vector2d::Constant(by_u.error), Vector2d::Constant(by_v.error)).cwiseAbs(),
                        of_values.cwiseAbs() + derivatives.cwiseAbs()});
   }
   if (std::ssize(samples) < least) {
@@ -279,7 +298,7 @@ void add_jumps(Equations& equations, Sampler& field, const Vector2d& scale) {
     // Find the jump on parallel lines: its position along each line, in units of `along`, for each offset across.
     const double part = 0.1 * scale.minCoeff() / way.norm();
     const Vector2d along = part * way, across(-along[1], along[0]);
-    const PlanarField line = [&](const Vector2d& offset) {
+    const SmoothField line = [&](const Vector2d& offset) {
       const Vector2d beside = *jump + offset[0] * across;
       const auto there = jump_between(field, beside - along, beside + along);
       return there ? Vector2d((*there - beside).dot(along) / along.squaredNorm(), 0) : Vector2d(infinity, 0);
@@ -308,7 +327,7 @@ Unknowns normalised(const Unknowns& x, double error) {
   return (x / first).unaryExpr([error](double entry) {
     for (int denominator = 1; denominator <= 12; ++denominator) {
       const double near = std::round(entry * denominator) / denominator;
-      if (std::abs(entry - near) <= error) return near;
+      if (std::abs(entry - near) <= error) return near + 0.0;  // the addition turns -0 into 0
     }
     return entry;
   });
@@ -374,6 +393,9 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
       finite = closer;
     }
     x = normalised(x, 64 * eps);
+    // With exact derivatives a larger misfit is that of a field which only nearly admits the scaling.
+    constexpr double rounding = 1e-12;
+    if (field.is_exact() && transformed(x).residual > rounding) continue;
     const Generator found = growing(generator_of(x));
     if (everywhere(found)) return found;
   }
@@ -400,7 +422,7 @@ Vector2d Generator::centre() const {
   return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // the addition to 0 turns -0 into 0
 }
 
-PlanarSymmetries find_symmetries(const PlanarField& field, const Vector2d& around) {
+PlanarSymmetries find_symmetries(const SmoothField& field, const Vector2d& around) {
   const double size = around.stableNorm();
   if (!std::isfinite(size) || size == 0) {
     throw std::domain_error(fmt::format(

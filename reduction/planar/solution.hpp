@@ -18,7 +18,7 @@ namespace contensou::reduction {
 
 /// A method that solves a planar system. PlanarReduction checks the arguments, then calls these functions.
 struct PlanarReduction::Solution {
-  Solution(PlanarField of, std::string_view way) : field(std::move(of)), form(way) {}
+  Solution(SmoothField of, std::string_view way) : field(std::move(of)), form(way) {}
   Solution(const Solution&) = delete;
   Solution& operator=(const Solution&) = delete;
   virtual ~Solution() = default;
@@ -26,6 +26,8 @@ struct PlanarReduction::Solution {
   virtual double factor(const Eigen::Vector2d& x) const = 0;
   virtual std::vector<FactorPiece> factor_pieces(const Eigen::Vector2d&, const Eigen::Vector2d&) const { return {}; }
   virtual PlanarOrbit orbit(const Eigen::Vector2d& start) const = 0;
+  /// Returns the motion from the centre of the scaling: it rests there unless the field has a value other than 0.
+  virtual PlanarOrbit orbit_from_centre() const;
   virtual PlanarOrbit part_of_orbit(const Eigen::Vector2d& start) const { return orbit(start); }
   virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
@@ -38,15 +40,11 @@ struct PlanarReduction::Solution {
 
   virtual const Flow* flow() const { return nullptr; }
 
-  PlanarField reversed_field() const {
-    return [forward = field](const Eigen::Vector2d& x) -> Eigen::Vector2d { return -forward(x); };
-  }
-
   static std::domain_error without_scaling() {
     return std::domain_error("the system has no scaling, and no canonical coordinates of one");
   }
 
-  PlanarField field;
+  SmoothField field;
   std::string_view form;
   std::optional<Generator> scaling;
   Eigen::Vector2d centre = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -60,7 +58,7 @@ struct PlanarReduction::Solution {
 
 /// A solution by a scaling, in the coordinates of its section.
 struct SectionSolution : PlanarReduction::Solution {
-  SectionSolution(PlanarField given, const Generator& generator, const Eigen::Vector2d& around)
+  SectionSolution(SmoothField given, const Generator& generator, const Eigen::Vector2d& around)
       : Solution(std::move(given), "scaling"), section(field, generator, around) {
     scaling = generator;
     centre = section.centre();
@@ -80,7 +78,7 @@ struct SectionSolution : PlanarReduction::Solution {
 };
 
 /// Solves a system by its scaling. Arguments and exceptions are those of the constructor of PlanarReduction.
-std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(PlanarField field, const Generator& scaling,
+std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(SmoothField field, const Generator& scaling,
                                                                    const Eigen::Vector2d& around, double noise);
 
 struct PlanarOrbit::Motion {

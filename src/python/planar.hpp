@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,15 +27,40 @@ auto interruptible(Function compute) {
   }
 }
 
+/// Returns the field with its functions interruptible: each of them looks for signals such as Ctrl-C.
+/// @param interruption  shared by all functions of a field
+inline reduction::SmoothField with_signals(reduction::SmoothField field,
+                                           const std::shared_ptr<Interruption>& interruption) {
+  const auto checked = [&](auto function) {
+    return [function = std::move(function), interruption](const Eigen::Vector2d& x) {
+      try {
+        interruption->check();
+      } catch (const py::error_already_set& error) {
+        throw Interrupted{error};
+      }
+      return function(x);
+    };
+  };
+  field.value = checked(std::move(field.value));
+  if (field.jacobian) field.jacobian = checked(std::move(field.jacobian));
+  if (field.branch) {
+    field.branch = [branch = std::move(field.branch), interruption](const Eigen::Vector2d& x) {
+      return with_signals(branch(x), interruption);
+    };
+  }
+  return field;
+}
+
 /// A planar system with its symmetries, and with its motions if it is solved.
 class Planar {
  public:
   /// @param known  solution, if there is one
   Planar(reduction::SmoothField given, const Eigen::Vector2d& around,
          const std::optional<reduction::PlanarReduction>& known = {})
-      : field(std::move(given)), start(around) {
+      : field(std::move(given)) {
     interruptible([&] {
-      symmetries = reduction::find_symmetries(field.value, around);
+      start = reduction::sampled_about(field, around);
+      symmetries = reduction::find_symmetries(field, start);
       solved_plane = known ? answers::SolvedPlane{known, ""} : answers::solve_planar(field, symmetries, around);
     });
   }
@@ -45,7 +71,7 @@ class Planar {
   }
 
   reduction::SmoothField field;
-  Eigen::Vector2d start;
+  Eigen::Vector2d start;  ///< point whose coordinates set the scale of the samples
   reduction::PlanarSymmetries symmetries;
   answers::SolvedPlane solved_plane;
 };

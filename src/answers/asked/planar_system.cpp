@@ -88,7 +88,8 @@ Eigen::Matrix2d FormulaField::jacobian(const Eigen::Vector2d& x) const {
 }
 
 FormulaField::operator reduction::SmoothField() const {
-  reduction::SmoothField field{*this, [*this](const Eigen::Vector2d& x) { return jacobian(x); }};
+  reduction::SmoothField field([*this](const Eigen::Vector2d& x) { return (*this)(x); },
+                               [*this](const Eigen::Vector2d& x) { return jacobian(x); });
   if (const auto divisors = formulas.denominator()) {
     field.denominator = [divisors = *divisors](const Eigen::Vector2d& x) {
       const auto [value, by_u, by_v] = divisors.with_slopes(std::array{x[0], x[1]})[0];
@@ -97,6 +98,9 @@ FormulaField::operator reduction::SmoothField() const {
   }
   if (formulas.switches({0, 0}).rows() > 0) {
     field.switches = [formulas = formulas](const Eigen::Vector2d& x) { return formulas.switches({x[0], x[1]}); };
+    field.branch = [*this](const Eigen::Vector2d& x) -> reduction::SmoothField {
+      return FormulaField{equations, formulas.branch({x[0], x[1]}), variables};
+    };
   }
   return field;
 }
@@ -108,12 +112,12 @@ bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start
 
 namespace {
 
-SolvedPlane solve_by_scaling(const reduction::PlanarField& field, const reduction::PlanarSymmetries& found,
+SolvedPlane solve_by_scaling(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
                              const Eigen::Vector2d& start) {
   using Verdict = reduction::PlanarSymmetries::Verdict;
   if (found.scaling) {
-    const bool at_centre = is_centre(*found.scaling, start);
-    const Eigen::Vector2d around = at_centre ? Eigen::Vector2d(2 * start) : start;
+    Eigen::Vector2d around = start;
+    if (is_centre(*found.scaling, start)) around.array() += reduction::length_scale(field, start);
     try {
       return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
     } catch (const std::domain_error& refused) {
@@ -135,7 +139,7 @@ SolvedPlane solve_by_scaling(const reduction::PlanarField& field, const reductio
 SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
                          const Eigen::Vector2d& start) {
   SolvedPlane solved;
-  if (!field.basis.values) solved = solve_by_scaling(field.value, found, start);
+  if (!field.basis.values) solved = solve_by_scaling(field, found, start);
   if (solved.plane) return solved;
   const reduction::FactorReduction by_factor(field, start);
   solved.tried = by_factor.tried();

@@ -621,6 +621,65 @@ void at_base(Switches& all, const Operand& x, const Operand& y) {
   if (!(exponent >= 0 && std::rint(exponent) == exponent)) all.add_zeros(x);
 }
 
+/// Returns the steps of the formula that keeps the choices of another formula at a point: see Formulas::branch.
+Steps branch(const Steps& formula, const double* values) {
+  std::vector<std::size_t> begins;         // begin of each part on the stack
+  std::vector<std::size_t> first_of;       // for each step, the begin of the part that the step completes
+  std::vector<bool> kept(formula.size());  // true: the step stays as it is
+  for (std::size_t i = 0; i < formula.size(); ++i) {
+    std::size_t begin = i;
+    for (int left = operands_of(formula[i]); left > 0; --left) {
+      begin = begins.back();
+      begins.pop_back();
+    }
+    begins.push_back(begin);
+    first_of.push_back(begin);
+    const Step& step = formula[i];
+    const bool has_function = step.kind == Kind::one || step.kind == Kind::two;
+    const bool singular = has_function && (step.function == &power || step.function->name == "sqrt" ||
+                                           step.function->breaks.add == at_ones ||
+                                           step.function->breaks.add == at_one || step.function->name.starts_with("l"));
+    if (singular)
+      std::fill(kept.begin() + static_cast<std::ptrdiff_t>(begin), kept.begin() + static_cast<std::ptrdiff_t>(i), true);
+  }
+  const auto value_of_part = [&](std::size_t last) {
+    return run<0>(std::span(formula).subspan(first_of[last], last + 1 - first_of[last]), values)[0];
+  };
+  Steps steps;
+  std::vector<std::size_t> starts;  // begin of each part on the stack, in the result
+  for (std::size_t i = 0; i < formula.size(); ++i) {
+    const Step& step = formula[i];
+    const int operands = operands_of(step);
+    const std::size_t begin = operands == 0 ? steps.size() : starts[starts.size() - static_cast<std::size_t>(operands)];
+    const std::size_t last = operands == 0 ? begin : starts.back();  // begin of the last operand
+    starts.resize(starts.size() - static_cast<std::size_t>(operands));
+    starts.push_back(begin);
+    const auto place = [&](std::size_t at) { return steps.begin() + static_cast<std::ptrdiff_t>(at); };
+    const auto constant = [&](double value) {
+      steps.resize(begin);
+      steps.push_back({.kind = Kind::number, .number = value});
+    };
+    const bool has_function = step.kind == Kind::one || step.kind == Kind::two;
+    if (kept[i] || !has_function || step.function->breaks.add == nowhere) {
+      steps.push_back(step);
+    } else if (step.function->name == "abs") {
+      const double at = value_of_part(i - 1);
+      if (at < 0) steps.push_back({.kind = Kind::one, .left = step.left, .function = &negative});
+      if (at == 0) steps.push_back(step);
+    } else if (step.function->name == "min" || step.function->name == "max") {
+      const double second = value_of_part(i - 1), first = value_of_part(first_of[i - 1] - 1);
+      const bool takes_first = step.function->two(first, second) == first;
+      steps.erase(place(takes_first ? last : begin), takes_first ? steps.end() : place(last));
+    } else if (step.function->name == "sign" || step.function->name == "rint" || step.function == &opposite ||
+               step.function->breaks.add == at_equals || step.function->breaks.add == at_zeros) {
+      constant(value_of_part(i));
+    } else {
+      steps.push_back(step);
+    }
+  }
+  return steps;
+}
+
 /// A factor of a product: the steps that compute this factor, and the variables in it.
 struct Factor {
   Steps steps;
@@ -776,6 +835,15 @@ std::array<double, 2> Formulas::operator()(std::initializer_list<double> values)
 
 Eigen::MatrixX3d Formulas::switches(const std::array<double, 2>& values) const {
   return compiled_->switches.at(values.data());
+}
+
+Formulas Formulas::branch(const std::array<double, 2>& values) const {
+  Compiled compiled;
+  for (std::size_t i = 0; i < 2; ++i) {
+    compiled.formulas[i] = formula_parts::branch(compiled_->formulas[i], values.data());
+    compiled.switches.add(compiled.formulas[i]);
+  }
+  return Formulas(std::make_shared<const Compiled>(std::move(compiled)));
 }
 
 std::optional<Formulas> Formulas::denominator() const {

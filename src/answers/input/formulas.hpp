@@ -72,6 +72,11 @@ class Formulas {
   /// @return NaN where a switching function has no value. A change from NaN to a number is no change of sign.
   Eigen::MatrixX3d switches(const std::array<double, 2>& values) const;
 
+  /// Returns the formulas that equal these about a point and continue them smoothly beyond the zeros of the switching
+  /// functions: abs, sign, rint, min, max and comparisons keep the choice that they make at the point. A part within
+  /// sqrt, a logarithm or the base of a power stays as it is, because it has no smooth continuation.
+  Formulas branch(const std::array<double, 2>& values) const;
+
   /// Returns the common denominator as the first formula of the result. This denominator is the product of the
   /// divisors that depend on variables and stand outside functions, each to its highest power; empty without a divisor.
   std::optional<Formulas> denominator() const;

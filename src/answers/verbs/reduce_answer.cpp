@@ -269,7 +269,8 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   members.update({{"rays", rays}, {"kind", kind.empty() ? Json() : Json(kind)}});
   if (!plane.undecided().empty()) members["undecided"] = plane.undecided();
   if (plane.turn()) members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
-  if (at_centre) members.update({{"end", name(PlanarEnd::centre)}, {"tau_stop", 0.0}});
+  const bool rests = at_centre && plane.end(plane.centre()) == PlanarEnd::centre;
+  if (rests) members.update({{"end", name(PlanarEnd::centre)}, {"tau_stop", 0.0}});
   if (integral && (is_paper || (!kind.empty() && kind != "bordered"))) {
     answer.numbers = [=] { return Answer{.members = strip_members(plane, start)}; };
   }
@@ -292,7 +293,7 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
       lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
                            digits(plane.turn()->factor), digits(plane.turn()->sigma));
     }
-    if (at_centre) return lines + "tau_stop    0: the start is the centre\n";
+    if (at_centre) return lines + (rests ? "tau_stop    0: the start is the centre\n" : "");
     lines += fmt::format("canonical   q = {}{}{}, p = {}{}, dp/dq = {}\n", is_paper ? "v/u = " : "",
                          digits(canonical.q), is_paper ? "" : " (angle)", is_paper ? "ln v = " : "",
                          digits(canonical.p), digits(canonical.dp_dq));
@@ -321,25 +322,42 @@ void add_factor(Answer& answer, const SolvedPlane& solved) {
   add_text(answer, [=](const Digits&) { return lines; });
 }
 
-/// Distance between the state by the solution and the state by steps in time, at 95 % of a finite end time, else at t =
-/// 5. It is divided by the distance from 0 of the start or of the state by steps, whichever is farther from 0.
+/// Distance between the state by the solution and the state by steps in time, at 95 % of a finite end time, after three
+/// periods, or else at t = 5. It is divided by the distance from 0 of the start or of the state by steps, whichever is
+/// farther from 0. If one of the two gives no state then, the states are compared at half the time, and so on.
 struct BySteps {
   double time, difference;
+  double error;  ///< estimated error of the steps, from steps with another tolerance
+
+  bool confirms() const {
+    constexpr double margin = 10, rounding = 1e-11;
+    return difference <= std::max(rounding, margin * error);
+  }
 };
 std::optional<BySteps> by_steps(const PlanarReduction& plane, const PlanarOrbit& orbit, const Vector2d& start) {
-  constexpr double share = 0.95, usual = 5;
-  const double time = std::isfinite(orbit.end_time()) ? share * orbit.end_time() : usual;
-  if (time == 0) return std::nullopt;
-  try {
-    const Vector2d here = orbit.at(time), there = reduction::by_steps(plane.field()).orbit(start).at(time);
-    return BySteps{time, (here - there).norm() / std::max(start.norm(), there.norm())};
-  } catch (const std::domain_error&) {
-    return std::nullopt;
+  constexpr double share = 0.95, usual = 5, periods = 3, coarser = 1e-11;
+  double time = orbit.period()                    ? periods * *orbit.period()
+                : std::isfinite(orbit.end_time()) ? share * orbit.end_time()
+                                                  : usual;
+  const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
+  const PlanarOrbit coarse = reduction::by_steps(plane.field(), coarser).orbit(start);
+  constexpr int halvings = 20;
+  for (int i = 0; i <= halvings && time > 0; ++i, time /= 2) {
+    try {
+      const Vector2d here = orbit.at(time), there = steps.at(time), again = coarse.at(time);
+      const double size = std::max(start.stableNorm(), there.stableNorm());
+      const BySteps compared{time, (here - there).stableNorm() / size, (again - there).stableNorm() / size};
+      if (std::isfinite(compared.difference) && std::isfinite(compared.error)) return compared;
+    } catch (const std::domain_error&) {
+      // One of the three does not reach this time.
+    }
   }
+  return std::nullopt;
 }
 
-/// Adds to the answer the end of the orbit.
-void add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start) {
+/// Adds to the answer the end of the orbit, and the comparison with steps in time.
+/// @return false if steps in time contradict the solution
+bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start) {
   Json& members = answer.members;
   const PlanarOrbit orbit = plane.orbit(start);
   const PlanarEnd end = orbit.end();
@@ -352,10 +370,17 @@ void add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
   if (orbit.period()) members["period"] = *orbit.period();
   if (!orbit.undecided().empty()) members["undecided"] = orbit.undecided();
   const auto stepped = by_steps(plane, orbit, start);
-  members["by_steps"] = stepped ? Json{{"difference", stepped->difference}, {"time", stepped->time}} : Json();
+  members["by_steps"] = stepped ? Json{{"difference", stepped->difference},
+                                       {"time", stepped->time},
+                                       {"error", stepped->error},
+                                       {"confirmed", stepped->confirms()}}
+                                : Json();
+  const bool refuted = stepped && !stepped->confirms();
   const auto end_text = [=](const Digits& digits) -> std::string {
     if (end == PlanarEnd::border) {
-      return "tau_stop    not known: the orbit comes to a border of the field, a pole or a jump\n";
+      const double at = orbit.end_time();
+      return fmt::format("tau_stop    not known: the orbit comes to a border of the field, a pole or a jump{}\n",
+                         std::isfinite(at) ? fmt::format(", after {}", digits(at)) : "");
     }
     if (end == PlanarEnd::undecided) return fmt::format("tau_stop    not decided: {}\n", orbit.undecided());
     const double time = orbit.end_time();
@@ -380,10 +405,15 @@ void add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
     return fmt::format("tau_stop    {}{}\n", digits(tau_stop), words());
   };
   add_text(answer, [=](const Digits& digits) {
-    return end_text(digits) + (stepped ? fmt::format("by steps    at t = {} the state differs by {:.0e}\n",
-                                                     digits(stepped->time), stepped->difference)
-                                       : std::string("by steps    not compared: one of the two gives no state\n"));
+    if (!stepped) return end_text(digits) + "by steps    not compared: one of the two gives no state\n";
+    std::string text =
+        fmt::format("by steps    at t = {} the state differs by {:.0e}\n", digits(stepped->time), stepped->difference);
+    if (refuted) {
+      text += fmt::format("            not confirmed: the error of the steps is only {:.0e}\n", stepped->error);
+    }
+    return end_text(digits) + text;
   });
+  return !refuted;
 }
 
 }  // namespace
@@ -399,7 +429,6 @@ std::vector<std::string_view> named_ends() {
 }
 
 Answer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Vector2d& start) {
-  if (start.isZero(0)) throw BadInput("reduce needs a start other than u = v = 0, about which the field is sampled");
   const auto has_value = [&] {
     try {
       return field.value(start).allFinite();
@@ -411,10 +440,15 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
     throw BadInput("the field has no value at the start u = {}, v = {}: give a start where it has one", start[0],
                    start[1]);
   }
-  const PlanarSymmetries found = reduction::find_symmetries(field.value, start);
-  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}}, .text = [=](const Digits& digits) {
-                  return fmt::format("system      {}\nstart       u = {}, v = {}\n", text, digits(start[0]),
-                                     digits(start[1]));
+  const double size = reduction::length_scale(field, start);
+  const Vector2d around = reduction::sampled_about(field, start);
+  const PlanarSymmetries found = reduction::find_symmetries(field, around);
+  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}, {"size", size}},
+                .text = [=](const Digits& digits) {
+                  const std::string sampled =
+                      start.isZero(0) ? fmt::format("; the field is sampled at distances about {}", digits(size)) : "";
+                  return fmt::format("system      {}\nstart       u = {}, v = {}{}\n", text, digits(start[0]),
+                                     digits(start[1]), sampled);
                 }};
   add_symmetries(answer, found, "t");
   const SolvedPlane solved = solve_planar(field, found, start);
@@ -427,24 +461,29 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
     }
     answer.members["tried"] = tried;
   }
-  Equilibria equilibria{reduction::find_equilibria(field, start), reduction::find_reversors(field, start)};
+  Equilibria equilibria{reduction::find_equilibria(field, around), reduction::find_reversors(field, around)};
   if (solved.plane) prove_centers(equilibria.zeros, *solved.plane);
   answer.members.update(equilibria.members());
   add_text(answer,
            [=, tried = solved.tried](const Digits& digits) { return text_of(tried) + equilibria.text(digits); });
+  bool confirmed = true;
   if (solved.plane && solved.plane->scaling()) {
     const bool at_centre = is_centre(*solved.plane->scaling(), start);
     add_scaling(answer, *solved.plane, start, at_centre);
-    if (!at_centre) add_end(answer, *solved.plane, start);
+    if (!answer.members.contains("end")) {
+      confirmed = add_end(answer, *solved.plane, at_centre ? solved.plane->centre() : start);
+    }
   } else if (solved.plane) {
     add_factor(answer, solved);
-    add_end(answer, *solved.plane, start);
+    confirmed = add_end(answer, *solved.plane, start);
   } else if (!found.generators.empty()) {
     add_text(answer, [why = solved.why_not](const Digits&) {
       return fmt::format("solution    none by quadrature: {}\n", why);
     });
   }
-  return finished(answer, found, solved.plane.has_value());
+  answer = finished(answer, found, solved.plane.has_value());
+  answer.passed &= confirmed;
+  return answer;
 }
 
 Answer reduce_answer(const GivenStart& given) {
@@ -583,7 +622,9 @@ std::vector<FieldText> reduce_fields() {
 
 std::vector<FieldText> reduce_system_fields() {
   return joined(
-      {{{"`system`", "", "equations as typed"}, {"`u0`, `v0`", "", "u and v at the start"}},
+      {{{"`system`", "", "equations as typed"},
+        {"`u0`, `v0`, `size`", "",
+         "u and v at the start; size: distance from the origin at which the equations are sampled"}},
        texts_of_symmetry(),
        {{"`form`, `factor`", "",
          "type of the solution: scaling, or the form of the inverse integrating factor V, or null without a solution. "
@@ -624,8 +665,9 @@ std::vector<FieldText> reduce_system_fields() {
         {"`end`", "", "end of the motion"},
         {"every `end`", "", fmt::format("{}; null if the end was not found", fmt::join(named_ends(), ", "))},
         {"`period`", "", "time after which the motion returns to its start"},
-        {"JSON `by_steps` {`difference`, `time`}", "",
-         "relative difference between this solution and an integration in time steps, at this time"}}});
+        {"JSON `by_steps` {`difference`, `time`, `error`, `confirmed`}", "",
+         "relative difference between this solution and an integration in time steps, at this time. error: estimated "
+         "error of the steps. confirmed: false if the difference exceeds 1e-11 and ten times this error"}}});
 }
 
 }  // namespace contensou::answers

@@ -31,8 +31,9 @@ reduction::SmoothField SystemOption::read(const std::map<std::string, double>& p
 
 reduction::PlanarReduction SystemOption::solve(const reduction::SmoothField& field,
                                                const Eigen::Vector2d& around) const {
-  SolvedPlane solved = solve_planar(field, reduction::find_symmetries(field.value, around), around);
-  return solved.plane ? *std::move(solved.plane) : reduction::by_steps(field.value);
+  SolvedPlane solved =
+      solve_planar(field, reduction::find_symmetries(field, reduction::sampled_about(field, around)), around);
+  return solved.plane ? *std::move(solved.plane) : reduction::by_steps(field);
 }
 
 }  // namespace contensou::program

@@ -255,6 +255,7 @@ TEST_CASE("No V is found for systems that have none", "[factor]") {
     CHECK(reduction.tried().size() == 8);
   }
   const auto none = [](const Formulas& field, const Vector2d& start) {
+    CAPTURE(start);
     const FactorReduction reduction = reduced(field, start);
     CHECK(reduction.form() == "");
     CHECK_THROWS_WITH(reduction.reduction(), Contains("no inverse integrating factor was found"));

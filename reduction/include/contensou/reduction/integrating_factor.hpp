@@ -14,28 +14,13 @@
 
 namespace contensou::reduction {
 
-/// The functions whose sums are tried for the inverse integrating factor V, a solution of f . grad V = V div f.
-struct Basis {
-  std::vector<std::string> names;
-  /// Returns the values of all functions at x. Row i belongs to names[i]; the columns are value, d/du and d/dv.
-  std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> values = {};
-  static constexpr int most = 45;
-};
+/// Returns the length by which u and v are divided before a field is sampled: the larger of |u| and |v| at the start.
+/// For a start at 0 it is the distance to the nearest zero of a component or switching function, else 1.
+double length_scale(const SmoothField& field, const Eigen::Vector2d& start);
 
-/// A field f with its Jacobian. At a point without a value the field throws or returns a number that is not finite.
-struct SmoothField {
-  PlanarField value;
-  /// The derivatives of f, exact except for rounding; row 0 belongs to u'. If empty, differences replace the Jacobian.
-  std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
-  /// The denominator D with its derivatives by u and v, if f is a quotient N/D. V D can have a form even if V has none.
-  std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
-  /// If the basis is not empty, V is sought only among sums of these functions.
-  Basis basis = {};
-  /// The switching functions with their derivatives, one row each: value, d/du, d/dv. Between their zeros f is smooth.
-  /// Their number is the same at every point. A value is NaN where the function has none. Where a switching function
-  /// changes its sign or touches 0, f may jump, have a kink or end. If empty, the places are found by comparing sides.
-  std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> switches = {};
-};
+/// Returns the point whose coordinates set the scale of the samples of a field: the start, or for a start at 0 the
+/// point (s, s) with s = length_scale(field, start).
+Eigen::Vector2d sampled_about(const SmoothField& field, const Eigen::Vector2d& start);
 
 /// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
 struct TriedForm {

@@ -101,7 +101,7 @@ class PlanarReduction {
   /// @param noise    relative error of the field's values (PlanarSymmetries::residual)
   /// @throws std::domain_error  unless all eigenvalues of A have positive real parts; for a field without values
   /// @throws UndecidedRays      if T comes near to 0 and its values do not show whether it vanishes there
-  PlanarReduction(PlanarField field, const Generator& scaling, const Eigen::Vector2d& around, double noise = 0);
+  PlanarReduction(SmoothField field, const Generator& scaling, const Eigen::Vector2d& around, double noise = 0);
 
   struct Solution;  // planar/solution.hpp
   explicit PlanarReduction(std::shared_ptr<const Solution> solution);
@@ -109,7 +109,7 @@ class PlanarReduction {
   /// Returns the method of the solution: "scaling", or a form of FactorReduction.
   std::string_view form() const;
 
-  const PlanarField& field() const;
+  const SmoothField& field() const;
 
   /// Returns V, an inverse integrating factor: f . grad V = V div f. For a scaling, V is f ^ (A (x - x_0)).
   /// @throws std::domain_error  if x is not finite, or V is not known at x
@@ -156,8 +156,8 @@ class PlanarReduction {
   /// @throws std::domain_error  if x is not finite, or the field has no value there
   PlanarEnd end(const Eigen::Vector2d& x) const;
 
-  /// Returns the time until the end: 0 at the centre; infinity if the motion never ends. For a motion to a border the
-  /// result is infinity if a scaling solves the system; if V alone does, the time at the border, or NaN if undecided.
+  /// Returns the time until the end, also until a border: 0 for a motion that stays at the centre; infinity if the
+  /// motion never ends; NaN if the end is not decided.
   double end_time(const Eigen::Vector2d& x) const;
 
   /// Returns an estimate of the relative error of end_time(x): eight times the difference from a second solution, by

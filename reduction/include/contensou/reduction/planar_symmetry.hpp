@@ -3,6 +3,9 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,6 +17,44 @@ namespace contensou::reduction {
 
 /// The right side f of x' = f(x) in the plane. At a point without a value, f throws or the result is not finite.
 using PlanarField = std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>;
+
+/// The functions whose sums are tried for the inverse integrating factor V, a solution of f . grad V = V div f.
+struct Basis {
+  std::vector<std::string> names;
+  /// Returns the values of all functions at x. Row i belongs to names[i]; the columns are value, d/du and d/dv.
+  std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> values = {};
+  static constexpr int most = 45;
+};
+
+/// A field f with its Jacobian. At a point without a value the field throws or returns a number that is not finite.
+struct SmoothField {
+  SmoothField() = default;
+  /// A field that is given by a function of a point, and perhaps by its Jacobian.
+  template <class Function>
+  requires(std::is_invocable_r_v<Eigen::Vector2d, const Function&, const Eigen::Vector2d&> &&
+           !requires(const Function& f) { f.operator SmoothField(); })
+      SmoothField(  // NOLINT(google-explicit-constructor): a function is a field
+          Function f, std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> slopes = {})
+      : value(std::move(f)), jacobian(std::move(slopes)) {}
+
+  Eigen::Vector2d operator()(const Eigen::Vector2d& x) const { return value(x); }
+
+  PlanarField value;
+  /// The derivatives of f, exact except for rounding; row 0 belongs to u'. If empty, differences replace the Jacobian.
+  std::function<Eigen::Matrix2d(const Eigen::Vector2d& x)> jacobian = {};
+  /// The denominator D with its derivatives by u and v, if f is a quotient N/D. V D can have a form even if V has none.
+  std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
+  /// If the basis is not empty, V is sought only among sums of these functions.
+  Basis basis = {};
+  /// The switching functions with their derivatives, one row each: value, d/du, d/dv. Between their zeros f is smooth.
+  /// Their number is the same at every point. A value is NaN where the function has none. Where a switching function
+  /// changes its sign or touches 0, f may jump, have a kink or end. If empty, the places are found by comparing sides.
+  std::function<Eigen::MatrixX3d(const Eigen::Vector2d& x)> switches = {};
+  /// Returns the field that equals f about x and continues f smoothly beyond the zeros of the switching functions:
+  /// there abs, sign, min, max and comparisons keep the choice that they make at x. If empty, f is its own
+  /// continuation.
+  std::function<SmoothField(const Eigen::Vector2d& x)> branch = {};
+};
 
 /// The generator X = c t d/dt + (A x + b) . d/dx of a one-parameter group that acts on time and plane.
 struct Generator {
@@ -78,7 +119,7 @@ struct PlanarSymmetries {
 ///                the origin, in evenly spaced directions, denser towards the axes
 /// @throws std::domain_error  if `around` is not finite or 0; if the field is 0; if the field has values at too few
 ///                            points, with the message of the field's first exception
-PlanarSymmetries find_symmetries(const PlanarField& field, const Eigen::Vector2d& around);
+PlanarSymmetries find_symmetries(const SmoothField& field, const Eigen::Vector2d& around);
 
 /// Returns the right side of the equations of motion (2.6) as a field of x = (u, v); v < 0 is the mirror image.
 PlanarField planar_field(const ReducedSystem& system);
