@@ -73,7 +73,9 @@ void bind_planar(py::module_& module) {
                   })
       .def_static("of_text",
                   [](const std::string& text, const std::map<std::string, double>& parameters, double u, double v) {
-                    return Planar(answers::parse_planar_system(text, parameters), {u, v});
+                    return Planar(
+                        with_signals(answers::parse_planar_system(text, parameters), std::make_shared<Interruption>()),
+                        {u, v});
                   })
       .def_static("of_flow",
                   [](const reduction::Flow& flow) {

@@ -96,7 +96,13 @@ void stop_times(const Flow& flow, const Numbers& u, const Numbers& v, py::array_
   const double* const vs = v.data();
   double* const taus = out.mutable_data();
   const py::gil_scoped_release released;
-  flow.stop_times({us, count}, {vs, count}, {taus, count}, threads);
+  Interruption interruption;
+  constexpr std::size_t most = 1'000'000;  // starts between two looks for signals
+  for (std::size_t i = 0; i < count; i += most) {
+    const std::size_t part = std::min(most, count - i);
+    flow.stop_times({us + i, part}, {vs + i, part}, {taus + i, part}, threads);
+    interruption.look();
+  }
 }
 
 /// Returns rows of tau and of its derivatives by u, v, mu, chi, gamma and drive. An invalid start gives NaN in all
@@ -110,7 +116,9 @@ py::array_t<double> stop_time_gradients(const Numbers& u, const Numbers& v, Grad
   const double* const us = u.data();
   const double* const vs = v.data();
   const py::gil_scoped_release released;
+  Interruption interruption;
   for (py::ssize_t i = 0; i < count; ++i) {
+    interruption.check();
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const reduction::State start{us[i], vs[i]};
     const bool at_rest = start.u == 0 && start.v == 0;
@@ -132,7 +140,9 @@ void stop_times_of_mus(const reduction::StopTimesOfMu& stop_time, const Numbers&
   const double* const vs = v.data();
   double* const taus = out.mutable_data();
   const py::gil_scoped_release released;
+  Interruption interruption;
   for (std::size_t i = 0; i < count; ++i) {
+    interruption.check();
     const reduction::State start{us[i], vs[i]};
     taus[i] = is_state(start) ? stop_time(mus[i], start) : std::numeric_limits<double>::quiet_NaN();
   }

@@ -34,7 +34,11 @@ class Interruption {
  public:
   /// @throws py::error_already_set  KeyboardInterrupt, or another exception of a handler in Python
   void check() {
-    if (++asked_ % 64 != 0) return;
+    if (++asked_ % 64 == 0) look();
+  }
+
+  /// Looks, unless it has looked less than 0.1 s before.
+  void look() {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < std::chrono::milliseconds(100)) return;
     looked_ = now;
