@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <ctime>
 #include <limits>
+#include <random>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -153,5 +158,39 @@ TEST_CASE("from its stop on a body under a load that changes stands still", "[ed
     CHECK(at.velocity == Eigen::Vector2d(0, 0));
     CHECK(at.angular_velocity == Eigen::Vector3d(0, 0, 0));
     CHECK(at.position.x() == Approx(motion.slip_length()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a log of the load that is longer than the slide costs no more than the slide", "[cost]") {
+  // A load cell writes a row in each millisecond. The slide ends at some place in the log, or after it.
+  const reduction::Law law = *reduction::find_law("uniform");
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> noise(-0.05, 0.05);
+  for (const bool noisy : {false, true}) {
+    std::vector<double> t, load;
+    for (int i = 0; i < 3000; ++i) {
+      t.push_back(i * 1e-3);
+      load.push_back(2 + (noisy ? noise(random) : 0.01 * std::sin(i / 20.0)));
+    }
+    const auto moved = [&](std::size_t rows) {
+      const auto count = static_cast<std::ptrdiff_t>(rows);
+      const std::clock_t begin = std::clock();
+      const Motion motion =
+          Motion::reduced(pressed("puck", {.slip = 2, .spin = 30}), law,
+                          LoadHistory({t.begin(), t.begin() + count}, {load.begin(), load.begin() + count}));
+      return std::tuple{motion.stop_time(), motion.slip_length(), motion.spin_angle(), std::clock() - begin};
+    };
+    const auto [stop, length, angle, cost] = moved(3000);
+    REQUIRE(stop > 1.3);
+    REQUIRE(stop < 2.9);
+    // Below, the log ends before the slide, and its last load lasts.
+    const auto cost_of_part = std::get<3>(moved(1201));
+    CHECK(static_cast<double>(cost) < 4 * static_cast<double>(cost_of_part));
+    // Rows after the stop change nothing.
+    const auto last = static_cast<std::size_t>(stop * 1000) + 2;
+    const auto [same_stop, same_length, same_angle, unused] = moved(last);
+    CHECK(same_stop == stop);
+    CHECK(same_length == length);
+    CHECK(same_angle == angle);
   }
 }
