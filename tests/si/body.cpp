@@ -72,6 +72,12 @@ TEST_CASE("a body of any inertia moves the same by both routes", "[route]") {
 TEST_CASE("no body has more inertia than with all of its mass at its radius", "[domain]") {
   CHECK_THROWS_WITH(Body{}.with_factor(0.7), Contains("at most 2/3, as of a hollow-ball with R the radius; got 0.7"));
   CHECK_THROWS_WITH(with_inertia("puck", 1.1), Contains("at most 1, as of a ring"));
+  for (const double rounded : {0.667, 0.6667, 0.66666666667, 2.0 / 3}) {
+    CHECK(Body{}.with_factor(rounded).inertia.chi == Approx(2.5).epsilon(1e-15));
+    CHECK(Body{}.with_factor(rounded).factor == 2.0 / 3);
+  }
+  CHECK(Body{}.with_factor(0.6666).factor == 0.6666);
+  CHECK_THROWS_AS(Body{}.with_factor(0.668), std::domain_error);
   CHECK_THROWS_AS(Body{}.with_factor(0), std::domain_error);
   CHECK_THROWS_AS(Body{}.with_factor(NAN), std::domain_error);
 }

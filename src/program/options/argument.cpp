@@ -76,6 +76,11 @@ std::string_view known_unit(std::string_view symbol) {
 
 double parse_quantity(const std::string& typed, std::string_view symbol) {
   const si::Dimension* dimension = si::find_dimension(symbol);
+  if (const std::size_t bar = typed.find('/'); dimension == nullptr && bar != std::string::npos) {
+    const double fraction = parse_number(typed.substr(0, bar)) / parse_number(typed.substr(bar + 1));
+    if (!std::isfinite(fraction)) throw BadInput("{} is not a finite number", quotation(typed));
+    return fraction;
+  }
   if (dimension == nullptr || is_number(typed)) return parse_number(typed);
   const double value = si::parse_quantity(typed, *dimension).value_or(NAN);
   if (std::isfinite(value)) return value;

@@ -93,7 +93,7 @@ inline auto whole_number(long lowest, long highest) {
 }
 
 /// Reads a number and returns it in a unit. Behind the typed number, any unit of the same kind may stand.
-/// @param symbol  symbol of the unit (si::dimensions); empty for a pure number
+/// @param symbol  symbol of the unit (si::dimensions); empty for a pure number, which may be a fraction such as 2/3
 double parse_quantity(const std::string& typed, std::string_view symbol);
 /// @throws std::logic_error  unless the text is a symbol in si::dimensions
 std::string_view known_unit(std::string_view symbol);

@@ -9,6 +9,8 @@ namespace contensou::si {
 Body Body::with_factor(double of_m_R2) const {
   const bool flat = lies_flat();
   const double most = flat ? 1 : 2.0 / 3;
+  constexpr double rounding = 1e-3;  // 0.667 is 2/3, which has no decimals that end
+  if (of_m_R2 > most && of_m_R2 <= most * (1 + rounding)) of_m_R2 = most;
   if (!(of_m_R2 > 0 && of_m_R2 <= most)) {
     throw std::domain_error(fmt::format(
         "the inertia of a {}, over m R^2, must be above 0 and at most {}, as of a {} with R the radius; got {}", name,

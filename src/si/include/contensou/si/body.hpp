@@ -23,7 +23,9 @@ struct Body {
 
   /// Returns the body with a moment of inertia of factor m R^2, about any axis of a ball or about the vertical of a
   /// body that lies flat. R is the largest radius with mass; this bounds the factor.
-  /// @throws std::domain_error  unless 0 < factor <= 2/3, or 0 < factor <= 1 for a body that lies flat
+  /// @param of_m_R2  factor, above 0; at most 2/3, or 1 for a body that lies flat. A factor beyond this limit by up to
+  ///                 0.1 % is the limit, rounded
+  /// @throws std::domain_error  for any other factor
   Body with_factor(double of_m_R2) const;
 
   /// Returns the reason why mu is impossible for the body; empty if it is possible.
