@@ -14,16 +14,18 @@ si::LoadHistory read_load_history(const std::string& path) {
   CsvReader table(path);
   const SiColumn time = require_column(table, "t", "s"), load = require_column(table, "load", "N");
   std::vector<double> t, newtons;
-  long last = table.header_line();
+  std::vector<long> lines;
   table.for_each_row([&](const CsvRow& row) {
     t.push_back(time.factor * table.number(row, time.column));
     newtons.push_back(load.factor * table.number(row, load.column));
-    last = row.line();
+    lines.push_back(row.line());
   });
   try {
     return {std::move(t), std::move(newtons)};
+  } catch (const si::WrongLoad& error) {
+    throw table.complaint(lines[error.row], error.what());
   } catch (const std::domain_error& error) {
-    throw table.complaint(last, error.what());
+    throw table.complaint(lines.empty() ? table.header_line() : lines.back(), error.what());
   }
 }
 

@@ -16,9 +16,9 @@ LoadHistory::LoadHistory(std::vector<double> t, std::vector<double> load) : t_(s
     throw std::domain_error("a load that changes has two instants or more, and a load for each");
   for (std::size_t i = 0; i < t_.size(); ++i) {
     if (!(std::isfinite(t_[i]) && (i == 0 ? t_[i] == 0 : t_[i] >= t_[i - 1])))
-      throw std::domain_error(fmt::format("t must begin with 0 and not decrease, in s; got {}", t_[i]));
+      throw WrongLoad(i, fmt::format("t must begin with 0 and not decrease, in s; got {}", t_[i]));
     if (!(std::isfinite(load_[i]) && load_[i] >= 0))
-      throw std::domain_error(fmt::format("a load must be 0 or more, in N; got {}", load_[i]));
+      throw WrongLoad(i, fmt::format("a load must be 0 or more, in N; got {}", load_[i]));
     if (nominal_ == 0) nominal_ = load_[i];
   }
   if (nominal_ == 0) throw std::domain_error("the load is 0 at every instant: nothing presses the body down");

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "run_program.hpp"
@@ -59,6 +63,18 @@ TEST_CASE("columns of a bounce stand apart, and its angle is right at any speed"
   }
 }
 
+TEST_CASE("a hollow ball has the inertia 2/3, as a fraction or rounded", "[cli][bounce]") {
+  const auto after = [](const std::string& inertia) {
+    return json_of("bounce --ball basketball --speed 1 --normal-speed 2 --restitution 0.8 --format json --inertia " +
+                   inertia)
+        .at("after");
+  };
+  for (const std::string inertia : {"0.667", "0.6667", "0.6666666667", "4/6"}) CHECK(after(inertia) == after("2/3"));
+  check_rejected("bounce --ball basketball --speed 1 --normal-speed 2 --restitution 0.8 --inertia 2/0", "not a finite");
+  check_rejected("bounce --ball basketball --speed 1 --normal-speed 2 --restitution 0.8 --inertia 2/x", "'x' is not a");
+  check_rejected("bounce --ball basketball --speed 1 --normal-speed 2 --restitution 0.8 --inertia 0.67", "at most 2/3");
+}
+
 TEST_CASE("stop and orbit follow a load that changes, as roll does", "[cli][load]") {
   const TemporaryDirectory folder;
   const std::string table = folder.file("lift.csv");
@@ -77,6 +93,23 @@ TEST_CASE("stop and orbit follow a load that changes, as roll does", "[cli][load
     CHECK(std::stod(at[1][8]) == Approx(std::stod(orbit_rows[2][2])).epsilon(1e-9).margin(1e-12));
     CHECK(std::stod(orbit_rows[3][6]) == Approx(t).epsilon(1e-12));
   }
+  // An error names the row in which it stands, also below comments and empty lines.
+  const std::vector<std::pair<std::string, std::string>> wrong_rows{{"2,-0.8", "a load must be 0 or more"},
+                                                                    {"0.5,0.8", "t must begin with 0 and not decrease"},
+                                                                    {"1e400,1", "t: "},
+                                                                    {"2,inf", "load: "}};
+  for (const auto& [wrong, words] : wrong_rows) {
+    for (const int row : {0, 1, 40}) {
+      std::string text = "# a load cell\n\nt,load\n0,1.6\n1,0.8\n";
+      for (int i = 0; i < row; ++i) text += fmt::format("{},1\n{}", 1 + i * 1e-3, i % 7 == 3 ? "# a comment\n" : "");
+      const auto line = std::ranges::count(text, '\n') + 1;
+      write_file(table, text + wrong + "\n3,1\n4,1\n");
+      check_rejected("roll --ball puck --load " + table, fmt::format("lift.csv:{}: {}", line, words));
+    }
+  }
+  write_file(table, "t,load\n2,1\n3,1\n");
+  check_rejected("roll --ball puck --load " + table, "lift.csv:2: t must begin with 0");
+  write_file(table, "t,load\n0,2\n1,4\n1,1\n1.2,1\n");
   check_rejected("stop --ball steel --load " + table, "grows with the load");
   check_rejected("orbit --ball puck --slope -2 --load " + table, "a load and a slope exclude each other");
   check_rejected("orbit --ball pool --rolling-friction 0.01 --load " + table, "leave out the rolling friction");

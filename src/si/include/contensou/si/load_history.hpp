@@ -1,8 +1,17 @@
 #pragma once
 
+#include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace contensou::si {
+
+/// A time or a load that no LoadHistory can have.
+struct WrongLoad : std::domain_error {
+  WrongLoad(std::size_t wrong, const std::string& message) : std::domain_error(message), row(wrong) {}
+  std::size_t row;  ///< its place among the times, counted from 0
+};
 
 /// A load that changes in time: linear between given times, and constant after the last.
 ///
@@ -12,7 +21,8 @@ class LoadHistory {
  public:
   /// @param t     times, s, from 0 on, not decreasing; two equal times are a jump
   /// @param load  load at each time, N, >= 0
-  /// @throws std::domain_error  unless there are two or more times, all numbers are finite, and one load is positive
+  /// @throws WrongLoad          for the first time or load that is not allowed
+  /// @throws std::domain_error  unless there are two or more times, each with a load, and one load is positive
   LoadHistory(std::vector<double> t, std::vector<double> load);
 
   /// Returns the first positive load, N.
