@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/tangent.hpp"
 
 namespace contensou::reduction {
 
@@ -21,19 +22,21 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
       drive_(drive),
       chart_(chart),
       to_rest_(reaches_rest(chart, drive)),
+      by_differences_(tangent_error(law) > 0),
       m_(sliding_solution(law, r, chart, drive)),
       by_v_(std::make_unique<const Later<RegularSolution>>()),
       by_r_(sliding_equation(law, r, chart, drive, to_rest_,
                              [&](double k) {
                                const Place place = Place::at(law, k);
-                               const double m = m_(place.ln_k), by_v = by_speeds(place, m / share(k), 0).v;
+                               const double m = m_(place.ln_k), by_v = by_speeds(place, m / share(k), k_m(k, m)).v;
                                return k * place.friction.moment * (share(k) * by_v - m);
                              })),
       // At v = 0 any drive, however small, moves the body, so dm/drho can grow like 1/k as k -> 0.
       by_drive_(sliding_equation(law, r, chart, drive, true,
                                  [&](double k) {
                                    const Place place = Place::at(law, k);
-                                   return k / (1 + k) * by_speeds(place, m_(place.ln_k) / share(k), 0).v;
+                                   const double m = m_(place.ln_k);
+                                   return k / (1 + k) * by_speeds(place, m / share(k), k_m(k, m)).v;
                                  })),
       solved_from_(infinity) {
   const double from = chart.log_terminal_ratio(), to = chart.log_far_ratio();
@@ -47,9 +50,9 @@ SlidingDerivatives::SlidingDerivatives(const Law& law, double r, const TerminalC
   solved_from_ = solved_from;
 }
 
-bool SlidingDerivatives::is_clear(double force, double drag) {
+bool SlidingDerivatives::is_clear(double force, double drag, double drive) {
   constexpr double clear = 0.01;
-  return std::abs(force - drag) > clear * std::max(force, drag);
+  return std::abs(force - drive - drag) > clear * std::max(force, drag);
 }
 
 SlidingDerivatives::BySpeeds SlidingDerivatives::by_m(const Place& place, double r, double moment, double m) {
@@ -59,18 +62,27 @@ SlidingDerivatives::BySpeeds SlidingDerivatives::by_m(const Place& place, double
 }
 
 SlidingDerivatives::BySpeeds SlidingDerivatives::by_speeds(const Place& place, double m, double k_m) const {
-  const double moment = law_.pivoting_moment();
-  if (drive_ == 0 && is_clear(place.friction.force, r_ * (place.k * place.friction.moment)))
-    return by_m(place, r_, moment, m);
-  const double by_v = by_v_->made([&] { return by_sliding_speed(law_, r_, chart_, drive_); })(place.ln_k);
+  const double moment = law_.pivoting_moment(), drag = r_ * (place.k * place.friction.moment);
+  const bool algebraic = is_algebraic(place);
+  if (drive_ == 0 && algebraic) return by_m(place, r_, moment, m);
+  // m + m' = (Delta - r Psi k m)/D, in which k m has a limit at k = 0
+  const double by_v =
+      algebraic ? (place.moment_deficit - r_ * place.friction.moment * k_m) / (place.friction.force - drive_ - drag)
+                : by_v_->made([&] { return by_sliding_speed(law_, r_, chart_, drive_); })(place.ln_k);
   return {1 / (r_ * moment) + (k_m - place.k * by_v), by_v};
+}
+
+bool SlidingDerivatives::is_algebraic(const Place& place) const {
+  return (drive_ == 0 || by_differences_) &&
+         is_clear(place.friction.force, r_ * (place.k * place.friction.moment), drive_);
 }
 
 SlidingDerivatives::Values SlidingDerivatives::at(const Place& place, std::optional<double> closed_m) const {
   const auto [k, ln_k, friction, deficit] = place;
   const double m = closed_m ? *closed_m : m_(ln_k) / share(k);
-  const BySpeeds by = by_speeds(place, m, to_rest_ ? m_(ln_k) * (1 + k) : k * m);  // k m has a limit at k = 0
-  return {.by_w = k > solved_from_ ? (*by_w_)(ln_k) : by.w,
+  const BySpeeds by = by_speeds(place, m, to_rest_ ? k_m(k, m_(ln_k)) : k * m);
+  const double solved_from = is_algebraic(place) ? std::max(solved_from_, fast_slide) : solved_from_;
+  return {.by_w = k > solved_from ? (*by_w_)(ln_k) : by.w,
           .by_v = by.v,
           .by_r = by_r_(ln_k) * (to_rest_ ? 1 : k / (1 + k)),
           .by_drive = by_drive_(ln_k)};

@@ -15,9 +15,9 @@ namespace contensou::reduction {
 
 /// The derivatives of the scaled stop time s along one chart.
 ///
-/// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, under a
-/// drive, and in a fast slide for the derivative by w. In these cases equation (R57) is solved. The derivatives by r
-/// and rho need one equation each, (R58).
+/// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, and in
+/// a fast slide for the derivative by w. In these cases, and under a drive unless the law's slopes are differences,
+/// equation (R57) is solved. The derivatives by r and rho need one equation each, (R58).
 class SlidingDerivatives {
  public:
   /// @throws std::domain_error  as sliding_solution
@@ -45,8 +45,10 @@ class SlidingDerivatives {
   /// From this k on, 1/(r Psi(0)) - k m' loses more and more digits of ds/dw.
   static constexpr double fast_slide = 1e3;
 
-  /// Returns true if D = Phi - r k Psi has enough digits for m' = (1 - Psi/Psi(0) - F m)/D; force = F, drag = r k Psi.
-  static bool is_clear(double force, double drag);
+  /// Returns true if D = Phi - rho - r k Psi has enough digits for m' = (1 - Psi/Psi(0) - F m)/D.
+  /// @param force  Phi
+  /// @param drag   r k Psi
+  static bool is_clear(double force, double drag, double drive = 0);
 
   struct BySpeeds {
     double w, v;
@@ -57,16 +59,23 @@ class SlidingDerivatives {
   static BySpeeds by_m(const Place& place, double r, double moment, double m);
 
  private:
-  /// @param k_m  the product k m; only ds/dw needs it
+  /// @param k_m  the product k m, which has a limit at k = 0
   BySpeeds by_speeds(const Place& place, double m, double k_m) const;
+
+  /// Returns true if ds/dv follows from m. Slopes by differences are wrong next to a kink, and (R57) needs slopes.
+  bool is_algebraic(const Place& place) const;
 
   /// Returns m_ divided by m: k/(1 + k), or 1.
   double share(double k) const { return to_rest_ ? k / (1 + k) : 1; }
+
+  /// Returns k m from m_ at this k.
+  double k_m(double k, double m) const { return to_rest_ ? m * (1 + k) : k * m; }
 
   Law law_;
   double r_, drive_;
   TerminalChart chart_;
   bool to_rest_;
+  bool by_differences_;  ///< true if slopes of the law are differences
   RegularSolution m_;
   std::unique_ptr<const Later<RegularSolution>> by_v_;  ///< solved at its first use
   RegularSolution by_r_, by_drive_;

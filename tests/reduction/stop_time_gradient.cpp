@@ -21,6 +21,7 @@
 #include "contensou/reduction/instant_gradient.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/slip.hpp"
 
 using namespace contensou::reduction;
 
@@ -108,6 +109,43 @@ TEST_CASE("the gradient agrees with differences, for every law", "[gradient][rou
       CHECK(error_of(law, asked) < 2e-9);
       const StopTimeGradient found = asked.flow(law).stop_time_gradient({asked.u, asked.v});
       CHECK(asked.u * found.by_u + asked.v * found.by_v == Approx(found.tau).epsilon(1e-9));  // Euler's theorem
+    }
+  }
+}
+
+TEST_CASE("derivatives by the speeds have all digits beside kinks, with a drive, too", "[gradient][drive]") {
+  // s = tau (scaled) gives k m = (s - w/(r Psi(0)))/w, and ds/dv = (Delta - r Psi k m)/D needs no slopes of the law.
+  std::mt19937_64 random(7);
+  const auto between = [&](double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random));
+  };
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  for (const char* name : {"annulus:0.5", "soft:1", "uniform"}) {
+    const Law law = *find_law(name);
+    for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 30 : 6); ++i) {
+      const Question asked{.u = 1,
+                           .v = 0,
+                           .mu = between(1e-2, 1),
+                           .chi = i % 2 == 0 ? 3.5 : 1,
+                           .gamma = 2.5,
+                           .drive = i % 3 == 0 ? 0 : between(1e-4, 0.5)};
+      const Flow flow = asked.flow(law);
+      const double r = flow.system().r(), rate = flow.system().scaled_time_rate();
+      for (const double kink : {0.5, 1.0, between(1e-2, 1e2)}) {
+        for (const double beside : {0.0, -1e-10, 1e-10, -1e-4, 1e-4}) {
+          const double k = kink * (1 + beside), v = k * asked.mu;
+          const StopTimeGradient found = flow.stop_time_gradient({1, v});
+          const auto [force, moment] = law(slip_of_ratio(k));
+          const double difference = force - asked.drive - r * k * moment;
+          if (std::abs(difference) < 0.02 * std::max(force, r * k * moment)) continue;  // beside a ray
+          const long double km =
+              static_cast<long double>(found.tau) * rate / asked.mu - 1 / (r * law.pivoting_moment());
+          const auto by_v = static_cast<double>((law.moment_deficit(slip_of_ratio(k)) - r * moment * km) / difference);
+          INFO(name << ": k = " << k << ", " << asked.text());
+          CHECK(std::abs(v * (found.by_v - by_v / rate)) <= 100 * eps * found.tau);
+          CHECK(std::abs(found.by_u + v * found.by_v - found.tau) <= 100 * eps * found.tau);
+        }
+      }
     }
   }
 }
