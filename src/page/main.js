@@ -11,7 +11,7 @@ import { Hero } from "./hero/hero.js";
 import { loadLibrary } from "./library.js";
 import { shown } from "./numbers.js";
 import { makeOrbits } from "./controls/orbits.js";
-import { fromFragment, speaksOfNothing, strangeBall } from "./state/page_state.js";
+import { fromFragment, speaksOfNothing } from "./state/page_state.js";
 import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
@@ -25,7 +25,9 @@ import { makeTour } from "./controls/tour.js";
 
 function start(library) {
   const opens = speaksOfNothing(location.hash, library);
-  const store = new Store(library, fromFragment(location.hash, library));
+  /** @type {string[]} */
+  const problems = [];
+  const store = new Store(library, fromFragment(location.hash, library, problems));
   store.moves = !isStill();
   store.tell = (problem) => {
     if (problem) store.show();
@@ -97,9 +99,7 @@ function start(library) {
   addEventListener("afterprint", () => store.ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;
   $("first-picture").remove();
-  store.ask(() => {});
-  const strange = strangeBall(location.hash, library);
-  if (strange) store.tell(`There is no ball '${strange}'. Balls: ${library.balls.map(({ name }) => name).join(", ")}.`);
+  store.ask(() => {}, undefined, problems);
   // Who opens the page is asked; a link to a moment shows that moment, other links play.
   if (store.moves && opens && !store.state.embed) hero.ask();
   else if (store.state.fraction === 0) player.begin();

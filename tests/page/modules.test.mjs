@@ -94,6 +94,26 @@ test("every state comes back from its link", () => {
   for (const state of [...states, ball, { ...ball, line: 2, part: "whole", embed: true, lab: true, ball: { ...ball.ball, slope: -2 } }]) assert.deepEqual(fromFragment(`#${toFragment(state)}`, known), state);
 });
 
+test("what cannot be read in a link is told, and what can be read is not", () => {
+  const told = (link) => {
+    const problems = [];
+    fromFragment(link, known, problems);
+    return problems.join("\n");
+  };
+  for (const part of ["law=nonsense", "against=nonsense", "body=1", "mu=2", "mu=x", "view=none", "window=1", "window=0,1", "field=up", "isochrones=3", "part=none",
+    "orbits=x", "chosen=-1", "line=-1", "drop=x", "restitution=2", "step=9", "at=2", "isochrone=0", "theme=red", "friction=0.2"]) {
+    const [key] = part.split("=");
+    assert.match(told(key === "mu" ? part : `mu=0.3&${part}`), new RegExp(`^${part} of the link is left out: .+\\.$`), part);
+  }
+  for (const [key, value] of [["patchBy", "none"], ["friction", "-1"], ["radius", "0"], ["slope", "90"], ["rollingFriction", "-1"]]) {
+    assert.match(told(`ball=${gel.name}&${key}=${value}`), new RegExp(`^${key}=${value} of the link is left out: .+\\.$`));
+  }
+  assert.match(told("mu=0.3&orbits=x;1,-1;0.5,1"), /^orbits=x of .+\norbits=1,-1 of .+\.$/);
+  assert.match(told("ball=golf&orbits=1,2"), /^There is no ball 'golf'\. Balls: .*gel/);
+  assert.match(told(`law=${"x".repeat(5000)}`), /^law=x{60}… of the link/);
+  for (const link of ["", "#embed", "#utm_source=x", "mu=0.3&orbits=&at=0&theme=auto", ...presets.map(({ fragment }) => fragment).filter((fragment) => /gel|^$/.test(fragment))]) assert.equal(told(link), "", link);
+});
+
 test("what cannot be read in a link keeps its first value", () => {
   const first = initialState();
   for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "mu=0.3&at=2", "body=1", "body=1.5,2.5", "view=pair", "isochrones=3", "part=none", "mu=0.3&theme=red", "mu=0.3&step=9", "mu=0.3&line=1"]) {

@@ -23,8 +23,10 @@ export class Address {
     }
     addEventListener("hashchange", () => {
       clearTimeout(this.timer);
-      const asked = fromFragment(location.hash, store.library);
-      if (location.hash.slice(1) !== toFragment(store.state)) store.ask((state) => Object.assign(state, asked));
+      /** @type {string[]} */
+      const problems = [];
+      const asked = fromFragment(location.hash, store.library, problems);
+      if (location.hash.slice(1) !== toFragment(store.state)) store.ask((state) => Object.assign(state, asked), undefined, problems);
     });
   }
 

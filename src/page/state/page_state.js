@@ -64,10 +64,17 @@ function oneOf(names, text) {
 
 const namesOf = (entries) => entries.map(({ name }) => name);
 
-function readable(read, ...from) {
+/**
+ * What `read` makes of a text of a link, or undefined.
+ *
+ * @param {string[]} problems  gets a sentence on a text that cannot be read
+ */
+function readable(problems, key, text, read, ...from) {
   try {
-    return read(...from);
-  } catch {
+    return read(text, ...from);
+  } catch (error) {
+    const short = text.length > 60 ? `${text.slice(0, 60)}…` : text;
+    problems.push(`${key}=${short} of the link is left out: ${error.message.replace(/\.$/, "")}.`);
     return undefined;
   }
 }
@@ -80,7 +87,10 @@ const value = (name, first, read) => ({
 });
 const ofBall = (key, read) => ({
   write: ({ ball }) => (ball?.[key] === ball?.initial[key] ? null : ball[key]),
-  read: (text, _known, { ball }) => ball && { ball: { ...ball, [key]: read(text, ball) } },
+  read: (text, _known, { ball }) => {
+    if (!ball) throw new Error("only a real ball has it; add ball=pool, for example");
+    return { ball: { ...ball, [key]: read(text, ball) } };
+  },
 });
 
 /**
@@ -88,7 +98,7 @@ const ofBall = (key, read) => ({
  * the state is first; its text, or null for none; and what of the state a text decides.
  *
  * @type {Record<string, {first?: Partial<State>, write: (state: State) => unknown,
- *   read: (text: string, known: Library, state: State) => object | void | null}>}
+ *   read: (text: string, known: Library, state: State, problems: string[]) => object | void | null}>}
  */
 const parts = {
   body: {
@@ -124,7 +134,7 @@ const parts = {
     first: { orbits: [startOf(0.8, 3.5)] },
     write: ({ orbits }) => orbits.map(({ u, v, along, across, heading }) =>
       (heading ? [u, v, along, across, heading] : along === v && across === 0 ? [u, v] : [u, v, along, across])).join(";"),
-    read: (text) => ({ orbits: text.split(";").flatMap((start) => readable(startIn, start) ?? []) }),
+    read: (text, _known, _state, problems) => ({ orbits: (text ? text.split(";") : []).flatMap((start) => readable(problems, "orbits", start, startIn) ?? []) }),
   },
   chosen: value("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
   // The line to reach by spin alone; for a ball that rolls, the mark behind a stone. In m; 0 for none.
@@ -137,7 +147,7 @@ const parts = {
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },
   // The stop time of that which the reader has drawn; 0 for none.
   isochrone: value("isochrone", 0, (text) => numberOf("isochrone", text)),
-  theme: value("theme", "auto", (text) => oneOf(["light", "dark"], text)),
+  theme: value("theme", "auto", (text) => oneOf(["auto", "light", "dark"], text)),
   // Only the balls are shown, for a page around this one.
   embed: { ...value("embed", false, () => true), write: ({ embed }) => (embed ? 1 : null) },
   // All is shown, not the first floor alone. A link of what only the Lab shows opens it.
@@ -166,7 +176,7 @@ export function toFragment(/** @type {State} */ state) {
 const queryOf = (fragment) => new URLSearchParams(fragment.replace(/^#/, ""));
 
 /** The name of a ball in a link that the library does not have. */
-export function strangeBall(fragment, { balls }) {
+function strangeBall(fragment, { balls }) {
   const name = queryOf(fragment).get("ball");
   return name === null || namesOf(balls).includes(name) ? "" : name || "no name";
 }
@@ -178,16 +188,19 @@ export const speaksOfNothing = (fragment, known) => !motionParts.some((key) => q
  * The state of a fragment; what cannot be read in it keeps its first value.
  *
  * @param known  of library.js
+ * @param {string[]} problems  gets sentences on what cannot be read
  * @returns {State}
  */
-export function fromFragment(fragment, known) {
+export function fromFragment(fragment, known, problems = []) {
   const query = queryOf(fragment);
   const opens = speaksOfNothing(fragment, known);
+  const strange = strangeBall(fragment, known);
+  if (strange) problems.push(`There is no ball '${strange}'. Balls: ${namesOf(known.balls).join(", ")}.`);
   if (opens) motionParts.forEach((key) => query.delete(key));
   const state = opens ? fromFragment(opening, known) : initialState();
   state.lab = labParts.some((key) => query.has(key));
   for (const [key, { read }] of Object.entries(parts)) {
-    if (query.has(key)) Object.assign(state, readable(read, query.get(key), known, state));
+    if (query.has(key)) Object.assign(state, readable(problems, key, query.get(key) ?? "", read, known, state, problems));
   }
   const { mu, chi } = bodyOf(state, known);
   state.mu = mu ?? state.mu;

@@ -1,5 +1,5 @@
 // The state of the page, and all that follows from it: each value is computed once for what it depends on.
-import { bodyOf, initialState, startOf, toFragment } from "./page_state.js";
+import { bodyOf, fromFragment, initialState, startOf, takeBall, toFragment } from "./page_state.js";
 import { portraitRequest, shotOf } from "../plane/portrait_request.js";
 import { passageOf, rightOf, stoneOf } from "../hero/tries.js";
 import { rideOn } from "../hero/turning.js";
@@ -53,22 +53,22 @@ export class Store {
     for (const show of this.shows) show(this.state);
   }
 
-  /** Runs what may be rejected, and tells the reader. */
-  attempt(action) {
+  /** Runs what may be rejected, and tells the reader; besides, it tells the sentences `remarks`. */
+  attempt(action, remarks = []) {
     try {
       action();
-      this.tell("");
+      this.tell(remarks.join(" "));
     } catch (error) {
-      this.tell(error.message);
+      this.tell([error.message, ...remarks].join(" "));
     }
   }
 
   /** Changes the state as the reader asks for it. */
-  ask(edit, done = () => {}) {
+  ask(edit, done = () => {}, remarks = /** @type {string[]} */ ([])) {
     this.attempt(() => {
       this.change(edit);
       done();
-    });
+    }, remarks);
   }
 
   /** Changes the state; if the library rejects the new one, the old one stays and the reason is thrown. */
@@ -92,11 +92,17 @@ export class Store {
     this.changed(false);
   }
 
-  /** Opens what a link asked for and the library rejects: the motion alone, in a plain plane; or nothing of it. */
+  /**
+   * Opens what a link asked for and the library rejects: the motion alone, in a plain plane; or the body with its own
+   * start; or what the page opens with.
+   */
   openWithout(/** @type {State} */ asked) {
-    const first = initialState();
-    const { view, window, field, against } = first;
-    for (const state of [{ ...asked, view, window, field, against }, { ...first, lab: asked.lab }]) {
+    const { lab, theme, embed, body, law, mu } = asked;
+    const { view, window, field, against } = initialState();
+    const own = { ...initialState(), ...(asked.ball ? {} : { body, law, mu }) };
+    if (asked.ball) takeBall(own, asked.ball.initial);
+    for (const state of [{ ...asked, view, window, field, against }, own, fromFragment("", this.library)]) {
+      Object.assign(state, { lab, theme, embed });
       try {
         this.compute(state);
       } catch {
