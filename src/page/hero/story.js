@@ -67,7 +67,7 @@ const sentences = {
   together: (words) => [`This ${words.thing} slides hardly farther, and spins to the end`, two(words)],
   curves: (words) => [`The path of this ${words.thing} curves by ${shown(Math.abs(words.own.turned), 2)}°`,
     `Its slip of ${words.speed} does not point along its path. Friction acts against the slip and bends the path by ` +
-    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. Without spin the path would bend by ` +
+    `${shown(Math.abs(words.own.turned), 2)}° in ${words.far}; then it rolls straight on. Without the spin about the vertical it would bend by ` +
     `${shown(Math.abs(words.plain.turned), 2)}° in ${words.farPlain}.`],
   plain: (words) => ["Without spin, textbooks are right",
     `This ${words.name} ${words.leave.replace(/^\w+/, "$&s")} ${words.speed} and ${words.turns}: ` +
