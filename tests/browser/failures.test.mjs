@@ -149,6 +149,25 @@ test("a link that nobody can read opens the page all the same", async () => {
   await close();
 });
 
+test("a part of a link that cannot be read is told; a link that the library rejects shows the body with its own start", async () => {
+  for (const [fragment, part] of [["#mu=2&orbits=1,1", "mu=2"], ["#law=stribeck&mu=0.3&orbits=1,1", "law=stribeck"], ["#ball=pool&friction=-1", "friction=-1"],
+    ["#mu=0.3&law=phi=exp(1e9*k);psi=1", "law=phi=exp(1e9*k);psi=1"]]) {
+    await open(fragment);
+    assert.ok((await page.textContent("#problem")).startsWith(`${part} of the link is left out: `), fragment);
+    await close();
+  }
+  for (const [fragment, ball] of [["#ball=puck&orbits=1e308,1e308", "puck"], ["#ball=pool&slope=89", "pool"], ["#ball=gel&radius=1e-9", "gel"]]) {
+    await open(fragment);
+    assert.notEqual(await page.textContent("#problem"), "", fragment);
+    const asked = await state();
+    await page.evaluate((name) => (location.hash = `ball=${name}&lab=1`), ball);
+    await page.waitForFunction(() => document.getElementById("problem").textContent === "");
+    const plain = await state();
+    assert.deepEqual([asked.ball.name, asked.ball.radius, asked.ball.slope, asked.orbits], [ball, plain.ball.radius, 0, plain.orbits], fragment);
+    await close();
+  }
+});
+
 test("a link that the library rejects opens the page all the same, and says why", async () => {
   for (const fragment of ["#law=exact&mu=0.3&window=1e200,1&orbits=0.8,3.5", "#mu=0.3&orbits=1e200,1"]) {
     await open(fragment);

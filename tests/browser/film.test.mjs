@@ -276,6 +276,46 @@ test("a film has 60 pictures of 1280 x 720 a second on a machine of any speed, a
   await close();
 });
 
+/** Replaces the browser's encoder by one that hands each picture out after its next, as H.264 of Firefox, or loses some. */
+const strangeEncoder = (loses) => `{
+  const Real = VideoEncoder;
+  let held, count = 0;
+  globalThis.VideoEncoder = class extends Real {
+    constructor({ output, error }) {
+      super({ error, output: (...picture) => {
+        if (${loses}) return void (++count % 7 && output(...picture));
+        if (!held && picture[0].type === "delta") return void (held = picture);
+        output(...picture);
+        if (held) output(...held);
+        held = undefined;
+      } });
+      this.rest = () => held && output(...held);
+    }
+    async flush() {
+      await super.flush();
+      this.rest();
+    }
+  };
+}`;
+
+test("a film has all pictures if the encoder hands them out in another order, and is refused if it loses some", async () => {
+  await open("#ball=puck&orbits=2.286,0.5&at=1", {}, true, strangeEncoder(false));
+  const seconds = await page.evaluate(() => globalThis.page.player.seconds) + 2;
+  const film = await saved("#save-film");
+  const { kind, pictures, runs, rate } = readFilm(film);
+  assert.deepEqual({ kind, pictures, runs, rate }, { kind: "ftyp", pictures: 60 * seconds, runs: 1, rate: 60 });
+  // The offset of each picture from the time of its decoding: each time from `late` on is seen once.
+  const table = film.indexOf("ctts") + 8;
+  const offsets = Array.from({ length: film.readUInt32BE(table) }, (_, i) => [4, 8].map((at) => film.readUInt32BE(table + 8 * i + at)))
+    .flatMap(([count, offset]) => Array(count).fill(offset));
+  assert.deepEqual(offsets.map((offset, i) => i + offset).sort((a, b) => a - b), offsets.map((_, i) => i + 1));
+  await close();
+  await open("#ball=puck&orbits=2.286,0.5&at=1", {}, true, strangeEncoder(true));
+  await page.click("#save-film");
+  await page.waitForFunction(() => /could not be done: the browser's encoder lost pictures: \d+ of \d+ came/.test(document.getElementById("copied").textContent));
+  await close();
+});
+
 test("a film of a motion that is changed meanwhile is given up, and so is one of no motion", async () => {
   await open("#ball=puck&orbits=2.286,0.5");
   await page.click("#save-film");

@@ -25,13 +25,16 @@ async function encodingOf() {
  * @param seconds  that the motion lasts
  * @param draw     draws the motion on a surface, as it is after a share of the time
  * @param tell     is told after each second of the film how much of it is made, from 0 to 1
+ * @throws {Error}  if the browser's encoder fails, or returns fewer pictures than it was given
  */
 export async function filmOf(seconds, draw, tell) {
   const { name, config } = await encodingOf();
   const muxer = new Muxer({ target: new ArrayBufferTarget(), fastStart: "in-memory", video: { ...size, codec: name, frameRate: rate } });
   /** @type {Error | null} */
   let failure = null;
-  const encoder = new VideoEncoder({ output: (chunk, about) => muxer.addVideoChunk(chunk, about), error: (error) => (failure = error) });
+  /** @type {{chunk: EncodedVideoChunk, about: EncodedVideoChunkMetadata | undefined}[]} */
+  const pictures = [];
+  const encoder = new VideoEncoder({ output: (chunk, about) => pictures.push({ chunk, about }), error: (error) => (failure = error) });
   // Words are twice as large as on a canvas of these pixels.
   const surface = new CanvasSurface(make("canvas", size), { width: size.width / 2, height: size.height / 2 });
   const count = Math.round(rate * (seconds + rests));
@@ -52,6 +55,16 @@ export async function filmOf(seconds, draw, tell) {
   } finally {
     if (encoder.state !== "closed") encoder.close();
   }
+  if (failure) throw failure;
+  // H.264 of Firefox is in the order of decoding: a picture may come before one that is seen earlier. The file needs the
+  // times of both. `late` pictures pass before the first is seen.
+  const places = pictures.map(({ chunk }) => Math.round((chunk.timestamp * rate) / 1e6));
+  if (new Set(places).size !== count) throw new Error(`the browser's encoder lost pictures: ${places.length} of ${count} came`);
+  const late = places.reduce((most, place, i) => Math.max(most, i - place), 0);
+  pictures.forEach(({ chunk, about }, i) => {
+    const seen = (1e6 * (places[i] + late)) / rate;
+    muxer.addVideoChunk(chunk, about, seen, seen - (1e6 * i) / rate);
+  });
   muxer.finalize();
   return new Blob([muxer.target.buffer], { type: "video/mp4" });
 }
