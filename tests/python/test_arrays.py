@@ -39,6 +39,10 @@ def test_float32_gives_float32_rounded_once(function):
     with pytest.raises(ValueError, match=r"^out: float64 of shape \(3,.* is needed, got float32"):
         function(U, out=given_as_out(out))
     function(np.float32(U), out=given_as_out([np.zeros(each.shape) for each in exact]))  # no number is lost
+    for each in out:
+        each.flags.writeable = False
+    with pytest.raises(ValueError, match="^out: an array that may be written is needed; this one is read-only"):
+        function(np.float32(U), out=given_as_out(out))
 
 
 def test_float32_beside_double_is_double():

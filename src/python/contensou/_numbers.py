@@ -139,6 +139,8 @@ def target(out: Any, shape: tuple[int, ...], dtype: np.dtype[Any] = np.dtype(np.
         raise TypeError(f"out: an array of NumPy is needed, {words} of shape {shape}, got {type(out).__name__}")
     if out.shape != shape or out.dtype != dtype:
         raise ValueError(f"out: {words} of shape {shape} is needed, got {out.dtype} of shape {out.shape}")
+    if not out.flags.writeable:
+        raise ValueError("out: an array that may be written is needed; this one is read-only: pass a copy of it")
     return out
 
 
