@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -115,6 +118,24 @@ TEST_CASE("without an ending, what standard output would get", "[cli]") {
     } else {
       CHECK(run.status == 0);
       CHECK(read_file(file) == run_program(command, start_table).out);
+    }
+  }
+}
+
+TEST_CASE("without a file, numbers go to standard output and pictures to their default name", "[cli]") {
+  for (const auto& [command, noun, endings] : outputs) {
+    for (const std::string& ending : endings) {
+      const TemporaryDirectory scratch;
+      const std::string format = ending == "txt" ? "text" : ending;
+      std::istringstream words(command + " --format " + format);
+      const Run run = run_program({std::istream_iterator<std::string>(words), {}}, start_table,
+                                  [&] { std::filesystem::current_path(scratch.path()); });
+      INFO(command << " --format " << format << "\n" << run.err);
+      CHECK(run.status == 0);
+      const bool drawn = noun == "a portrait" && ending != "csv" && ending != "json";
+      CHECK(scratch.names() == (drawn ? std::vector<std::string>{"portrait." + ending} : std::vector<std::string>{}));
+      const std::string wanted = run_program(command + " -o - --format " + format, start_table).out;
+      CHECK((drawn ? read_file(scratch.file("portrait." + ending)) : run.out) == wanted);
     }
   }
 }

@@ -100,7 +100,10 @@ void OutputOptions::add(CLI::App& app) {
   }
   file_.add(app, "-o,--output", "FILE",
             fmt::format("output file (default {}); allowed endings: {}",
-                        usual.path == "-" ? "-, standard output" : usual.path, endings));
+                        usual.path == "-"                 ? "-, standard output"
+                        : is_one_of(usual.formats, "csv") ? usual.path + ", or -, standard output, for numbers"
+                                                          : usual.path,
+                        endings));
   app.option_defaults()->group(usual_group());
   format_.add(app, "--format", "FORMAT", "format of an output without an ending: " + formats);
   if (!has_text) return;
@@ -111,7 +114,7 @@ void OutputOptions::add(CLI::App& app) {
 
 Output OutputOptions::read(std::size_t place) const {
   const OutputKind& kind = kinds_.at(place);
-  const std::string path = file_.given() ? file_.text() : kind.path;
+  const std::string path = file_.given() ? file_.text() : default_path(kind);
   if (path.empty()) throw BadInput("-o '': a file name is needed, or - for standard output");
   const std::string format = read_format(kind, path);
   const bool has_rounded_text = is_one_of(kind.formats, "text") && is_one_of(kind.formats, "csv");  // not run files
@@ -124,6 +127,12 @@ Output OutputOptions::read(std::size_t place) const {
             : fmt::format("{} always has all digits: leave it out", kind.noun));
   }
   return {path, format, picture, {static_cast<int>(digits_.value_or(standard_digits))}};
+}
+
+std::string OutputOptions::default_path(const OutputKind& kind) const {
+  if (kind.path == "-" || !format_.given() || format_.text() == ending_of(kind.path)) return kind.path;
+  if (!portraits::find_picture_format(format_.text())) return "-";
+  return std::filesystem::path(kind.path).replace_extension(format_.text()).string();
 }
 
 std::string OutputOptions::read_format(const OutputKind& kind, const std::string& path) const {

@@ -55,7 +55,8 @@ class OutputOptions {
   void add(CLI::App& app);
 
   /// Reads the three options. The ending of the file sets the format; without an ending, --format sets the format;
-  /// without both, the kind of output has a default.
+  /// without both, the kind of output has a default. Without a file, --format also sets the ending of a picture's
+  /// default name, and numbers go to standard output.
   /// @throws BadInput  if the kind does not have the format, if ending and --format disagree, if a file needs an
   ///                   ending, or if --digits is given with a format other than text
   Output read(std::size_t place = 0) const;
@@ -63,6 +64,7 @@ class OutputOptions {
   const Argument& format_argument() const { return format_; }
 
  private:
+  std::string default_path(const OutputKind& kind) const;
   std::string read_format(const OutputKind& kind, const std::string& path) const;
 
   std::vector<OutputKind> kinds_;
