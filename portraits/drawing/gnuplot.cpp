@@ -255,7 +255,7 @@ class Script {
         axis.logarithmic ? "set" : "unset");
     std::vector<std::string> places;
     for (const auto& [at, text] : ticks)
-      places.push_back(fmt::format("{} {:.8g}", quoted(enhanced(text, tick_size)), at));
+      places.push_back(fmt::format("{} {:.8g}", text.empty() ? "''" : quoted(enhanced(text, tick_size)), at));
     if (ticks.empty())
       put("unset {}tics\n", which);
     else
@@ -288,9 +288,16 @@ class Script {
     put("set bmargin at screen {:.8g}\nset tmargin at screen {:.8g}\n", box.bottom / figure_.size.height_mm,
         (box.bottom + box.height) / figure_.size.height_mm);
     put("set border {} lw 0.8 lc {}\n", panel.bare ? 0 : 3, ink_);
-    axis("x", panel.x, place.x);
+    // gnuplot's terminals place the numbers of the x axis at different distances, SVG so far that they touch the name.
+    std::vector<Axis::Tick> unnumbered = place.x;
+    for (Axis::Tick& tick : unnumbered) tick.text = "";
+    axis("x", panel.x, unnumbered);
     axis("y", panel.y, place.y);
     put("unset label\n");
+    for (const auto& [at, text] : place.x) {
+      put("set label {} at {:.8g}, screen {:.8g} center tc {}\n", quoted(enhanced(text, tick_size)), at,
+          (box.bottom - tick_drop * layout_.letter) / figure_.size.height_mm, ink_);
+    }
     for (const auto& [point, text, label_colour, align] : panel.labels) {
       put("set label {} at {:.8g},{:.8g} {} front boxed tc {}\n", quoted(enhanced(text, label_size)), point.x, point.y,
           alignment(align), colour(label_colour));

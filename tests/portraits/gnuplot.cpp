@@ -1,12 +1,17 @@
 #include "contensou/portraits/gnuplot.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -129,6 +134,41 @@ TEST_CASE("A film has all its frames, and a mark is as wide on paper in every fo
   REQUIRE(scale != std::string::npos);
   const double wanted = 2 * portraits::mark_size * portraits::letter_mm(40);
   CHECK(2 * std::stod(svg.substr(scale + 6)) / 5 == Approx(wanted).epsilon(0.01));
+}
+
+TEST_CASE("The numbers of an x axis stand between the axis and its name in SVG, too", "[layout]") {
+  const std::regex written("translate\\(([-0-9.]+),([-0-9.]+)\\)\"[^>]*>\\s*<text[^>]*>(.*)</text>");
+  const std::regex tags("<[^>]*>");
+  for (portraits::View view : portraits::views()) {
+    for (double mu : {0.7, 0.02}) {
+      CAPTURE(portraits::name(view), mu);
+      const Figure figure = portraits::draw(portraits::phase_portrait({{reduction::PadeLaw{}, mu}}, {.view = view}));
+      const portraits::Layout layout = portraits::lay_out(figure);
+      const std::string svg = portraits::render(figure, PictureFormat::svg);
+      constexpr double per_mm = 5;  // units of the SVG
+      std::vector<std::tuple<std::string, double, double>> texts;
+      for (std::sregex_iterator at(svg.begin(), svg.end(), written), end; at != end; ++at) {
+        texts.emplace_back(std::regex_replace(at->str(3), tags, ""), std::stod(at->str(1)) / per_mm,
+                           figure.size.height_mm - std::stod(at->str(2)) / per_mm);
+      }
+      for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+        if (figure.panels[i].bare) continue;
+        const auto& [box, ticks, y, scale, colours] = layout.panels[i];
+        REQUIRE_FALSE(ticks.empty());
+        const double height = box.bottom - 1.5 * layout.letter, near = 0.1 * layout.letter;
+        for (const auto& tick : ticks) {
+          const double x = box.left + box.width * portraits::on_paper(figure.panels[i], {tick.at, 1}).x;
+          const std::string words = portraits::with_minus_signs(tick.text.words());
+          // The place of a text is the left end of its baseline, or the middle of it, 0.3 letters below its middle.
+          CAPTURE(words, x);
+          CHECK(std::ranges::any_of(texts, [&](const auto& text) {
+            return std::get<0>(text) == words && std::abs(std::get<1>(text) - x) < near &&
+                   std::abs(std::get<2>(text) + 0.3 * layout.letter - height) < near;
+          }));
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("A missing gnuplot is named, with a way out", "[domain]") {

@@ -117,6 +117,8 @@ void widen(Figure& figure, std::size_t panel, double times = 1);
 
 /// The width of a line, the length of an arrow head and the width of a mark, each of size 1, in letter sizes.
 inline constexpr double line_width = 0.074, head_length = 0.74, mark_size = 0.5;
+/// The distance from an x axis to the middle of its numbers, in letter sizes.
+inline constexpr double tick_drop = 1.5;
 /// The letter sizes of ticks and of labels, divided by the usual size.
 inline constexpr double tick_size = 0.9, label_size = 0.85;
 
