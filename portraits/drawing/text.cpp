@@ -1,5 +1,6 @@
 #include "contensou/portraits/text.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 #include "drawing/characters.hpp"
@@ -17,6 +18,7 @@ bool is_letter(std::string_view character) {
 Text at_level(const Text& text, int level) {
   Text result;
   for (Run run : text.runs()) {
+    if (run.level != 0) throw std::logic_error("an index or a power has no power of its own: " + text.words());
     run.level = level;
     result += Text(run);
   }

@@ -108,7 +108,8 @@ MappedPanel contact_panel(const Drawing& drawing, bool right_half) {
   const double lowest = rays.empty() ? 2 : rays.front(), highest = rays.empty() ? 2 : rays.back();
   if (pivoting) {
     const double depth = std::max(order * std::log(shrinks), 8.0);
-    panel.title = "orbits touch the axis " + math("v = 0") + ":  " + math("k ∝ |u|") + sup(number(order, 4));
+    panel.title = "orbits touch the axis " + math("v = 0") + ":  " + math("k ∝ |u|") + sup(math("n")) + ",  " +
+                  math("n = ") + number(order, 4);
     panel.y.low = top - depth;
     panel.y.high = top + 0.02 * depth;
   } else {

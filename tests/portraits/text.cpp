@@ -1,5 +1,7 @@
 #include "contensou/portraits/text.hpp"
 
+#include <stdexcept>
+
 #include <catch2/catch.hpp>
 
 using namespace contensou::portraits;
@@ -19,6 +21,13 @@ TEST_CASE("A text is runs that differ in their look from their neighbours", "[ta
   CHECK((twice += twice) == math("kk"));
   CHECK(Text().empty());
   CHECK(("" + sub("") + math("")).empty());
+}
+
+TEST_CASE("A power of a power is refused: it would lose its level", "[domain]") {
+  for (const Text& text : {"2.8·10" + sup("8"), math("x") + sub("0"), sup("2")}) {
+    CHECK_THROWS_AS(sup(text), std::logic_error);
+    CHECK_THROWS_AS(sub(text), std::logic_error);
+  }
 }
 
 TEST_CASE("In a formula letters are in italics, and it is not broken", "[table]") {

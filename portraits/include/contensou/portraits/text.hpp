@@ -51,6 +51,7 @@ class Text {
 Text math(std::string_view formula);
 
 /// Returns the text as an index (sub) or as a power (sup).
+/// @throws std::logic_error  if the text has an index or a power itself: give such a number a name
 Text sub(const Text& text);
 Text sup(const Text& text);
 
