@@ -61,7 +61,7 @@ Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size
   Figure figure;
   figure.title = "Combined dry friction of a circular patch";
   if (laws.size() == 2) {
-    figure.subtitle = "Zh98, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
+    figure.subtitle = "Zhuravlev 1998, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
     panel.labels = {
         {{0.5, 0.82}, "force  " + math("Φ"), law_force, Label::Align::centre},
         {{2.5, 0.2}, "moment  " + math("Ψ"), law_moment, Label::Align::centre},

@@ -81,9 +81,10 @@ Figure patch_drawing(const AskedSize& size) {
   constexpr double h = 1.65;
   constexpr Point O{0, 0};
   constexpr Point C{0, -h};
-  Sketch sketch("The contact patch and its centre of velocity",
-                "Zh98, Fig. 1: every element slips across its radius vector " + math("r") + " from " + math("C"),
-                {150, 140}, size);
+  Sketch sketch(
+      "The contact patch and its centre of velocity",
+      "Zhuravlev 1998, Fig. 1: every element slips across its radius vector " + math("r") + " from " + math("C"),
+      {150, 140}, size);
 
   const auto polar = [&](double r, double theta) {
     return Point{C.x + r * std::sin(theta), C.y + r * std::cos(theta)};
@@ -164,7 +165,7 @@ Figure ball_drawing(const AskedSize& size) {
   constexpr double depth_y = 0.27;
   const auto seen = [](double x, double y) { return Point{x + depth_x * y, depth_y * y}; };
   Sketch sketch("The ball on the plane",
-                "Zh98, Fig. 3: it slides with " + math("v") + ", spins with " + math("ω") + sub(math("z")) +
+                "Zhuravlev 1998, Fig. 3: it slides with " + math("v") + ", spins with " + math("ω") + sub(math("z")) +
                     " and touches on a spot of radius " + math("ε = μR"),
                 {190, 140}, size);
 

@@ -165,9 +165,13 @@ std::vector<MappedPanel> patch_view(const Drawing& drawing) {
 std::vector<MappedPanel> pair_view(const Drawing& drawing) {
   std::vector<MappedPanel> panels{half_plane(drawing, 1, math("u = R ω") + sub(math("z"))),
                                   contact_panel(drawing, false)};
-  panels.front().panel.title = !drawing.portrait.scale.linear()        ? "the plane, " + math("v") + " on a bent scale"
-                               : drawing.portrait.system().drive() > 0 ? "the plane"
-                                                                       : "the plane of Zh98, Fig. 4";
+  const reduction::ReducedSystem& system = drawing.portrait.system();
+  const auto [chi, gamma] = system.inertia();
+  const bool of_paper = system.drive() == 0 && chi == reduction::homogeneous_ball.chi &&
+                        gamma == reduction::homogeneous_ball.gamma && system.law().name() == "pade";
+  panels.front().panel.title = !drawing.portrait.scale.linear() ? "the plane, " + math("v") + " on a bent scale"
+                               : of_paper                       ? "the plane, as in Zhuravlev 1998, Fig. 4"
+                                                                : "the plane";
   return panels;
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("Fig. 1 and Fig. 3 are drawn inside their frames and to scale", "[pape
     CAPTURE(figure.title.words());
     check_framed(figure);
     check_scale(figure);
-    CHECK_THAT(figure.subtitle.words(), Contains("Zh98, Fig."));
+    CHECK_THAT(figure.subtitle.words(), Contains("Zhuravlev 1998, Fig."));
   }
   CHECK(has_circle(patch_drawing(), {0, 0}));
   CHECK(has_circle(ball_drawing(), {0, 1}));
