@@ -118,13 +118,13 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   MappedFigure mapped;
   Figure& figure = mapped.figure;
   figure.title = captions.front().title.empty() ? common_title(portraits) : captions.front().title;
-  figure.subtitle = !captions.front().subtitle.empty()             ? captions.front().subtitle
-                    : first.scale.linear() || portraits.size() > 1 ? layout.shows
-                                                                   : bent_shows;
-  if (const double drive = first.system().drive(); drive > 0) {
-    figure.title += ",  drive " + math("ϱ = ") + number(drive);
-    if (captions.front().subtitle.empty() && layout.shows_driven) figure.subtitle = driven_shows;
-  }
+  const double drive = first.system().drive();
+  if (drive > 0) figure.title += ",  drive " + math("ϱ = ") + number(drive);
+  const auto& most_rays =
+      *std::ranges::max_element(portraits, {}, [](const PhasePortrait& of) { return of.plane.terminal.rays.size(); });
+  figure.subtitle = !captions.front().subtitle.empty()                          ? captions.front().subtitle
+                    : first.scale.linear() || portraits.size() > 1 || drive > 0 ? layout.shows(most_rays)
+                                                                                : bent_shows;
   figure.size = size;
   figure.max_columns = std::max(figure.max_columns, panels);
   figure.theme = look.palette.theme;

@@ -46,8 +46,7 @@ struct ViewLayout {
   /// Returns the shortest and the longest time left for colours in bands of equal ratio, in views that distort the
   /// plane. If it is null, the bands are equal.
   std::pair<double, double> (*times)(const PhasePortrait&);
-  Text shows;
-  bool shows_driven = false;  ///< true if driven_shows replaces `shows` with a drive
+  Text (*shows)(const PhasePortrait&);  ///< subtitle
 };
 
 /// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V, where V is the height of the window.
@@ -61,48 +60,77 @@ inline std::pair<double, double> far_times(const PhasePortrait& portrait) {
   return {0.03 * tau, 20 * tau};
 }
 
-constexpr std::string_view plane_shows = "every orbit runs to the stop; the axes are orbits, too";
-constexpr std::string_view driven_shows =
-    "the drive makes a body creep that only spins: orbits also begin at v = 0; every orbit runs to the stop";
+/// Returns the subtitle of a view of the plane.
+/// @param undriven  subtitle without a drive
+inline Text plane_shows(const PhasePortrait& portrait,
+                        const char* undriven = "every orbit runs to the stop; the axes are orbits, too") {
+  return portrait.system().drive() > 0
+             ? "the drive makes a body creep that only spins: orbits also begin at v = 0; every orbit runs to the stop"
+             : undriven;
+}
+/// Returns the statement that orbits are copies of one curve. A copy stays on its side of a ray.
+inline Text one_curve(const PhasePortrait& portrait) {
+  const std::size_t rays = portrait.plane.terminal.rays.size();
+  return rays == 0   ? "all orbits are one curve, shifted"
+         : rays == 1 ? "on each side of the ray all orbits are one curve, shifted"
+                     : "between two rays all orbits are one curve, shifted";
+}
 /// Subtitle for an axis of v with a SpeedScale.
 constexpr std::string_view bent_shows = "slip falls first, at nearly constant spin; then the spin falls until the stop";
 
 /// All views, in the order of lists.
 inline const std::array view_layouts{
-    ViewLayout{View::uv, "uv", "plane (u, v)", plane_view, 1, 190, 125, nullptr, plane_shows, true},
-    ViewLayout{View::patch, "patch", "plane (mu u, v): rim speed of the patch and slip, on axes of one scale",
-               patch_view, 1, 190, 125, nullptr, "sliding speed against the rim speed of the patch, on equal scales",
-               true},
+    ViewLayout{View::uv, "uv", "plane (u, v)", plane_view, 1, 190, 125, nullptr,
+               [](const PhasePortrait& portrait) { return plane_shows(portrait); }},
+    ViewLayout{View::patch, "patch", "plane (mu u, v): rim speed of the patch, and slip; both axes end at one speed",
+               patch_view, 1, 190, 125, nullptr,
+               [](const PhasePortrait& portrait) {
+                 return plane_shows(portrait, "sliding speed against the rim speed of the patch");
+               }},
     ViewLayout{View::log, "log", "plane (mu u, v) with logarithmic axes", log_view, 1, 175, 130,
                [](const PhasePortrait& portrait) {
                  const double tau = portrait.flow.orbit({portrait.window.u(), portrait.window.v()}).stop_time();
                  return std::pair{1e-4 * tau, tau};
                },
-               "all orbits are one curve, shifted along the diagonal"},
-    ViewLayout{View::similarity, "similarity",
-               "planes (v/u, ln v) and (ln k, ln v), in which all orbits are shifted copies of one curve",
-               similarity_view, 2, 270, 125,
-               [](const PhasePortrait& portrait) {
-                 return std::pair{scaled_stop_time(portrait, -6, -4), scaled_stop_time(portrait, 6, 0)};
-               },
-               "canonical coordinates: all orbits are one curve, shifted"},
+               [](const PhasePortrait& portrait) { return one_curve(portrait) + " along the diagonal"; }},
+    ViewLayout{
+        View::similarity, "similarity",
+        "planes (v/u, ln v) and (ln k, ln v), in which orbits are shifted copies of one curve, or of one curve on each "
+        "side of a ray",
+        similarity_view, 2, 270, 125,
+        [](const PhasePortrait& portrait) {
+          return std::pair{scaled_stop_time(portrait, -6, -4), scaled_stop_time(portrait, 6, 0)};
+        },
+        [](const PhasePortrait& portrait) { return "canonical coordinates: " + one_curve(portrait); }},
     ViewLayout{View::blowup, "blowup",
                "plane in which the origin is drawn as a half-circle of directions, and plane (u, ln k)", blowup_view, 2,
-               280, 112, far_times, "the origin as a half-circle: each half-line joins a saddle to a node"},
+               280, 112, far_times,
+               [](const PhasePortrait&) {
+                 return Text("the origin as a half-circle: each half-line joins a saddle to a node");
+               }},
     ViewLayout{View::disc, "disc", "whole half-plane v >= 0 in a half-disc, with infinity as its rim (Poincare disc)",
                disc_view, 1, 210, 125, far_times,
-               "the Poincaré disc: every orbit comes from infinity and ends at the stop", true},
-    ViewLayout{
-        View::time, "time", "curves of u, v and k against time divided by stop time", time_view, 3, 270, 105, nullptr,
-        "the curves depend on " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") + sub("0") + ") alone"},
+               [](const PhasePortrait& portrait) {
+                 return plane_shows(portrait,
+                                    "the Poincaré disc: every orbit comes from infinity and ends at the stop");
+               }},
+    ViewLayout{View::time, "time", "curves of u, v and k against time divided by stop time", time_view, 3, 270, 105,
+               nullptr,
+               [](const PhasePortrait&) {
+                 return "the curves depend on " + math("k") + sub("0") + math(" = v") + sub("0") + math("/(μu") +
+                        sub("0") + ") alone";
+               }},
     ViewLayout{
         View::regularised, "regularised",
         "curves of u, ln v and tau against 1 + beta/beta_1, with the time beta of (2.7) and a unit beta_1; for a ball "
         "under exact or pade 1/beta_1 is 40 mu^3 u0 + 105 pi v0",
         regularised_view, 3, 270, 105, nullptr,
-        "(2.7) in " + math("β") + " has no denominator and never reaches rest; (2.8) gives the finite stop time"},
+        [](const PhasePortrait&) {
+          return "(2.7) in " + math("β") +
+                 " has no denominator and never reaches rest; (2.8) gives the finite stop time";
+        }},
     ViewLayout{View::pair, "pair", "planes (u, v) and (u, ln k) side by side", pair_view, 2, 300, 125, nullptr,
-               plane_shows, true},
+               [](const PhasePortrait& portrait) { return plane_shows(portrait); }},
 };
 
 }  // namespace contensou::portraits

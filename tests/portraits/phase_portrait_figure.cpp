@@ -525,6 +525,58 @@ TEST_CASE("Where a panel's map puts an orbit the figure draws it", "[route]") {
   }
 }
 
+TEST_CASE("The order of contact is a number on the line, for every mu", "[table]") {
+  using portraits::math;
+  const auto title_of = [](double mu) { return figure_of(mu, {.view = View::pair, .orbits = 1}).panels.at(1).title; };
+  const auto before = "orbits touch the axis " + math("v = 0") + ":  " + math("k ∝ |u|") + portraits::sup(math("n")) +
+                      ",  " + math("n = ");
+  CHECK(title_of(1e-4) == before + "2.8·10" + portraits::sup("8"));
+  CHECK(title_of(0.01) == before + "28000");
+  for (double mu = 1e-6; mu < 0.8; mu *= 3) {
+    const std::string words = title_of(mu).words();
+    CAPTURE(mu, words);
+    const std::string number = words.substr(words.rfind("n\u00A0=\u00A0") + 6);
+    // The exponent is 1/s - 1 with s = 5 mu^2/14.
+    const std::size_t power = number.find("·10");
+    const double order =
+        std::stod(number) * (power == number.npos ? 1 : std::pow(10, std::stod(number.substr(power + 4))));
+    CHECK(order == Approx(14 / (5 * mu * mu) - 1).epsilon(0.02));
+  }
+}
+
+TEST_CASE("Orbits are copies of one curve only between rays, and the subtitle says so", "[symmetry]") {
+  int with_ray = 0;
+  for (const char* law : {"exact", "pade", "uniform", "ring", "punch"}) {
+    for (const reduction::Inertia body :
+         {reduction::homogeneous_ball, reduction::Inertia{1, 2}, reduction::Inertia{1, 1}}) {
+      for (double mu : {0.2, 0.6, 1.0}) {
+        for (View view : {View::log, View::similarity}) {
+          const auto portrait =
+              portraits::phase_portrait({{reduction::find_law(law).value(), mu, body}}, {.view = view, .orbits = 1});
+          const std::string words = portraits::draw(portrait).subtitle.words();
+          CAPTURE(law, body.chi, body.gamma, mu, portraits::name(view), words);
+          const auto has = [&](const char* part) { return words.find(part) != words.npos; };
+          const std::size_t rays = portrait.plane.terminal.rays.size();
+          with_ray += rays == 1 ? 1 : 0;
+          CHECK(has("all orbits are one curve"));
+          CHECK(has("on each side of the ray") == (rays == 1));
+          CHECK(has("between two rays") == (rays > 1));
+        }
+      }
+    }
+  }
+  CHECK(with_ray > 5);
+}
+
+TEST_CASE("The paper's figure is named only for the paper's ball and law", "[table]") {
+  const auto title_of = [](const reduction::ReducedSystem& system) {
+    return draw(portraits::phase_portrait(system, {.view = View::pair, .linear = true})).panels.at(0).title.words();
+  };
+  CHECK(title_of({reduction::PadeLaw{}, 0.9}) == "the plane, as in Zhuravlev 1998, Fig. 4");
+  CHECK(title_of({reduction::HertzLaw{}, 0.9}) == "the plane");
+  CHECK(title_of({reduction::PadeLaw{}, 0.9, {2.5, 1.5}}) == "the plane");
+}
+
 TEST_CASE("In (ln k, p) orbits are translates of one curve along p", "[symmetry]") {
   const Figure figure = draw(portrait_of(0.3, {.view = View::similarity}), {}, plain);
   REQUIRE(figure.panels.size() == 2);
