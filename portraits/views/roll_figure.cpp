@@ -207,11 +207,12 @@ Panel speed_panel(const RollPicture& picture) {
     }
     panel.marks.push_back(std::move(marks));
   };
-  add(&RollCurve::slip, slip_colour, Marks::Shape::dot, "slip " + math("v"));
+  add(&RollCurve::slip, slip_colour, Marks::Shape::dot,
+      "slip " + math("v") + (picture.lies_flat ? ", the speed of the centre" : ""));
   add(&RollCurve::rim, rim_colour, Marks::Shape::circle,
       "spin " + math("R|ω") + sub(math("z")) + "|" + (spin_scale > 1 ? " / " + number(spin_scale) : Text()),
       spin_scale);
-  add(&RollCurve::speed, speed_colour, Marks::Shape::square, "speed of the centre");
+  if (!picture.lies_flat) add(&RollCurve::speed, speed_colour, Marks::Shape::square, "speed of the centre");
   panel.y = {"m/s", 0, top > 0 ? 1.08 * top : 1, false, {}};
   return panel;
 }

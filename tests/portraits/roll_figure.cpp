@@ -122,6 +122,15 @@ TEST_CASE("a long spin is drawn on a logarithmic time axis", "[limit]") {
   CHECK_THAT(speeds.x.name.words(), Catch::Contains("logarithmic"));
 }
 
+TEST_CASE("a flat body has one curve for its slip and for the speed of its centre", "[table]") {
+  RollCurve puck = curve(0, 2.2);
+  puck.speed = puck.slip;
+  const Panel speeds = roll_figure({.ball = puck, .textbook = puck, .lies_flat = true}).panels.at(1);
+  CHECK(speeds.lines.size() == 4);
+  REQUIRE(speeds.marks.size() == 2);
+  CHECK(speeds.marks[0].legend.words() == "slip v, the speed of the centre");
+}
+
 TEST_CASE("a fast spin is drawn in a part of its size, and says so: the slip keeps its room", "[table]") {
   RollCurve fast = curve(0.5, 2.2);
   fast.rim = 23 * fast.slip;
