@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -45,6 +46,12 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
   layers.add_invariant(std::move(attracting));
 }
 
+/// Returns the name of a variable, with a prime for each apostrophe.
+Text variable(std::string name) {
+  for (std::size_t at = 0; (at = name.find('\'', at)) != std::string::npos;) name.replace(at, 1, "′");
+  return math(name);
+}
+
 }  // namespace
 
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
@@ -63,8 +70,8 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   const double most = even ? isochrones.back().tau_stop + portrait.isochrone_step : infinity;
   look.bands = bands_of({&portrait}, 1, look.palette, most);
   Panel axes = panel_of(portrait.window);
-  axes.x.name = math("u");
-  axes.y.name = math("v");
+  axes.x.name = variable(portrait.variables[0]);
+  axes.y.name = variable(portrait.variables[1]);
   axes.to_scale = to_scale;
   const auto place = [](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) { return Point{at.u, at.v}; };
   PanelLayers layers(look, std::move(axes), {place});

@@ -73,9 +73,10 @@ void bind_planar(py::module_& module) {
                   })
       .def_static("of_text",
                   [](const std::string& text, const std::map<std::string, double>& parameters, double u, double v) {
-                    return Planar(
-                        with_signals(answers::parse_planar_system(text, parameters), std::make_shared<Interruption>()),
-                        {u, v});
+                    const answers::FormulaField field = answers::parse_planar_system(text, parameters);
+                    Planar planar(with_signals(field, std::make_shared<Interruption>()), {u, v});
+                    planar.variables = {field.variables.at(0), field.variables.at(1)};
+                    return planar;
                   })
       .def_static("of_flow",
                   [](const reduction::Flow& flow) {

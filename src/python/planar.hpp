@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -71,7 +72,8 @@ class Planar {
   }
 
   reduction::SmoothField field;
-  Eigen::Vector2d start;  ///< point whose coordinates set the scale of the samples
+  Eigen::Vector2d start;                           ///< point whose coordinates set the scale of the samples
+  std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
   reduction::PlanarSymmetries symmetries;
   answers::SolvedPlane solved_plane;
 };

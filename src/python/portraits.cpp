@@ -211,6 +211,7 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
   looks.field = one_of<Field>("field", "fields", {{"none", Field::none}, {"motion", Field::motion}}, field);
   return interruptible([&]() -> Portrait {
     portraits::PlanarPortrait data = portraits::planar_portrait(planar.solved(), system, asked);
+    data.variables = planar.variables;
     Figure figure = titled(portraits::draw(data, looks), title, size);
     return {std::move(figure),
             [data = std::move(data)] { return portraits::to_json(data, {.version = CONTENSOU_VERSION}); }};

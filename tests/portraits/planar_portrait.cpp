@@ -167,6 +167,17 @@ TEST_CASE("the data of a planar portrait say what it is", "[output]") {
   CHECK_THAT(csv, Contains("# kind: \"stable node\"\n") && Contains("\nkind,index,u,v,tau\norbit,0,"));
 }
 
+TEST_CASE("the axes of a planar portrait have the letters of the equations", "[output]") {
+  PlanarPortrait portrait = portrait_of([](const Vector2d& x) { return Vector2d(-x[0], -2 * x[1]); });
+  Figure figure = draw(portrait);
+  CHECK(figure.panels[0].x.name == math("u"));
+  CHECK(figure.panels[0].y.name == math("v"));
+  portrait.variables = {"x", "x'"};
+  figure = draw(portrait);
+  CHECK(figure.panels[0].x.name == math("x"));
+  CHECK(figure.panels[0].y.name == math("x′"));
+}
+
 TEST_CASE("a planar portrait as a drawing", "[output]") {
   const PlanarPortrait portrait =
       portrait_of([](const Vector2d& x) -> Vector2d { return Vector2d(-x[0], -2 * x[1]) * std::pow(x.norm(), -1.5); });

@@ -29,6 +29,11 @@ reduction::SmoothField SystemOption::read(const std::map<std::string, double>& p
   }
 }
 
+std::array<std::string, 2> SystemOption::variables(const std::map<std::string, double>& parameters) const {
+  const std::vector<std::string> names = parse_planar_system(system_.text(), parameters).variables;
+  return {names.at(0), names.at(1)};
+}
+
 reduction::PlanarReduction SystemOption::solve(const reduction::SmoothField& field,
                                                const Eigen::Vector2d& around) const {
   SolvedPlane solved =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 
@@ -19,6 +20,10 @@ class SystemOption {
 
   /// @throws BadInput  as parse_planar_system
   reduction::SmoothField read(const std::map<std::string, double>& parameters) const;
+
+  /// Returns the two letters of the equations, such as x and x'.
+  /// @throws BadInput  as parse_planar_system
+  std::array<std::string, 2> variables(const std::map<std::string, double>& parameters) const;
 
   /// Returns the system for a portrait: solved if possible; else its orbits are computed by steps in time.
   reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;

@@ -213,8 +213,9 @@ class PortraitCommand final : public Verb {
       if (!point.isZero(0)) around = point;
     }
     const Output output = read_output();
-    const portraits::PlanarPortrait portrait =
+    portraits::PlanarPortrait portrait =
         portraits::planar_portrait(system_.solve(field, around), system_.text(), request_);
+    portrait.variables = system_.variables(law_.parameters());
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 

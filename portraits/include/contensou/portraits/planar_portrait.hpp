@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace contensou::portraits {
 struct PlanarPortrait : Portrait {
   std::string name;  ///< name of the system
   reduction::PlanarReduction plane;
+  std::array<std::string, 2> variables = {"u", "v"};  ///< names on the axes, such as x and x'
   // Only for a system without a scaling:
   std::vector<reduction::Equilibrium> equilibria = {};  ///< equilibria in the window
   std::vector<PortraitOrbit> separatrices = {};         ///< separatrices of the saddles
