@@ -1,10 +1,13 @@
 // The plane of any planar system as a drawing.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -52,6 +55,68 @@ Text variable(std::string name) {
   return math(name);
 }
 
+/// Returns the parts of the unit square in which a condition does not hold. Columns of the square are searched; in
+/// neighbouring columns with the same number of gaps, the gaps are joined.
+std::vector<Polyline> gaps_of(const std::function<bool(Point)>& holds) {
+  using Gaps = std::vector<std::pair<double, double>>;
+  constexpr int lines = 100, halvings = 12;
+  constexpr double thinnest = 1e-3;
+  const auto border = [](double from, double to, const auto& is_as_from) {
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = (from + to) / 2;
+      (is_as_from(middle) ? from : to) = middle;
+    }
+    return std::pair(from, to);
+  };
+  const auto search = [&](double x) {
+    Gaps gaps;
+    bool before = true;
+    for (int i = 0; i <= lines; ++i) {
+      const double y = std::min(1.0, (i + 0.5) / lines);
+      const bool now = i == lines ? true : holds({x, y});
+      if (now != before) {
+        const auto is_as_before = [&](double at) { return holds({x, at}) == before; };
+        const double edge = i == 0 ? 0 : i == lines ? 1 : border(y - 1.0 / lines, y, is_as_before).first;
+        if (before)
+          gaps.emplace_back(edge, edge);
+        else
+          gaps.back().second = edge;
+      }
+      before = now;
+    }
+    std::erase_if(gaps, [&](const auto& gap) { return gap.second - gap.first < thinnest; });
+    return gaps;
+  };
+  std::vector<Polyline> parts;
+  std::size_t open = 0;  // number of the last parts that the next column may continue
+  const auto add = [&](double x, const Gaps& gaps) {
+    if (gaps.size() != open) parts.resize(parts.size() + (open = gaps.size()));
+    for (std::size_t i = 0; i < open; ++i) {
+      // Points of the lower border stand in the first half of a part, points of the upper border in the second half.
+      Polyline& part = parts[parts.size() - open + i];
+      const auto middle = static_cast<std::ptrdiff_t>(part.size() / 2);
+      part.insert(part.begin() + middle, {{x, gaps[i].first}, {x, gaps[i].second}});
+    }
+  };
+  Gaps last;
+  for (int i = 0; i < lines; ++i) {
+    const double x = (i + 0.5) / lines;
+    Gaps gaps = search(x);
+    if (i == 0) add(0, gaps);
+    if (i > 0 && gaps.size() != last.size()) {
+      const auto is_as_last = [&](double at) { return search(at).size() == last.size(); };
+      const auto [left, right] = border(x - 1.0 / lines, x, is_as_last);
+      add(left, search(left));
+      open = 0;
+      add(right, search(right));
+    }
+    add(x, gaps);
+    if (i + 1 == lines) add(1, gaps);
+    last = std::move(gaps);
+  }
+  return parts;
+}
+
 }  // namespace
 
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
@@ -73,6 +138,19 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   axes.x.name = variable(portrait.variables[0]);
   axes.y.name = variable(portrait.variables[1]);
   axes.to_scale = to_scale;
+  const auto rate_at = [&](Point at) -> std::optional<Vector2d> {
+    try {
+      const Vector2d rate = portrait.plane.field()({at.x, at.y});
+      return rate.allFinite() ? std::optional(rate) : std::nullopt;
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+  };
+  for (Polyline& part : gaps_of([&](Point place) { return rate_at(from_paper(axes, place)).has_value(); })) {
+    for (Point& point : part) point = from_paper(axes, point);
+    axes.regions.push_back({std::move(part), look.palette.region});
+  }
+  const bool has_gaps = !axes.regions.empty();
   const auto place = [](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) { return Point{at.u, at.v}; };
   PanelLayers layers(look, std::move(axes), {place});
 
@@ -80,16 +158,11 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   layers.add_isochrones(-1);
   if (style.field != PortraitStyle::Field::none) {
     const auto drift = [&](Point at) -> std::optional<Drift> {
-      Vector2d rate;
-      try {
-        rate = portrait.plane.field()({at.x, at.y});
-      } catch (const std::exception&) {
-        return std::nullopt;
-      }
-      const double speed = rate.cwiseQuotient(sides).norm();
+      const std::optional<Vector2d> rate = rate_at(at);
+      const double speed = rate ? rate->cwiseQuotient(sides).norm() : 0;
       if (!(speed > 0) || !std::isfinite(speed)) return std::nullopt;
       constexpr double step = 1e-4;  // a fraction of the window
-      return Drift{at, {at.x + step * rate[0] / speed, at.y + step * rate[1] / speed}, speed};
+      return Drift{at, {at.x + step * (*rate)[0] / speed, at.y + step * (*rate)[1] / speed}, speed};
     };
     layers.add_directions(drift, "direction of the motion");
   }
@@ -131,6 +204,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
                         ? kind
                         : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
                                       portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
+  if (has_gaps) figure.subtitle += "; grey: the field has no value";
   figure.size = size;
   figure.theme = look.palette.theme;
   figure.panels = {std::move(layers.panel())};

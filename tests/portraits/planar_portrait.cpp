@@ -1,12 +1,17 @@
 #include "contensou/portraits/planar_portrait.hpp"
 
 #include <cmath>
+#include <functional>
+#include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_steps.hpp"
 #include "contensou/reduction/planar_symmetry.hpp"
 #include "figures.hpp"
 
@@ -176,6 +181,59 @@ TEST_CASE("the axes of a planar portrait have the letters of the equations", "[o
   figure = draw(portrait);
   CHECK(figure.panels[0].x.name == math("x"));
   CHECK(figure.panels[0].y.name == math("x′"));
+}
+
+TEST_CASE("the part of a planar portrait in which the field has no value is grey", "[output]") {
+  using Condition = std::function<bool(const Vector2d&)>;
+  const Condition conditions[] = {
+      [](const Vector2d&) { return true; },
+      [](const Vector2d& x) { return x[1] > 0; },
+      [](const Vector2d& x) { return x[0] > -0.37; },
+      [](const Vector2d& x) { return x[1] > x[0] - 0.6; },
+      [](const Vector2d& x) { return x.norm() < 0.9; },
+      [](const Vector2d& x) { return x.norm() > 0.3; },
+      [](const Vector2d& x) { return std::abs(x[0] - 0.2) > 0.15 || x[1] > 0.4; },
+      [](const Vector2d& x) { return x[0] * x[1] > 0 || x.lpNorm<Eigen::Infinity>() > 0.7; },
+      [](const Vector2d& x) { return std::sin(7 * x[0]) + std::cos(6 * x[1]) < 0.6; },
+  };
+  for (const Condition& condition : conditions) {
+    INFO("condition " << &condition - conditions);
+    for (const bool throws : {false, true}) {
+      const PlanarField field = [&](const Vector2d& x) -> Vector2d {
+        if (condition(x)) return Vector2d(-x[0], -2 * x[1]);
+        if (throws) throw std::domain_error("no value");
+        return Vector2d::Constant(NAN);
+      };
+      PlanarPortrait portrait = portrait_of([](const Vector2d& x) { return Vector2d(-x[0], -2 * x[1]); });
+      portrait.plane = reduction::by_steps({field});
+      const Figure figure = draw(portrait);
+      const std::vector<Region>& regions = figure.panels[0].regions;
+      CHECK(regions.empty() == (&condition == conditions));
+      CHECK(figure.subtitle.words().ends_with("; grey: the field has no value") == !regions.empty());
+      const Window& window = portrait.window;
+      std::mt19937 random(1);
+      int wrong = 0;
+      constexpr int count = 4000;
+      for (int i = 0; i < count; ++i) {
+        const auto within = [&](int of) {
+          return std::uniform_real_distribution<>(window.low[of], window.high[of])(random);
+        };
+        const Vector2d x(within(0), within(1));
+        bool grey = false;
+        for (const Region& region : regions) {
+          bool inside = false;
+          const Polyline& line = region.border;
+          for (std::size_t j = 0, last = line.size() - 1; j < line.size(); last = j++) {
+            const auto [a, b] = std::pair(line[j], line[last]);
+            if ((a.y > x[1]) != (b.y > x[1]) && x[0] < a.x + (b.x - a.x) * (x[1] - a.y) / (b.y - a.y)) inside = !inside;
+          }
+          grey = grey || inside;
+        }
+        wrong += grey == condition(x) ? 1 : 0;
+      }
+      CHECK(wrong < count / 100);
+    }
+  }
 }
 
 TEST_CASE("a planar portrait as a drawing", "[output]") {
