@@ -25,9 +25,9 @@ foreach(verb IN ITEMS "" LISTS VERBS)
   file(WRITE ${OUT}/include "${include}")
   execute_process(COMMAND ${HELP2MAN} --no-info --include=${OUT}/include --output=${OUT}/${page}.1 "--help-option=help ${verb}"
     ./${program} WORKING_DIRECTORY ${folder} COMMAND_ERROR_IS_FATAL ANY)
-  # The lines of an example keep their line ends, between .nf and .fi.
+  # The lines of an example keep their line ends, between .nf and .fi. Without .IP they fit into 80 columns.
   file(READ ${OUT}/${page}.1 manual)
-  string(REGEX REPLACE "(\n\\.SH EXAMPLES\n\\.IP\n)(([^.\n][^\n]*\n)+)" "\\1.nf\n\\2.fi\n" manual "${manual}")
+  string(REGEX REPLACE "(\n\\.SH EXAMPLES\n)\\.IP\n(([^.\n][^\n]*\n)+)" "\\1.nf\n\\2.fi\n" manual "${manual}")
   file(WRITE ${OUT}/${page}.1 "${manual}")
 endforeach()
 file(REMOVE ${OUT}/include)
