@@ -96,7 +96,8 @@ std::vector<FieldText> portrait_fields() {
       {"JSON `drive`", "", "constant force along the slip divided by f N, from --drive, rolling friction or a slope"},
       {"JSON `ball`, `seconds_per_tau`", "s/speed", "name of the ball; number of seconds in one unit of tau"},
       {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV",
-       "list of orbits, each with lists of its states and of the times left until the stop"},
+       "list of orbits, each with lists of its states and of the times left until the stop; beta only with --view "
+       "regularised"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "lines of states with one stop time each"},
       {"JSON `highlight`, `through` [...]", "",
        "orbit of the start; orbits through the points of --through. Their form is that of an entry of orbits"},
