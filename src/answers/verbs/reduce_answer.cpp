@@ -233,8 +233,10 @@ struct Equilibria {
 /// Returns the canonical coordinates that the answer shows. For (2.6) they are v/u and ln v; on an axis their limits.
 PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x) {
   const reduction::Flow* flow = plane.flow();
-  if (flow == nullptr) return plane.canonical(x);
-  const double q = x[0] == 0 ? infinity : x[1] / x[0] + 0.0;  // the addition turns -0 into 0
+  PlanarCanonical there = plane.canonical(x);
+  there.dp_dq += 0.0;  // the additions turn -0 into 0
+  if (flow == nullptr) return there;
+  const double q = x[0] == 0 ? infinity : x[1] / x[0] + 0.0;
   const bool limit = q == 0 || std::isinf(q);
   return {q, std::log(x[1]), limit ? infinity : reduction::separated_slope(flow->system(), q)};
 }
