@@ -112,8 +112,9 @@ struct PlanarSymmetries {
 
 /// Finds the generators by a singular value decomposition of the determining equations at up to 96 points.
 ///
-/// Derivatives are extrapolated differences (Ridders) with an estimate of their error. Differences never cross the axes
-/// u = 0 and v = 0, at which dry friction is not smooth. Points next to other kinks are left out.
+/// Derivatives are those of the field's Jacobian, exact except for rounding. Without a Jacobian they are extrapolated
+/// differences (Ridders) with an estimate of their error. Differences never cross the axes u = 0 and v = 0, at which dry
+/// friction is not smooth. Points next to other kinks are left out.
 ///
 /// @param around  point whose |u| and |v| set the scale. Sample points lie at 1/3 to 3 times its distance from
 ///                the origin, in evenly spaced directions, denser towards the axes
