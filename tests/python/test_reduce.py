@@ -5,6 +5,7 @@ import math
 import os
 import pickle
 import random
+import signal
 import subprocess
 
 import contensou as ct
@@ -254,3 +255,29 @@ def test_equilibria_and_reversors():
         assert other.u == pytest.approx(math.pi, rel=1e-12)
         assert sorted(value.imag for value in center.eigenvalues) == pytest.approx([-1, 1], rel=1e-10)
         assert reduction.reversors == ("(u, -v)", "(-u, v)")
+
+
+def test_signals_are_heard_during_a_call():
+    """A handler of Python runs several times during one long call. Without looks for signals it would run once, at the end."""
+    reduction = ct.reduce("y' = -y*cos(2*x)+sin(x)", u=1, v=1)
+    calls = [lambda: reduction.stop_time(u=np.linspace(1, 1.2, 12), v=1.0),
+             lambda: ct.stop_time(u=1.0, v=1.0, mu=np.linspace(0.1, 0.9, 2_000_000))]
+    for call in calls:
+        heard = []
+        before = signal.signal(signal.SIGALRM, lambda *_: heard.append(1))
+        signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+        try:
+            call()
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        assert len(heard) >= 3
+
+
+def test_a_start_at_the_origin_moves_where_the_field_is_not_0():
+    for text, at in [("y' = x+y", lambda t: (t, np.exp(t) - t - 1)), ("y' = 1+y^2", lambda t: (t, np.tan(t))),
+                     ("u' = 1; v' = u", lambda t: (t, t * t / 2)), ("y' = cos(x)", lambda t: (t, np.sin(t))),
+                     ("y' = 0.3*y^2-9.81", lambda t: (t, -np.sqrt(9.81 / 0.3) * np.tanh(np.sqrt(0.3 * 9.81) * t)))]:
+        for u, v in [(0, 0), (1e-31, 0)]:
+            here = ct.reduce(text, u=u, v=v).orbit(u, v).at(0.7)
+            assert np.allclose((here["u"], here["v"]), at(0.7), rtol=1e-12, atol=0), text

@@ -400,3 +400,96 @@ TEST_CASE("Values outside the box of V, and starts without values, are refused",
   CHECK_THROWS_WITH(reduced(kepler, {0, 1}), Contains("no value at"));
   CHECK_THROWS_WITH(reduced(hopf, {0.9, 0.3}).reduction().first_integral({1.1, 0.3}), Contains("V = 0 between"));
 }
+
+TEST_CASE("orbits from the origin and from beside it, for every form of V", "[factor][domain]") {
+  // The start lies far below the size of the box in which V is fitted.
+  for (const Example& example : examples()) {
+    CAPTURE(example.text);
+    const PlanarReduction plane = reduced(example.field, example.start).reduction();
+    for (const Vector2d& start : {Vector2d(0, 0), Vector2d(1e-31, 0), Vector2d(0, -1e-40), Vector2d(1e-200, 1e-200)}) {
+      CAPTURE(start);
+      const auto f = smooth(example.field).value(start);
+      if (!f.allFinite()) {
+        CHECK_THROWS_AS(plane.orbit(start), std::domain_error);
+        continue;
+      }
+      const PlanarOrbit orbit = plane.part_of_orbit(start);
+      if (f.isZero(0)) {
+        CHECK(orbit.end() == PlanarEnd::equilibrium);
+        CHECK(orbit.at(1) == start);
+      } else if (f.norm() > 1e-20) {
+        const double time = 1e-3;
+        const Vector2d wanted = stepped(example.field, start, time);
+        CHECK((orbit.at(time) - wanted).norm() < 1e-10 * wanted.norm());
+      }
+    }
+  }
+}
+
+TEST_CASE("an orbit is called closed only if it is", "[factor]") {
+  const std::vector<std::pair<std::string, std::function<std::array<Dual, 2>(Dual u, Dual v, double e)>>> families{
+      {"pendulum",
+       [](Dual u, Dual v, double e) {
+         return std::array{v, -sin(u) - e * v};
+       }},
+      {"double well",
+       [](Dual u, Dual v, double e) {
+         return std::array{v, u - u * u * u - e * v};
+       }},
+      {"Lotka-Volterra",
+       [](Dual u, Dual v, double e) {
+         return std::array{u * (1 - v), v * (u - 1) - e * u * v * v};
+       }},
+      {"cubic damping", [](Dual u, Dual v, double e) { return std::array{v, -u - e * v * v * v}; }},
+      {"quartic", [](Dual u, Dual v, double e) {
+         return std::array{v, -u * u * u - e * v};
+       }}};
+  for (const auto& [name, family] : families) {
+    for (const double e : {0., 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-3}) {
+      CAPTURE(name, e);
+      const FactorReduction reduction =
+          reduced([&family = family, e](Dual u, Dual v) { return family(u, v, e); }, {0.7, 0.4});
+      if (!reduction.found()) {
+        CHECK(e > 0);
+        continue;
+      }
+      const PlanarOrbit orbit = reduction.reduction().orbit({0.7, 0.4});
+      CHECK((orbit.end() == PlanarEnd::periodic) == (e == 0));
+      CHECK(orbit.end() != PlanarEnd::cycle);
+    }
+  }
+}
+
+TEST_CASE("the work for an orbit that oscillates for ever is bounded", "[factor]") {
+  long evaluations = 0;
+  SmoothField field = smooth([](Dual u, Dual v) { return std::array{Dual(1), -v * cos(2 * u) + sin(u)}; });
+  field.value = [&, f = field.value](const Vector2d& x) {
+    ++evaluations;
+    return f(x);
+  };
+  const FactorReduction reduction(field, {1, 1});
+  REQUIRE(reduction.found());
+  const PlanarOrbit orbit = reduction.reduction().orbit({1, 1});
+  CHECK(orbit.end() == PlanarEnd::undecided);
+  CHECK_THAT(orbit.undecided(), Contains("evaluations of the field"));
+  CHECK(evaluations < 4'000'000);
+  CHECK(orbit.at(100).allFinite());
+}
+
+TEST_CASE("answers do not depend on the unit of length", "[factor][symmetry]") {
+  for (const Example& example : examples()) {
+    for (const double power : {-40, -9, 9, 40}) {
+      const double unit = std::exp2(power);
+      CAPTURE(example.text, unit);
+      const SmoothField field = smooth(example.field);
+      const SmoothField scaled([f = field.value, unit](const Vector2d& x) -> Vector2d { return f(x / unit) * unit; },
+                               [j = field.jacobian, unit](const Vector2d& x) { return j(x / unit); });
+      const FactorReduction here(field, example.start), there(scaled, unit * example.start);
+      REQUIRE(there.form() == here.form());
+      const PlanarOrbit one = here.reduction().part_of_orbit(example.start);
+      const PlanarOrbit other = there.reduction().part_of_orbit(unit * example.start);
+      CHECK(one.end() == other.end());
+      for (const double time : {0.02, 0.5}) CHECK(one.at(time) == other.at(time) / unit);
+    }
+  }
+}

@@ -7,6 +7,7 @@
 #include <random>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
@@ -666,4 +667,73 @@ TEST_CASE("the factor of a scaling is an inverse integrating factor", "[planar]"
                               slope([&](const Vector2d& at) { return field(at)[1]; }, 1);
     CHECK(std::abs(f.dot(gradient) - plane.factor(x) * divergence) < 1e-9 * f.norm() * gradient.norm());
   }
+}
+
+TEST_CASE("conservative oscillators of every power are centers with the period of the closed form", "[planar][exact]") {
+  // u'' = -sign(u) |u|^a from (A, 0): v^2/2 + |u|^(a+1)/(a+1) is constant. The period is a beta function.
+  std::mt19937 random(57);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  WorstCase periods("period");
+  const auto oscillator = [](double a, double damping) {
+    return [=](const Vector2d& x) {
+      const double pull = std::copysign(std::pow(std::abs(x[0]), a), x[0]);
+      // The damping has the power of v with which the system still admits a scaling.
+      return Vector2d(x[1], -pull - damping * std::copysign(std::pow(std::abs(x[1]), 2 * a / (a + 1)), x[1]));
+    };
+  };
+  for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 100 : 20); ++i) {
+    const double a = i % 4 == 0 ? uniform(0.1, 0.4) : i % 4 == 1 ? uniform(0.4, 0.9) : uniform(1.05, 3.5);
+    const double amplitude = std::pow(10, uniform(-2, 2));
+    CAPTURE(a, amplitude);
+    const PlanarReduction plane = reduced(oscillator(a, 0), {amplitude, std::pow(amplitude, (a + 1) / 2)});
+    CHECK(plane.kind() == "center");
+    const PlanarOrbit orbit = plane.orbit({amplitude, 0});
+    REQUIRE(orbit.end() == PlanarEnd::periodic);
+    const double n = a + 1;
+    const double wanted = 4 * std::sqrt(n / 2) * std::pow(amplitude, (1 - a) / 2) * std::sqrt(pi) / n *
+                          std::tgamma(1 / n) / std::tgamma(1 / n + 0.5);
+    periods.add(wanted, orbit.period().value(), fmt::format("a = {}", a));
+    // A damping of 1e-6 must not be taken for none.
+    const PlanarReduction damped = reduced(oscillator(a, 1e-6), {amplitude, std::pow(amplitude, (a + 1) / 2)});
+    CHECK(damped.kind() == "stable focus");
+  }
+  INFO(periods.sentence());
+  CHECK(periods.worst() < 1e4);
+}
+
+TEST_CASE("a motion leaves a centre at which the field is not 0", "[planar][exact]") {
+  // u' = a, v' = b u^m has the orbit (a t, b a^m t^(m+1)/(m+1)) from the origin, the centre of its scaling.
+  std::mt19937 random(58);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  for (int m = 1; m <= 6; ++m) {
+    const double a = (m % 2 == 0 ? -1 : 1) * uniform(0.3, 3), b = (m % 3 == 0 ? -1 : 1) * uniform(0.3, 3);
+    CAPTURE(m, a, b);
+    const PlanarReduction plane = reduced([=](const Vector2d& x) { return Vector2d(a, b * std::pow(x[0], m)); });
+    CHECK(plane.kind() == "regular point");
+    const PlanarOrbit orbit = plane.orbit({0, 0});
+    CHECK(orbit.end() == PlanarEnd::infinity);
+    CHECK(std::isinf(orbit.end_time()));
+    CHECK(orbit.at(0) == Vector2d(0, 0));
+    for (const double t : {1e-3, 0.7, 12.0}) {
+      const Vector2d wanted(a * t, b * std::pow(a, m) * std::pow(t, m + 1) / (m + 1));
+      CHECK((orbit.at(t) - wanted).norm() < 1e-12 * wanted.norm());
+    }
+  }
+  // At rest where the field is 0, and where it has no value.
+  CHECK(reduced(linear(-Matrix2d::Identity())).orbit({0, 0}).end() == PlanarEnd::centre);
+}
+
+TEST_CASE("a turn by 1 without a proof is a center or a focus", "[planar]") {
+  // In polar coordinates r' = r R(angle), angle' = 1. The integral of R over a turn is 0, and R has no symmetry, so
+  // that no reversor among the known ones exists. Values alone do not tell a center from a focus.
+  const PlanarReduction plane = reduced([](const Vector2d& x) -> Vector2d {
+    const double q = std::atan2(x[1], x[0]), radial = 0.3 * std::sin(q + 0.4) + 0.2 * std::sin(2 * q + 1.1);
+    return radial * x + Vector2d(-x[1], x[0]);
+  });
+  CHECK(plane.kind() == "center or focus");
+  const PlanarOrbit orbit = plane.orbit({1, 0.5});
+  CHECK(orbit.end() == PlanarEnd::undecided);
+  CHECK_THAT(orbit.undecided(), Contains("no reversor proves"));
+  CHECK(!orbit.period());
+  CHECK(orbit.at(1.5).allFinite());
 }
