@@ -153,11 +153,13 @@ class PlanarTracer {
   }
 
   /// Returns the orbits that leave or enter the saddles, from points just beside the saddles.
-  std::vector<PortraitOrbit> separatrices(const std::vector<reduction::Equilibrium>& equilibria) const {
+  std::vector<PortraitOrbit> separatrices(const reduction::Equilibria& equilibria) const {
     std::vector<PortraitOrbit> all;
-    for (const reduction::Equilibrium& saddle : equilibria) {
-      if (saddle.kind() != "saddle") continue;
-      const auto [stable, unstable] = saddle.eigenvalues();
+    for (const reduction::Equilibrium& saddle : equilibria.points) {
+      // A saddle with an eigenvalue 0 has separatrices, too, but not all are tangent to eigenvectors that are known.
+      if (saddle.kind != "saddle" || !saddle.eigenvalues) continue;
+      const auto [stable, unstable] = *saddle.eigenvalues;
+      if (stable == 0. || unstable == 0.) continue;
       for (const double value : {stable.real(), unstable.real()}) {
         const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
         Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
@@ -506,7 +508,7 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
   if (plane.scaling() == nullptr) {
     portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
-    prove_centers(portrait.equilibria, plane);
+    compare_kinds(portrait.equilibria, plane);
     portrait.separatrices = tracer.separatrices(portrait.equilibria);
     for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
       for (const Polyline& line : zero_lines(piece, window.sides())) {

@@ -134,7 +134,7 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
             {"rays", rays}};
   if (!plane.scaling()) {
     json["form"] = plane.form().empty() ? Json() : Json(plane.form());
-    json["equilibria"] = equilibria_json<Json>(portrait.equilibria);
+    json.update(equilibria_members<Json>(portrait.equilibria));
   }
   return origin_of(std::move(json), source);
 }

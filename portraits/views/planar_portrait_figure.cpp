@@ -182,13 +182,12 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
         {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "centre of the symmetry"});
   }
   std::map<std::string_view, Marks> of_kind;
-  for (const reduction::Equilibrium& each : portrait.equilibria) {
-    const auto mark = each.kind().starts_with("stable") ? Marks::Shape::dot
-                      : each.kind() == "saddle"         ? Marks::Shape::square
-                                                        : Marks::Shape::circle;
-    Marks& marks =
-        of_kind.try_emplace(each.kind(), Marks{{}, look.palette.invariant, 1.2, mark, std::string(each.kind())})
-            .first->second;
+  for (const reduction::Equilibrium& each : portrait.equilibria.points) {
+    const auto mark = each.kind.starts_with("stable") ? Marks::Shape::dot
+                      : each.kind == "saddle"         ? Marks::Shape::square
+                                                      : Marks::Shape::circle;
+    Marks& marks = of_kind.try_emplace(each.kind, Marks{{}, look.palette.invariant, 1.2, mark, std::string(each.kind)})
+                       .first->second;
     marks.points.push_back({each.x[0], each.x[1]});
   }
   for (auto& [kind, marks] : of_kind) layers.panel().marks.push_back(std::move(marks));

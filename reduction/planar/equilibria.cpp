@@ -1,37 +1,547 @@
+// Zeros of a field. Lengths are measured in half sides of the rectangle: z = x/half, g(z) = f(x)/half.
+//
+// Simple zeros. Newton's method ends at a point with a small g. If the Jacobian J has the least singular value s, the
+// zero is at most d = 2 (|g| + rounding)/s away, if the Jacobian changes by less than s/4 over d (Kantorovich). The
+// rounding of g is measured: close to the point g is linear, and what is left is rounding. Over d the Jacobian changes
+// by at most e = d |J'|. Thus trace and determinant have the errors 2 e and 2 |J| e, and a number below its error has
+// no sign. At a multiple zero s and the determinant vanish, and Taylor's polynomial decides (degenerate_point.cpp).
+//
+// Sides. At small distances r in several directions, the increments of g are compared with the linear map that fits
+// best. For a smooth field the misfit divided by r is proportional to r. At a kink it is constant; at a jump it grows.
+//
+// Search. A cell of the grid has no zero if a component of g is larger at its middle than its linear change over the
+// cell and twice the deviations of the corners from linearity. Other cells are divided until the field is nearly linear
+// in the cell. A cell for which neither holds in the end, and which has no zero found in it, is unexplained.
 #include "contensou/reduction/equilibria.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
 #include <tuple>
 
 #include <Eigen/LU>
 
-#include "contensou/reduction/planar_kinds.hpp"
+#include "contensou/reduction/infinity.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
+#include "planar/degenerate_point.hpp"
+#include "planar/differences.hpp"
 #include "planar/inverse_factor.hpp"
+#include "planar/reversal.hpp"
 
 namespace contensou::reduction {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
+using std::numbers::pi;
 
 namespace {
 
-/// Returns true if other zeros lie arbitrarily near to `zero`, at which the Jacobian has the null vector `along`.
-bool on_curve_of_zeros(const SmoothField& field, const Vector2d& zero, const Vector2d& along) {
+constexpr double same = 2e-6;  ///< two zeros that are closer count as one, in half sides
+
+Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// A field in units of the half sides of a rectangle, about any point x.
+class ScaledField {
+ public:
+  ScaledField(const SmoothField& field, const Vector2d& half) : field_(field), half_(half) {}
+
+  const PlanarField& unscaled() const { return field_.value; }
+  const Vector2d& half() const { return half_; }
+  Vector2d moved(const Vector2d& x, const Vector2d& z) const { return x + half_.cwiseProduct(z); }
+  double distance(const Vector2d& a, const Vector2d& b) const { return (a - b).cwiseQuotient(half_).norm(); }
+
+  std::optional<Vector2d> operator()(const Vector2d& x) const {
+    const auto f = value_of(field_.value, x);
+    return f ? std::optional<Vector2d>(f->cwiseQuotient(half_)) : std::nullopt;
+  }
+
+  struct Linear {
+    Vector2d g;
+    Matrix2d slopes;
+    double error = 0;  ///< error of the slopes
+  };
+
+  /// Returns g with its Jacobian. Without a formula of the Jacobian, its digits are halved unless `exact`.
+  std::optional<Linear> linear(const Vector2d& x, bool exact) const {
+    const auto g = (*this)(x);
+    if (!g) return std::nullopt;
+    Linear result{*g, Matrix2d::Zero()};
+    if (field_.jacobian) {
+      try {
+        result.slopes = half_.cwiseInverse().asDiagonal() * field_.jacobian(x) * half_.asDiagonal();
+      } catch (const std::exception&) {
+        return std::nullopt;
+      }
+    } else {
+      constexpr double first = 1. / 64, nearest = 1e-5;
+      const auto along = [&](const Vector2d& z) { return (*this)(moved(x, z)); };
+      for (int i = 0; i < 2; ++i) {
+        const Vector2d step = nearest * Vector2d::Unit(i);
+        if (exact) {
+          const auto found = slope(along, Vector2d(0, 0), i, first);
+          if (!found) return std::nullopt;
+          result.slopes.col(i) = found->value;
+          result.error += found->error;
+        } else {
+          const auto ahead = along(step), behind = along(-step);
+          if (!ahead || !behind) return std::nullopt;
+          result.slopes.col(i) = (*ahead - *behind) / (2 * nearest);
+        }
+      }
+    }
+    return result.slopes.allFinite() ? std::optional(result) : std::nullopt;
+  }
+
+  /// Returns true if x lies on a switching curve, or if the field has no switching functions.
+  bool may_switch(const Vector2d& x, double nearer) const {
+    if (!field_.switches) return true;
+    try {
+      const Eigen::MatrixX3d rows = field_.switches(x);
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        const double slope = rows.row(i).tail<2>().transpose().cwiseProduct(half_).norm();
+        if (!(std::abs(rows(i, 0)) > nearer * slope) || !std::isfinite(slope)) return true;
+      }
+      return false;
+    } catch (const std::exception&) {
+      return true;
+    }
+  }
+  bool has_switches() const { return static_cast<bool>(field_.switches); }
+
+ private:
+  const SmoothField& field_;
+  Vector2d half_;
+};
+
+/// Comparison of the sides of a point.
+struct Sides {
+  bool smooth = true;  ///< true if one linear map fits on all sides
+  bool jump = false;   ///< true if the field does not tend to its value at the point
+};
+
+Sides compare_sides(const ScaledField& field, const Vector2d& x) {
+  constexpr double nearer = 1e-7, far = 1e-5;
+  if (!field.may_switch(x, nearer)) return {};
+  const auto here = field(x);
+  if (!here) return {false, true};
+  const int directions = field.has_switches() ? 64 : 16;
+  struct Scale {
+    double misfit = 0, slopes = 0, change = 0;
+  };
+  const auto at = [&](double radius) -> std::optional<Scale> {
+    std::vector<Vector2d> changes;
+    Matrix2d linear = Matrix2d::Zero();
+    for (int i = 0; i < directions; ++i) {
+      const Vector2d n = direction(2 * pi * (i + 0.37) / directions);
+      const auto there = field(field.moved(x, radius * n));
+      if (!there) return std::nullopt;
+      changes.push_back((*there - *here) / radius);
+      linear += 2. / directions * changes.back() * n.transpose();
+    }
+    Scale scale{0, linear.norm(), 0};
+    for (int i = 0; i < directions; ++i) {
+      const Vector2d& change = changes[static_cast<std::size_t>(i)];
+      scale.misfit = std::max(scale.misfit, (change - linear * direction(2 * pi * (i + 0.37) / directions)).norm());
+      scale.change = std::max(scale.change, radius * change.norm());
+    }
+    return scale;
+  };
+  const auto wide = at(far), close = at(nearer);
+  if (!wide || !close) return {false, false};
+  constexpr double constant = 0.3, visible = 1e-6;
+  Sides sides;
+  sides.smooth = !(close->misfit > constant * wide->misfit && close->misfit > visible * close->slopes);
+  sides.jump = !sides.smooth && close->change > constant * wide->change;
+  return sides;
+}
+
+/// Returns the turns of the field on a circle; empty if they are not known.
+std::optional<int> turns(const ScaledField& field, const Vector2d& x, double radius) {
+  constexpr int pieces = 32, deepest = 40;
+  const auto at = [&](double angle) -> std::optional<Vector2d> {
+    const auto g = field(field.moved(x, radius * direction(angle)));
+    return g && g->norm() > 0 ? std::optional<Vector2d>(g->stableNormalized()) : std::nullopt;
+  };
+  const auto turned = [&](auto&& self, double from, const Vector2d& a, double to, const Vector2d& b,
+                          int depth) -> std::optional<double> {
+    constexpr double largest = 0.8;
+    const double angle = std::atan2(cross(a, b), a.dot(b));
+    if (std::abs(angle) < largest) return angle;
+    if (depth == deepest) return std::nullopt;
+    const double middle = (from + to) / 2;
+    const auto there = at(middle);
+    if (!there) return std::nullopt;
+    const auto one = self(self, from, a, middle, *there, depth + 1);
+    if (!one) return std::nullopt;
+    const auto other = self(self, middle, *there, to, b, depth + 1);
+    return other ? std::optional(*one + *other) : std::nullopt;
+  };
+  double sum = 0;
+  auto before = at(0);
+  const auto first = before;
+  for (int i = 1; i <= pieces && before; ++i) {
+    const auto here = i < pieces ? at(2 * pi * i / pieces) : first;
+    if (!here) return std::nullopt;
+    const auto part = turned(turned, 2 * pi * (i - 1) / pieces, *before, 2 * pi * i / pieces, *here, 0);
+    if (!part) return std::nullopt;
+    sum += *part;
+    before = here;
+  }
+  return before ? std::optional(static_cast<int>(std::lround(sum / (2 * pi)))) : std::nullopt;
+}
+
+/// Returns true if the field vanishes somewhere on a circle.
+bool vanishes_on_circle(const ScaledField& field, const Vector2d& x, double radius) {
+  constexpr int pieces = 64;
+  constexpr double zero = 1e-12;
+  const auto size = [&](double angle) {
+    const auto g = field(field.moved(x, radius * direction(angle)));
+    return g ? g->norm() : infinity;
+  };
+  std::array<double, pieces> sizes;
+  for (std::size_t i = 0; i < pieces; ++i) sizes[i] = size(2 * pi * static_cast<double>(i) / pieces);
+  const double largest = std::ranges::max(sizes);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const double here = sizes[i];
+    if (here > sizes[(i + 1) % pieces] || here > sizes[(i + pieces - 1) % pieces]) continue;
+    // Golden sections also find the least value of |g| at a simple zero, where |g| has a corner.
+    double low = 2 * pi * (static_cast<double>(i) - 1) / pieces, high = low + 4 * pi / pieces;
+    double least = here;
+    for (int step = 0; step < 75 && least > zero * largest; ++step) {
+      const double part = (high - low) / (1 + std::numbers::phi), left = low + part, right = high - part;
+      const double at_left = size(left), at_right = size(right);
+      (at_left < at_right ? high : low) = at_left < at_right ? right : left;
+      least = std::min({least, at_left, at_right});
+    }
+    if (least <= zero * largest) return true;
+  }
+  return false;
+}
+
+/// Returns true if Newton's method finds another zero beside `zero`, in the direction in which the field is constant.
+bool on_simple_curve_of_zeros(const ScaledField& field, const Vector2d& zero, const Matrix2d& slopes) {
   // Newton's method reaches a simple zero in a few steps, but a multiple zero only in many.
   constexpr int steps = 3;
-  constexpr double left = 1e-12, apart = 0.5;
-  Vector2d x = zero + along;
+  constexpr double left = 1e-12, apart = 0.5, beside = 0.04;
+  const bool first = slopes.row(0).squaredNorm() >= slopes.row(1).squaredNorm();
+  const Vector2d row = slopes.row(first ? 0 : 1);
+  const Vector2d along = beside * (row.isZero(0) ? Vector2d(0, 1) : Vector2d(-row[1], row[0]).normalized());
+  Vector2d z = along;
   for (int i = 0; i < steps; ++i) {
-    const auto here = jet_of(field, x);
-    if (!here) return false;
-    if (!here->f.isZero(0)) x -= least_squares(here->slopes, here->f);
+    const auto here = field.linear(field.moved(zero, z), false);
+    if (!here) break;
+    if (!here->g.isZero(0)) z -= least_squares(here->slopes, here->g);
   }
-  const auto there = jet_of(field, x);
-  return there && (x - zero).norm() > apart * along.norm() &&
-         there->f.norm() <= left * there->slopes.norm() * along.norm();
+  const auto there = field.linear(field.moved(zero, z), false);
+  return there && z.norm() > apart * along.norm() && there->g.norm() <= left * there->slopes.norm() * along.norm();
+}
+
+/// Returns the eigenvalues of a matrix with a trace and a determinant, the square root in them being real if square >
+/// 0.
+Equilibrium::Eigenvalues eigenvalues_of(double trace, double determinant, double square) {
+  const double half = trace / 2, root = std::sqrt(std::abs(square));
+  if (square < 0) return {{half, -root}, {half, root}};
+  if (square == 0) return {half, half};
+  // The smaller eigenvalue is the quotient of the determinant and the larger one, so that no digits cancel.
+  const double large = half + std::copysign(root, half), small = large == 0 ? 0 : determinant / large;
+  return {std::min(large, small) + 0., std::max(large, small) + 0.};
+}
+
+/// The search for zeros in a rectangle.
+class Search {
+ public:
+  Search(const SmoothField& field, const Vector2d& low, const Vector2d& high)
+      : field_(field, (high - low) / 2), low_(low), high_(high) {}
+
+  Equilibria run();
+
+ private:
+  struct Zero {
+    Equilibrium point;
+    double radius;  ///< multiple zeros nearer than this, in half sides, are the same
+  };
+  struct Cell {
+    Vector2d x;
+    double half;
+  };
+
+  Vector2d place(const Vector2d& x) const { return (x - low_).cwiseQuotient(high_ - low_); }
+  bool found_near(const Vector2d& x, double distance) const {
+    return std::ranges::any_of(zeros_, [&](const Zero& zero) { return field_.distance(x, zero.point.x) < distance; }) ||
+           std::ranges::any_of(others_, [&](const Vector2d& other) { return field_.distance(x, other) < distance; });
+  }
+  void follow(Vector2d x, double reach);
+  void examine(Vector2d x);
+  std::optional<Equilibrium> simple(const Vector2d& x, const ScaledField::Linear& at) const;
+  double rounding(const Vector2d& x, const ScaledField::Linear& at) const;
+  void add(const Equilibrium& point, double radius) { zeros_.push_back({point, radius}); }
+  void divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth);
+  void find_indices();
+
+  ScaledField field_;
+  Vector2d low_, high_;
+  std::vector<Zero> zeros_;
+  std::vector<Vector2d> others_;  ///< zeros on curves of zeros, jumps, and points that look like zeros
+  std::vector<Vector2d> curves_;  ///< multiple zeros on curves of zeros
+  std::vector<Cell> unexplained_;
+  int cells_ = 0;
+  bool complete_ = true;
+};
+
+/// Follows Newton's method from x.
+/// @param reach  largest distance from x; zeros farther away are found from the cells in which they lie
+void Search::follow(Vector2d x, double reach) {
+  constexpr int most = 100, quick = 12;  // near a multiple zero a step only halves the distance
+  constexpr double exact = 2e-13, multiple = 1e-3;
+  const Vector2d from = x;
+  for (int step = 0; step < most; ++step) {
+    const auto here = field_.linear(x, false);
+    if (!here) return;
+    const Vector2d way = here->g.isZero(0) ? Vector2d(0, 0) : Vector2d(here->slopes.fullPivLu().solve(here->g));
+    const Vector2d next = field_.moved(x, -way);
+    if (!(field_.distance(next, from) <= reach)) {
+      if (step <= quick) return;
+      break;  // beside a multiple zero the Jacobian is at last only rounding
+    }
+    x = next;
+    if (step > 0 && found_near(x, step > quick ? multiple : same)) return;
+    if (way.norm() <= exact) break;
+  }
+  examine(x);
+}
+
+/// Returns the rounding of g near a zero: the deviations from linearity at a distance at which these are tiny.
+double Search::rounding(const Vector2d& x, const ScaledField::Linear& at) const {
+  constexpr double near = 1e-9;
+  double largest = eps * at.slopes.norm() * x.cwiseQuotient(field_.half()).norm();
+  for (int i = 0; i < 8; ++i) {
+    const Vector2d z = near * direction(2 * pi * (i + 0.37) / 8);
+    const auto there = field_(field_.moved(x, z));
+    if (!there) continue;
+    // The step itself is rounded.
+    const Vector2d made = (field_.moved(x, z) - x).cwiseQuotient(field_.half());
+    largest = std::max(largest, (*there - at.g - at.slopes * made).norm() - near * at.error);
+  }
+  return largest;
+}
+
+/// Returns the equilibrium if x is a simple zero by the bounds of its errors, else nothing.
+std::optional<Equilibrium> Search::simple(const Vector2d& x, const ScaledField::Linear& at) const {
+  const Matrix2d& slopes = at.slopes;
+  const double norm = slopes.norm(), determinant = slopes.determinant(), trace = slopes.trace();
+  if (determinant == 0) return std::nullopt;
+  const double least = std::abs(determinant) / norm;  // not above the least singular value
+  constexpr double step = 1e-3, roundings = 8;
+  double change = -1;
+  for (int i = 0; i < 4; ++i) {
+    const Vector2d z = step * direction(pi / 2 * i);
+    const auto there = field_.linear(field_.moved(x, z), false);
+    if (there) change = std::max(change, (there->slopes - slopes).norm() / step);
+  }
+  if (change < 0) return std::nullopt;
+  const double away = 2 * (at.g.norm() + rounding(x, at)) / least;
+  if (!(4 * away * change < least)) return std::nullopt;
+  const double error = change * away + roundings * eps * norm + at.error;
+  const double of_determinant = 2 * norm * error, of_trace = 2 * error;
+  if (!(std::abs(determinant) > of_determinant)) return std::nullopt;
+  const double true_trace = std::abs(trace) > of_trace ? trace : 0;
+  double square = std::pow((slopes(0, 0) - slopes(1, 1)) / 2, 2) + slopes(0, 1) * slopes(1, 0);
+  if (true_trace == 0) square = -determinant;
+  if (std::abs(square) <= std::abs(trace) * error + of_determinant) square = 0;
+  Equilibrium point{x, field_.half().asDiagonal() * slopes * field_.half().cwiseInverse().asDiagonal()};
+  point.eigenvalues = eigenvalues_of(true_trace, determinant, square);
+  point.index = determinant > 0 ? 1 : -1;
+  point.kind = determinant < 0   ? planar_kind("saddle")
+               : true_trace == 0 ? planar_kind("center or focus")
+               : square < 0      ? (trace < 0 ? planar_kind("stable focus") : planar_kind("unstable focus"))
+                                 : (trace < 0 ? planar_kind("stable node") : planar_kind("unstable node"));
+  return point;
+}
+
+/// Finds out whether Newton's method has ended at a zero, and of which kind.
+void Search::examine(Vector2d x) {
+  constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, roundings = 64, slack = 1e-9;
+  const auto inside = [&](const Vector2d& at) {
+    return place(at).minCoeff() >= -slack && place(at).maxCoeff() <= 1 + slack;
+  };
+  if (!inside(x) || found_near(x, same)) return;
+  const auto rounded = few_decimals(field_.unscaled(), x, field_.half(), snap);
+  if (!rounded) return others_.push_back(x);  // the field has no value at the zero, such as 0/0
+  x = *rounded;
+  if (!inside(x) || found_near(x, same)) return;
+  const Vector2d g = field_(x).value_or(Vector2d::Constant(infinity));
+  double around = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto there = field_(field_.moved(x, beside * direction(pi / 4 * i)));
+    if (there) around = std::max(around, there->norm());
+  }
+  // A singular Jacobian can give a step of length 0 at a point that is no zero. Therefore test the field itself.
+  constexpr double small = 1e-9;
+  if (!(g.norm() <= small * around)) return;
+  const Matrix2d none = Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Sides sides = compare_sides(field_, x);
+  if (!sides.smooth) {
+    if (sides.jump && !g.isZero(0)) return others_.push_back(x);
+    return add({x, none, planar_kind("not smooth")}, same);
+  }
+  const auto at = field_.linear(x, true);
+  if (!at) return add({x, none}, same);
+  if (const auto point = simple(x, *at)) return add(*point, same);
+  if (on_simple_curve_of_zeros(field_, x, at->slopes)) return others_.push_back(x);
+  const auto of_multiple = [&](const Zero& zero) { return field_.distance(x, zero.point.x) < zero.radius; };
+  const auto on_curve = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
+  if (std::ranges::any_of(zeros_, of_multiple) || std::ranges::any_of(curves_, on_curve)) return others_.push_back(x);
+  // Newton's method halves the distance to a multiple zero only. If there is a point of few decimals at which the field
+  // is smaller, it is the better zero.
+  const auto better = few_decimals(field_.unscaled(), x, field_.half(), coarse);
+  if (better && *better != x) return examine(*better);
+  if (vanishes_on_circle(field_, x, 0.05) && vanishes_on_circle(field_, x, 0.02)) {
+    curves_.push_back(x);
+    return others_.push_back(x);
+  }
+  const auto multiple = degenerate_point(field_.unscaled(), x, field_.half());
+  Equilibrium point{x, field_.half().asDiagonal() * at->slopes * field_.half().cwiseInverse().asDiagonal()};
+  if (multiple) {
+    if (!inside(multiple->x) || found_near(multiple->x, same)) return;
+    point.x = multiple->x;
+    point.kind = multiple->kind;
+    point.eigenvalues = {std::min(multiple->rate, 0.), std::max(multiple->rate, 0.)};
+    if (const auto there = field_.linear(point.x, true)) {
+      point.slopes = field_.half().asDiagonal() * there->slopes * field_.half().cwiseInverse().asDiagonal();
+    }
+  } else {
+    // No polynomial describes the field. The point counts if the field vanishes within rounding.
+    if (!(g.norm() <= roundings * rounding(x, *at))) return unexplained_.push_back({x, apart});
+    const double determinant = at->slopes.determinant(), trace = at->slopes.trace(), norm = at->slopes.norm();
+    if (std::abs(determinant) > small * norm * norm) return add({x, none}, same);
+    point.eigenvalues = {std::min(trace, 0.), std::max(trace, 0.)};
+    if (std::abs(trace) <= std::sqrt(small) * norm) point.eigenvalues = {0, 0};
+  }
+  add(point, apart);
+}
+
+/// Divides a cell until the field is nearly linear in it or has no zero, and follows Newton's method from the parts.
+/// @param corners  g at (-1, -1), (1, -1), (-1, 1) and (1, 1)
+void Search::divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth) {
+  constexpr int deepest = 5, deepest_without_value = 3, most = 8000;
+  constexpr double widest = 0.2, bent = 0.5, clear = 0.2, like = 0.25;
+  const auto here = field_.linear(cell.x, false);
+  // Zeros farther away are found from the cells in which they lie.
+  if (here) follow(cell.x, depth == 0 ? widest : 4 * cell.half);
+  const bool all = here && std::ranges::all_of(corners, [](const auto& g) { return g.has_value(); });
+  if (!here && std::ranges::none_of(corners, [](const auto& g) { return g.has_value(); })) return;
+  bool linear = all, very_linear = all;
+  if (all) {
+    for (int i = 0; i < 2; ++i) {
+      const double change = cell.half * here->slopes.row(i).lpNorm<1>();
+      double deviation = 0;
+      for (int j = 0; j < 4; ++j) {
+        const Vector2d z = cell.half * Vector2d(j % 2 == 0 ? -1 : 1, j < 2 ? -1 : 1);
+        deviation =
+            std::max(deviation, std::abs((*corners[static_cast<std::size_t>(j)] - here->g - here->slopes * z)[i]));
+      }
+      if (std::abs(here->g[i]) > change + 2 * deviation) return;
+      linear &= deviation <= bent * change;
+      very_linear &= deviation <= clear * change;
+    }
+  }
+  if (linear) {
+    // Newton's method must have found the zero that the linear part predicts.
+    const Vector2d z = here->slopes.fullPivLu().solve(here->g);
+    if (very_linear && z.lpNorm<Eigen::Infinity>() <= cell.half) unexplained_.push_back(cell);
+    return;
+  }
+  if (depth == (all ? deepest : deepest_without_value) || cells_ > most) {
+    complete_ &= cells_ <= most;
+    // Beside a jump Newton's method does not lead to a point at which the field is 0 by definition.
+    const auto simple = few_decimals(field_.unscaled(), cell.x, field_.half(), 2 * cell.half);
+    if (simple && field_(*simple)->isZero(0)) examine(*simple);
+    const auto is_clear = [&](const auto& of) {
+      double least = infinity, largest = -infinity;
+      const auto include = [&](const Vector2d& g) {
+        least = std::min<double>(least, of(g));
+        largest = std::max<double>(largest, of(g));
+      };
+      if (here) include(here->g);
+      for (const auto& corner : corners) {
+        if (corner) include(*corner);
+      }
+      return least * largest > 0 &&
+             std::min(std::abs(least), std::abs(largest)) >= like * std::max(std::abs(least), std::abs(largest));
+    };
+    // Beside a jump or a pole a component of one sign, or |g|, does not come near to 0.
+    if (is_clear([](const Vector2d& g) { return g[0]; }) || is_clear([](const Vector2d& g) { return g[1]; }) ||
+        is_clear([](const Vector2d& g) { return g.norm(); })) {
+      return;
+    }
+    unexplained_.push_back(cell);
+    return;
+  }
+  std::array<std::optional<Vector2d>, 9> lattice;
+  for (int j = 0; j < 9; ++j) {
+    const int column = j % 3, row = j / 3;
+    auto& g = lattice[static_cast<std::size_t>(j)];
+    if (column != 1 && row != 1) {
+      g = corners[static_cast<std::size_t>(column / 2 + row)];
+    } else {
+      g = field_(field_.moved(cell.x, cell.half * Vector2d(column - 1, row - 1)));
+    }
+  }
+  for (int j = 0; j < 4; ++j) {
+    const int column = j % 2, row = j / 2;
+    const auto at = [&](int i, int k) { return lattice[static_cast<std::size_t>(3 * (row + k) + column + i)]; };
+    ++cells_;
+    divide({field_.moved(cell.x, cell.half * Vector2d(column - 0.5, row - 0.5)), cell.half / 2},
+           {at(0, 0), at(1, 0), at(0, 1), at(1, 1)}, depth + 1);
+  }
+}
+
+/// Finds the index of each zero that is not simple, and compares the index with the kind.
+void Search::find_indices() {
+  constexpr double widest = 0.1, part = 0.3, smaller = 0.5;
+  for (Zero& zero : zeros_) {
+    Equilibrium& point = zero.point;
+    if (point.index) continue;
+    double radius = widest;
+    for (const Zero& other : zeros_) {
+      if (&other != &zero) radius = std::min(radius, part * field_.distance(point.x, other.point.x));
+    }
+    const auto index = turns(field_, point.x, radius), again = turns(field_, point.x, smaller * radius);
+    if (index == again) point.index = index;
+    if (point.kind == "not smooth") continue;
+    const bool none = point.kind == "cusp" || point.kind == "saddle-node";
+    const bool known = point.kind == "saddle" || none || point.kind.ends_with("node") || point.kind.ends_with("focus");
+    if (known && point.index != (none ? 0 : point.kind == "saddle" ? -1 : 1)) point.kind = planar_kind("degenerate");
+  }
+}
+
+Equilibria Search::run() {
+  constexpr int across = 40;
+  constexpr double near = 6;  // Newton's first step leads into a cell from as many cells as the multiplicity of a zero
+  const auto lattice = [&](double column, double row) {
+    return Vector2d(low_ + Vector2d(column, row).cwiseProduct(high_ - low_) / across);
+  };
+  std::vector<std::optional<Vector2d>> before, above;
+  for (int row = 0; row <= across; ++row) {
+    above.clear();
+    for (int column = 0; column <= across; ++column) above.push_back(field_(lattice(column, row)));
+    for (std::size_t column = 0; row > 0 && column < across; ++column) {
+      divide({lattice(static_cast<double>(column) + 0.5, row - 0.5), 1. / across},
+             {before[column], before[column + 1], above[column], above[column + 1]}, 0);
+    }
+    std::swap(before, above);
+  }
+  find_indices();
+  Equilibria result{{}, low_, high_};
+  for (const Zero& zero : zeros_) result.points.push_back(zero.point);
+  result.complete = complete_ && std::ranges::all_of(unexplained_, [&](const Cell& cell) {
+                      return found_near(cell.x, near * cell.half);
+                    });
+  return result;
 }
 
 }  // namespace
@@ -49,15 +559,10 @@ std::vector<Reversor> find_reversors(const SmoothField& field, const Vector2d& a
     int compared = 0;
     const auto holds = [&](int i) {
       const double size = i % 2 == 0 || small == 0 ? large : small;
-      const Vector2d x = size * (2 * evenly_spread(i) - Vector2d::Ones()), image = reversor.matrix * x;
-      const auto here = jet_of(field, x), there = jet_of(field, image);
-      if (!here || !there) return !here && !there;
-      ++compared;
-      constexpr double roundings = 64;
-      const Vector2d allowed =
-          roundings * eps * (here->f.cwiseAbs() + there->f.cwiseAbs() + here->slopes.cwiseAbs() * x.cwiseAbs());
-      const Vector2d image_allowed = reversor.matrix.cwiseAbs() * allowed;
-      return ((there->f + reversor.matrix * here->f).cwiseAbs().array() <= image_allowed.array()).all();
+      const auto reversed =
+          reverses(field, reversor.matrix, Vector2d::Zero(), size * (2 * evenly_spread(i) - Vector2d::Ones()));
+      compared += reversed.has_value();
+      return reversed.value_or(true);
     };
     bool all = true;
     for (int i = 1; i <= points && all; ++i) all = holds(i);
@@ -66,92 +571,57 @@ std::vector<Reversor> find_reversors(const SmoothField& field, const Vector2d& a
   return found;
 }
 
-std::pair<std::complex<double>, std::complex<double>> Equilibrium::eigenvalues() const {
-  const double half = slopes.trace() / 2, difference = (slopes(0, 0) - slopes(1, 1)) / 2;
-  const double square = difference * difference + slopes(0, 1) * slopes(1, 0);
-  const std::complex<double> root = std::sqrt(std::complex<double>(square));
-  return {half - root, half + root};
-}
-
-std::string_view Equilibrium::kind() const {
-  constexpr double rounding = 1e-10;
-  const auto [first, second] = eigenvalues();
-  const double zero = rounding * slopes.norm();
-  if (std::min(std::abs(first), std::abs(second)) <= zero) return planar_kind("degenerate");
-  if (first.imag() != 0) {
-    return first.real() < -zero  ? planar_kind("stable focus")
-           : first.real() > zero ? planar_kind("unstable focus")
-           : closes              ? planar_kind("center")
-                                 : planar_kind("center or focus");
-  }
-  return first.real() * second.real() < 0 ? planar_kind("saddle")
-         : second.real() < 0              ? planar_kind("stable node")
-                                          : planar_kind("unstable node");
-}
-
-std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2d& low, const Vector2d& high) {
-  constexpr int across = 40, most = 100;  // near a multiple zero a step only halves the distance
-  constexpr double same = 1e-6, exact = 1e-13;
-  const Vector2d sides = high - low;
-  const auto place = [&](const Vector2d& x) { return Vector2d((x - low).cwiseQuotient(sides)); };
-  std::vector<Equilibrium> found;
-  for (int i = 0; i < across * across; ++i) {
-    const int row = i / across, column = i % across;
-    Vector2d x = low + Vector2d((column + 0.5) / across, (row + 0.5) / across).cwiseProduct(sides);
-    const Vector2d from = place(x);
-    for (int step = 0; step < most; ++step) {
-      const auto here = jet_of(field, x);
-      if (!here) break;
-      const Vector2d way = here->f.isZero(0) ? Vector2d(0, 0) : Vector2d(here->slopes.fullPivLu().solve(here->f));
-      // Zeros farther away are found from the grid points in their own cell.
-      constexpr double reach = 0.1;
-      if (!((place(x - way) - from).norm() <= reach)) break;
-      x -= way;
-      if (!(way.cwiseQuotient(sides).norm() <= exact)) continue;
-      const Vector2d there = place(x);
-      const bool inside = there.minCoeff() >= 0 && there.maxCoeff() <= 1;
-      const bool known =
-          std::ranges::any_of(found, [&](const Equilibrium& other) { return (place(other.x) - there).norm() < same; });
-      const auto at = jet_of(field, x);
-      if (!inside || known || !at || !at->slopes.allFinite()) break;
-      // A singular Jacobian can give a step of length 0 at a point that is no zero. Therefore test the field itself.
-      constexpr double zero = 1e-9;
-      if (at->f.norm() <= zero * (at->slopes * sides.asDiagonal()).norm()) found.push_back({x, at->slopes});
-      break;
+Equilibria find_equilibria(const SmoothField& field, const Vector2d& low, const Vector2d& high) {
+  Equilibria found = Search(field, low, high).run();
+  found.reversors = find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()));
+  for (const Reversor& reversor : found.reversors) {
+    if (reversor.matrix.determinant() > 0) continue;
+    for (Equilibrium& each : found.points) {
+      const bool on_axis = (reversor.matrix * each.x - each.x).norm() < same * (high - low).norm();
+      if (on_axis && each.kind == "center or focus") each.kind = planar_kind("center");
     }
   }
-  constexpr double beside = 0.02;
-  std::erase_if(found, [&](const Equilibrium& each) {
-    if (each.kind() != "degenerate") return false;
-    const bool first = each.slopes.row(0).squaredNorm() >= each.slopes.row(1).squaredNorm();
-    const Vector2d row = each.slopes.row(first ? 0 : 1);
-    const Vector2d along = row.isZero(0) ? Vector2d(0, 1) : Vector2d(-row[1], row[0]).normalized();
-    return on_curve_of_zeros(field, each.x, beside * sides.minCoeff() * along);
-  });
-  for (const Reversor& reversor : find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()))) {
-    if (reversor.matrix.determinant() > 0) continue;
-    for (Equilibrium& each : found) each.closes |= (reversor.matrix * each.x - each.x).norm() < same * sides.norm();
-  }
-  std::ranges::sort(found, {}, [](const Equilibrium& each) { return std::pair(each.x[0], each.x[1]); });
+  std::ranges::sort(found.points, {}, [](const Equilibrium& each) { return std::pair(each.x[0], each.x[1]); });
   return found;
 }
 
-void prove_centers(std::vector<Equilibrium>& equilibria, const PlanarReduction& plane) {
+Equilibria find_equilibria(const SmoothField& field, const Vector2d& start) {
+  const Vector2d corner = Vector2d::Constant(2.5 * start.lpNorm<Eigen::Infinity>());
+  return find_equilibria(field, -corner, corner);
+}
+
+void compare_kinds(Equilibria& equilibria, const PlanarReduction& plane) {
   constexpr double least = 1e-3;
-  for (Equilibrium& each : equilibria) {
+  const auto turning = [](std::string_view kind) { return kind.starts_with("center") || kind.ends_with("focus"); };
+  const auto without_star = [](std::string_view kind) {
+    return kind == "stable star"     ? planar_kind("stable node")
+           : kind == "unstable star" ? planar_kind("unstable node")
+                                     : kind;
+  };
+  for (Equilibrium& each : equilibria.points) {
+    if (each.kind == "not smooth" || each.kind == "degenerate") continue;
+    if (plane.scaling() != nullptr) {
+      const double size = (equilibria.high - equilibria.low).norm();
+      const std::string_view kind = without_star(plane.kind());
+      if ((each.x - plane.centre()).norm() > same * size) continue;
+      if (kind.empty() || kind == "bordered" || kind == "degenerate" || kind == each.kind) continue;
+      if (!turning(each.kind) || !turning(kind)) {
+        each.kind = planar_kind("degenerate");
+      } else if (each.kind != "center or focus" || kind == "center") {
+        each.kind = each.kind == "center or focus" ? planar_kind("center") : planar_kind("center or focus");
+      }
+      continue;
+    }
+    if (each.kind != "center or focus") continue;
+    bool closes = plane.form() == name(FactorForm::constant);
     const Vector2d& radii = box_about(each.x).radii;
-    each.closes |= plane.form() == name(FactorForm::constant);
     for (const FactorPiece& piece : plane.factor_pieces(each.x - radii, each.x + radii)) {
       const bool within = (each.x - piece.low).minCoeff() >= 0 && (piece.high - each.x).minCoeff() >= 0;
       const double largest = std::max(std::abs(piece.value(piece.low)), std::abs(piece.value(piece.high)));
-      each.closes |= within && std::abs(piece.value(each.x)) > least * largest;
+      closes |= within && std::abs(piece.value(each.x)) > least * largest;
     }
+    if (closes) each.kind = planar_kind("center");
   }
-}
-
-std::vector<Equilibrium> find_equilibria(const SmoothField& field, const Vector2d& start) {
-  const Vector2d corner = Vector2d::Constant(2.5 * start.lpNorm<Eigen::Infinity>());
-  return find_equilibria(field, -corner, corner);
 }
 
 }  // namespace contensou::reduction

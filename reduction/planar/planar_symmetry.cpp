@@ -445,6 +445,7 @@ PlanarSymmetries find_symmetries(const SmoothField& field, const Vector2d& aroun
   PlanarSymmetries result;
   result.level = 8 * std::max(equations.error / largest, 8 * eps);
   result.points = static_cast<int>(equations.points.size());
+  result.around = unit * scale;
   int nullity = 0;
   for (int i = 0; i < 7; ++i) {
     result.singular_values[i] = svd.values[6 - i] / largest;

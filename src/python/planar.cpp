@@ -117,19 +117,19 @@ void bind_planar(py::module_& module) {
                              [](const Planar& planar) {
                                const auto found = interruptible([&] {
                                  auto zeros = reduction::find_equilibria(planar.field, planar.start);
-                                 if (planar.solved_plane.plane) prove_centers(zeros, planar.solved());
+                                 if (planar.solved_plane.plane) compare_kinds(zeros, planar.solved());
                                  return zeros;
                                });
-                               return list_of(found, [](const reduction::Equilibrium& each) {
-                                 return py::make_tuple(each.x[0], each.x[1], each.kind(), each.eigenvalues());
+                               return list_of(found.points, [](const reduction::Equilibrium& each) {
+                                 return py::make_tuple(each.x[0], each.x[1], each.kind, each.eigenvalues, each.index);
                                });
                              })
-      .def_property_readonly("reversors",
-                             [](const Planar& planar) {
-                               return list_of(
-                                   interruptible([&] { return reduction::find_reversors(planar.field, planar.start); }),
-                                   &reduction::Reversor::name);
-                             })
+      .def_property_readonly(
+          "reversors",
+          [](const Planar& planar) {
+            const auto found = interruptible([&] { return reduction::find_equilibria(planar.field, planar.start); });
+            return list_of(found.reversors, &reduction::Reversor::name);
+          })
       .def_property_readonly("solved", [](const Planar& planar) { return planar.solved_plane.plane.has_value(); })
       .def_property_readonly("kind",
                              [](const Planar& planar) -> std::optional<std::string> {

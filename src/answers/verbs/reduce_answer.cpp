@@ -105,7 +105,8 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
   }
   text += "values      ";
   for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
-  text += fmt::format("\n            singular ones of the determining equations at {} points; ", found.points);
+  text += fmt::format("\n            singular ones of the determining equations at {} points, |u| <= {}, |v| <= {}; ",
+                      found.points, digits(3 * found.around[0]), digits(3 * found.around[1]));
   // Each singular value is divided by the largest one.
   return text + (found.level < 1 ? fmt::format("0 is below {:.1g}, gap {:.1g}\n", found.level, found.gap)
                                  : "the errors of differences exceed all of them\n");
@@ -117,7 +118,8 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
   answer.members.update({{"generators", generators},
                          {"singular_values", found.singular_values},
                          {"level", found.level},
-                         {"gap", found.gap}});
+                         {"gap", found.gap},
+                         {"sampled_within", {3 * found.around[0], 3 * found.around[1]}}});
   add_text(answer, [=](const Digits& digits) { return text_of(found, time, digits); });
 }
 
@@ -202,33 +204,44 @@ std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   return text;
 }
 
-/// The equilibria of the field near the start, and the maps that reverse the motions of the field.
-struct Equilibria {
-  std::vector<reduction::Equilibrium> zeros;
-  std::vector<reduction::Reversor> reversors;
+Json members_of(const reduction::Equilibria& equilibria) {
+  Json names = Json::array();
+  for (const auto& [name, matrix] : equilibria.reversors) names.push_back(name);
+  Json json = portraits::equilibria_members<Json>(equilibria);
+  json["reversors"] = names;
+  return json;
+}
 
-  Json members() const {
-    Json names = Json::array();
-    for (const auto& [name, matrix] : reversors) names.push_back(name);
-    return {{"equilibria", portraits::equilibria_json<Json>(zeros)}, {"reversors", names}};
-  }
-
-  std::string text(const Digits& digits) const {
-    std::string text;
-    for (const auto& each : zeros) {
-      const auto [first, second] = each.eigenvalues();
-      const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: avoids a minus sign before 0
-      text += fmt::format("equilibrium ({}, {}): {}, eigenvalues {}\n", part(each.x[0]), part(each.x[1]), each.kind(),
-                          first.imag() == 0   ? part(first.real()) + ", " + part(second.real())
-                          : first.real() == 0 ? fmt::format("+-{} i", part(second.imag()))
-                                              : fmt::format("{} +- {} i", part(first.real()), part(second.imag())));
+/// Returns a text on the equilibria near the start, the part of the plane in which they were sought, and the reversors.
+std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
+  const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: avoids a minus sign before 0
+  const auto& [points, low, high, complete, reversors] = equilibria;
+  const std::string within =
+      fmt::format("{} <= u <= {}, {} <= v <= {}", part(low[0]), part(high[0]), part(low[1]), part(high[1]));
+  std::string text = fmt::format("equilibria  {}, within {}\n",
+                                 points.empty() ? std::string(complete ? "none" : "none found, and there may be some")
+                                 : complete     ? fmt::format("{}", points.size())
+                                                : fmt::format("at least {}", points.size()),
+                                 within);
+  for (const reduction::Equilibrium& each : points) {
+    text += fmt::format("equilibrium ({}, {}): {}", part(each.x[0]), part(each.x[1]), each.kind);
+    if (each.eigenvalues) {
+      const auto [first, second] = *each.eigenvalues;
+      text +=
+          ", eigenvalues " + (first.imag() == 0   ? part(first.real()) + ", " + part(second.real())
+                              : first.real() == 0 ? fmt::format("+-{} i", part(second.imag()))
+                                                  : fmt::format("{} +- {} i", part(first.real()), part(second.imag())));
     }
-    for (const auto& [name, matrix] : reversors) {
-      text += fmt::format("{:<12}(u, v) -> {}, t -> -t\n", text.ends_with("-t\n") ? "" : "reversor", name);
-    }
-    return text;
+    if (each.kind == "degenerate" && each.index) text += fmt::format(", index {}", *each.index);
+    text += '\n';
   }
-};
+  for (const auto& [name, matrix] : reversors) {
+    const bool first = name == reversors.front().name;
+    text += fmt::format("{:<12}(u, v) -> {}, t -> -t{}\n", first ? "reversor" : "", name,
+                        first ? ", compared at points within the same bounds" : "");
+  }
+  return text;
+}
 
 /// Returns the canonical coordinates that the answer shows. For (2.6) they are v/u and ln v; on an axis their limits.
 PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x) {
@@ -463,11 +476,11 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
     }
     answer.members["tried"] = tried;
   }
-  Equilibria equilibria{reduction::find_equilibria(field, around), reduction::find_reversors(field, around)};
-  if (solved.plane) prove_centers(equilibria.zeros, *solved.plane);
-  answer.members.update(equilibria.members());
+  reduction::Equilibria equilibria = reduction::find_equilibria(field, around);
+  if (solved.plane) compare_kinds(equilibria, *solved.plane);
+  answer.members.update(members_of(equilibria));
   add_text(answer,
-           [=, tried = solved.tried](const Digits& digits) { return text_of(tried) + equilibria.text(digits); });
+           [=, tried = solved.tried](const Digits& digits) { return text_of(tried) + text_of(equilibria, digits); });
   bool confirmed = true;
   if (solved.plane && solved.plane->scaling()) {
     const bool at_centre = is_centre(*solved.plane->scaling(), start);
@@ -594,6 +607,8 @@ std::vector<FieldText> texts_of_symmetry() {
       {"`level`, `gap`", "",
        "level: limit below which a singular value counts as 0 and gives a generator. gap: smallest of the larger "
        "values divided by level"},
+      {"JSON `sampled_within` [U, V]", "speed, speed",
+       "the generators are compared with the equations at points with |u| <= U and |v| <= V"},
   };
 }
 
@@ -647,11 +662,14 @@ std::vector<FieldText> reduce_system_fields() {
         {"`kind`, `undecided`", "",
          "type of the centre, or null; undecided: reason why a type or an end was not found"},
         {"every `kind`", "",
-         fmt::format("{}; a center has imaginary eigenvalues and a proof: a reversor, or V not 0",
+         fmt::format("{}; motions turn about a center, and a reversor, V or a scaling proves that they are closed",
                      fmt::join(reduction::planar_kinds, ", "))},
-        {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`}]", "",
-         "isolated points at which u and v do not change, with |u| and |v| at most 2.5 max(|u0|, |v0|); eigenvalues "
-         "[[re, im], [re, im]] of the equations linearised there"},
+        {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`, `index`}]", "",
+         "isolated points at which u and v do not change. eigenvalues [[re, im], [re, im]] of the equations linearised "
+         "there; null if kind is not smooth. index: turns of (u', v') on a small circle; null if not known"},
+        {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`", "",
+         "part of the plane in which equilibria are sought and reversors compared: |u| and |v| at most 2.5 max(|u0|, |v0|). "
+         "complete: false if the list may be short"},
         {"JSON `reversors`", "",
          "reversors: maps of the plane that turn each motion into a motion backward in time, such as (u, -v)"},
         {"JSON `turn` {`factor`, `sigma`}", "",

@@ -69,7 +69,7 @@ class Planar:
     singular_values: list[float]
     level: float
     gap: float
-    equilibria: list[tuple[float, float, str, tuple[complex, complex]]]
+    equilibria: list[tuple[float, float, str, Optional[tuple[complex, complex]], Optional[int]]]
     reversors: list[str]
     solved: bool
     kind: str

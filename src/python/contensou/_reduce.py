@@ -37,13 +37,18 @@ class PlanarRay(NamedTuple):
 
 
 class Equilibrium(NamedTuple):
-    """An isolated zero of the field. kind is its type by the eigenvalues of the derivatives there; "center" only if a
-    reflection or V proves it."""
+    """An isolated zero of the field.
+
+    kind is "degenerate" or "center or focus" if nothing proves more, and "not smooth" at a kink or jump of the field.
+    eigenvalues is None if the field is not smooth there. index is the number of turns of the field on a small circle;
+    None if it is not known.
+    """
 
     u: float
     v: float
     kind: str
-    eigenvalues: tuple[complex, complex]
+    eigenvalues: Optional[tuple[complex, complex]]
+    index: Optional[int]
 
 
 class Reduction:
@@ -127,7 +132,8 @@ class Reduction:
 
     @property
     def reversors(self) -> tuple[str, ...]:
-        """Images of (u, v) under the linear maps R that reverse motions, f(R x) = -R f(x), such as "(u, -v)"."""
+        """Images of (u, v) under the linear maps R that reverse motions, f(R x) = -R f(x), such as "(u, -v)". The maps are
+        compared at points with |u|, |v| up to 2.5 times the larger of |u|, |v| of the start."""
         return tuple(self._core.reversors)
 
     @property

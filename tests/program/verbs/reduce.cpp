@@ -358,5 +358,19 @@ TEST_CASE("reduce --system shows equilibria and reversors, solved or not", "[cli
   CHECK(rabbits["reversors"].empty());
   CHECK(rabbits["equilibria"][1]["kind"] == "center");
   CHECK(json_of_system("u' = 1; v' = 2*v").at("equilibria").empty());
+  const Json competition = json_of_system("x' = (1-x-y)*x; y' = (4-7*x-3*y)*y");
+  CHECK(competition["equilibria"].size() == 4);
+  CHECK(competition["equilibria"][2]["kind"] == "saddle");
+  CHECK(competition["equilibria"][2]["index"] == -1);
+  CHECK(competition["equilibria_within"] == Json::parse("[[-2.5, 2.5], [-2.5, 2.5]]"));
+  CHECK(competition["equilibria_complete"] == true);
+  const Json friction = json_of_system("x'' = -x-0.2*sign(x')", {"--u0", "2", "--v0", "0"});
+  REQUIRE(friction["equilibria"].size() == 1);
+  CHECK(friction["equilibria"][0]["kind"] == "not smooth");
+  CHECK(friction["equilibria"][0]["eigenvalues"].is_null());
+  // A scaling alone, with a turn that multiplies by 1, proves a center.
+  CHECK(json_of_system("u' = 2*u + 5*v; v' = -u - 2*v")["equilibria"][0]["kind"] == "center");
+  const Json cusp = json_of_system("u' = v; v' = u^2");
+  CHECK(cusp["equilibria"][0]["kind"] == cusp["kind"]);
   CHECK_FALSE(json_of("reduce --mu 0.3 --u0 1 --v0 1 --format json").contains("equilibria"));
 }

@@ -22,9 +22,9 @@ struct PlanarPortrait : Portrait {
   reduction::PlanarReduction plane;
   std::array<std::string, 2> variables = {"u", "v"};  ///< names on the axes, such as x and x'
   // Only for a system without a scaling:
-  std::vector<reduction::Equilibrium> equilibria = {};  ///< equilibria in the window
-  std::vector<PortraitOrbit> separatrices = {};         ///< separatrices of the saddles
-  std::vector<PortraitOrbit> invariant = {};            ///< curves on which the inverse integrating factor V is 0
+  reduction::Equilibria equilibria = {};         ///< equilibria in the window
+  std::vector<PortraitOrbit> separatrices = {};  ///< separatrices of the saddles
+  std::vector<PortraitOrbit> invariant = {};     ///< curves on which the inverse integrating factor V is 0
 };
 
 /// Computes the portrait. Each orbit goes through the middle of the widest gap between earlier orbits. The default
@@ -45,23 +45,29 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
 /// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; on request highlight and through (orbits). Without a scaling
-/// centre is null, and there are also form, equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]]}], separatrices
-/// (orbits) and invariant [{u, v}], the curves V = 0.
+/// centre is null, and there are also form, the members of equilibria_members, separatrices (orbits) and invariant
+/// [{u, v}], the curves V = 0.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
-/// Returns equilibria as the JSON member that to_json contains.
+/// Returns the members equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]], index}], equilibria_within [[u, u],
+/// [v, v]] and equilibria_complete. Eigenvalues that do not exist and an index that is not known are null.
 /// @tparam Json  nlohmann::ordered_json
 template <class Json>
-Json equilibria_json(const std::vector<reduction::Equilibrium>& equilibria) {
-  Json json = Json::array();
-  for (const reduction::Equilibrium& each : equilibria) {
-    const auto [first, second] = each.eigenvalues();
-    json.push_back({{"u", each.x[0]},
-                    {"v", each.x[1]},
-                    {"kind", each.kind()},
-                    {"eigenvalues", {{first.real(), first.imag()}, {second.real(), second.imag()}}}});
+Json equilibria_members(const reduction::Equilibria& equilibria) {
+  Json list = Json::array();
+  for (const reduction::Equilibrium& each : equilibria.points) {
+    Json& json = list.emplace_back(Json{{"u", each.x[0]}, {"v", each.x[1]}, {"kind", each.kind}});
+    json["eigenvalues"] = nullptr;
+    if (each.eigenvalues) {
+      const auto& [first, second] = *each.eigenvalues;
+      json["eigenvalues"] = {{first.real(), first.imag()}, {second.real(), second.imag()}};
+    }
+    json["index"] = each.index ? Json(*each.index) : Json();
   }
-  return json;
+  const auto &low = equilibria.low, &high = equilibria.high;
+  return {{"equilibria", list},
+          {"equilibria_within", {{low[0], high[0]}, {low[1], high[1]}}},
+          {"equilibria_complete", equilibria.complete}};
 }
 
 /// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or

@@ -107,14 +107,15 @@ struct PlanarSymmetries {
   /// Largest |exp(s (c - A)) f(exp(s A) x) - f(x)|/|f(x)| of the scaling; x is relative to the centre and s = ln 2.
   double residual = infinity;
 
-  int points = 0;  ///< number of points at which the equations were sampled
+  int points = 0;                                    ///< number of points at which the equations were sampled
+  Eigen::Vector2d around = Eigen::Vector2d::Zero();  ///< |u| and |v| of the samples are at most 3 times these
 };
 
 /// Finds the generators by a singular value decomposition of the determining equations at up to 96 points.
 ///
 /// Derivatives are those of the field's Jacobian, exact except for rounding. Without a Jacobian they are extrapolated
-/// differences (Ridders) with an estimate of their error. Differences never cross the axes u = 0 and v = 0, at which dry
-/// friction is not smooth. Points next to other kinks are left out.
+/// differences (Ridders) with an estimate of their error. Differences never cross the axes u = 0 and v = 0, at which
+/// dry friction is not smooth. Points next to other kinks are left out.
 ///
 /// @param around  point whose |u| and |v| set the scale. Sample points lie at 1/3 to 3 times its distance from
 ///                the origin, in evenly spaced directions, denser towards the axes
