@@ -1,0 +1,266 @@
+// Planar systems in other units, and orbits that begin at or next to the origin.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <catch2/catch.hpp>
+
+#include "answers/asked/planar_system.hpp"
+#include "contensou/reduction/equilibria.hpp"
+#include "contensou/reduction/planar_steps.hpp"
+
+using namespace contensou;
+using Eigen::Vector2d;
+
+namespace {
+
+struct TypedSystem {
+  std::string f, g;
+  double u, v;  ///< start
+
+  std::string text() const { return fmt::format("u' = {}; v' = {}", f, g); }
+  Vector2d start() const { return {u, v}; }
+
+  /// Returns the system of S u and S v.
+  TypedSystem in_units(const std::string& size) const {
+    const auto scaled = [&](const std::string& side) {
+      static const std::regex variable(R"(\b[uv]\b)");
+      return fmt::format("{}*({})", size, std::regex_replace(side, variable, "($&/" + size + ")"));
+    };
+    return {scaled(f), scaled(g), std::stod(size) * u, std::stod(size) * v};
+  }
+};
+
+/// The numbers and words that `reduce` states about a system.
+struct Stated {
+  std::string form, end, kind;
+  double end_time, period;
+  std::vector<std::optional<Vector2d>> states;
+  std::vector<reduction::Equilibrium> equilibria;
+};
+
+constexpr std::array<double, 5> state_times{0, 0.1, 0.5, 1, 2};
+
+Stated stated(const TypedSystem& system) {
+  const reduction::SmoothField field = answers::parse_planar_system(system.text(), {});
+  const Vector2d start = system.start();
+  const auto found = answers::solve_planar(field, reduction::find_symmetries(field.value, start), start);
+  const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field.value);
+  const reduction::PlanarOrbit orbit = plane.orbit(start);
+  Stated all{std::string(plane.form()),
+             std::string(name(orbit.end())),
+             std::string(plane.scaling() ? plane.kind() : ""),
+             orbit.end_time(),
+             orbit.period().value_or(0),
+             {},
+             find_equilibria(field, start)};
+  for (const double time : state_times) {
+    try {
+      all.states.emplace_back(orbit.at(time));
+    } catch (const std::domain_error&) {
+      all.states.emplace_back(std::nullopt);
+    }
+  }
+  if (found.plane) prove_centers(all.equilibria, plane);
+  return all;
+}
+
+/// Returns the differences between two statements; `scaled` is in units of `size`.
+std::string differences(const Stated& plain, const Stated& scaled, double size) {
+  std::string all;
+  const auto compare = [&](const std::string& name, const auto& one, const auto& other) {
+    if (!(one == other)) all += fmt::format("; {} '{}', not '{}'", name, other, one);
+  };
+  const auto near = [&](const std::string& name, double one, double other, double tolerance) {
+    const bool equal = one == other || (std::isnan(one) && std::isnan(other));
+    if (!equal && !(std::fabs(one - other) <= tolerance * std::fabs(one))) {
+      all += fmt::format("; {} {:.17g}, not {:.17g}", name, other, one);
+    }
+  };
+  compare("form", plain.form, scaled.form);
+  compare("end", plain.end, scaled.end);
+  compare("kind", plain.kind, scaled.kind);
+  near("end time", plain.end_time, scaled.end_time, 1e-11);
+  near("period", plain.period, scaled.period, 1e-11);
+  double largest = 0;
+  for (std::size_t i = 0; i < state_times.size(); ++i) {
+    const auto &one = plain.states[i], &other = scaled.states[i];
+    compare(fmt::format("a state at {}", state_times[i]), one.has_value(), other.has_value());
+    if (!one || !other) continue;
+    largest = std::max(largest, one->norm());
+    const double error = (*other / size - *one).norm() / largest;
+    if (!(error <= 1e-11)) all += fmt::format("; state at {}: {:.1e} off", state_times[i], error);
+  }
+  compare("number of equilibria", plain.equilibria.size(), scaled.equilibria.size());
+  if (plain.equilibria.size() != scaled.equilibria.size()) return all;
+  for (std::size_t i = 0; i < plain.equilibria.size(); ++i) {
+    compare("equilibrium", plain.equilibria[i].kind(), scaled.equilibria[i].kind());
+    const double error = (scaled.equilibria[i].x / size - plain.equilibria[i].x).norm();
+    if (!(error <= 1e-12 * plain.states[0]->norm())) all += fmt::format("; equilibrium {}: {:.1e} off", i, error);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a planar system has the same solution in units from 1e-12 to 1e12", "[net]") {
+  const std::vector<TypedSystem> systems{
+      {"v", "-u", 1.3, 0.7},
+      {"v", "-sin(u)", 1.3, 0.7},
+      {"v", "-u^3 + u", 1.3, 0.7},
+      {"v", "-u - 0.3*v", 1.3, 0.7},
+      {"-2*u + v", "u - 3*v", 1.3, 0.7},
+      {"u*(1 - v)", "v*(u - 1)", 1.3, 0.7},
+      {"u^2 - v^2", "2*u*v", 1.3, 0.7},
+      {"v", "-u^3", 1.3, 0.7},
+      {"v", "-u - 0.2*sign(v)", 1.3, 0.7},
+      {"v", "-v/5 - u^3 + u", 1.3, 0.7},
+      {"1", "u - v", 0.5, 0.7},
+      {"1", "v^2 - u*v + 1", 0.3, 0.2},
+      {"u", "u*sin(u) - v", 1.3, 0.7},
+      {"v", "1 - exp(u)", 0.6, 0.7},
+      {"-2*u*v", "2*u*v - v", 1.3, 0.7},
+      {"-u*sqrt(u^2 + v^2)", "-v*sqrt(u^2 + v^2) - 1", 1.3, 0.7},
+      {"u - v - u*(u^2 + v^2)", "u + v - v*(u^2 + v^2)", 1.3, 0.7},
+      {"u^2*v - u + v/10", "0.5 - u^2*v - v/10", 1.3, 0.7},
+  };
+  for (const TypedSystem& system : systems) {
+    const Stated plain = stated(system);
+    for (int digits = -12; digits <= 12; digits += CONTENSOU_FULL_TESTS ? 1 : 6) {
+      const std::string size = fmt::format("1e{}", digits);
+      INFO(system.text() << ", solved by '" << plain.form << "', in units of " << size);
+      std::string found;
+      try {
+        found = differences(plain, stated(system.in_units(size)), std::stod(size));
+      } catch (const std::domain_error& refused) {
+        found = refused.what();
+      }
+      CHECK(found == "");
+    }
+  }
+}
+
+namespace {
+
+using LongState = std::array<long double, 2>;
+
+/// Returns the state at a time by steps of order 8; empty if steps of half the size differ, or if the state is large.
+std::optional<Vector2d> by_small_steps(const reduction::PlanarField& field, const Vector2d& start, double time) {
+  const auto at_end = [&](int count) {
+    boost::numeric::odeint::runge_kutta_fehlberg78<LongState, long double> stepper;
+    LongState state{start[0], start[1]};
+    const auto equations = [&](const LongState& x, LongState& rate, long double) {
+      const Vector2d f = field({static_cast<double>(x[0]), static_cast<double>(x[1])});
+      rate = {f[0], f[1]};
+    };
+    for (int i = 0; i < count; ++i) stepper.do_step(equations, state, 0.0L, time / static_cast<long double>(count));
+    return Vector2d(static_cast<double>(state[0]), static_cast<double>(state[1]));
+  };
+  const Vector2d x = at_end(400), finer = at_end(800);
+  if (!((x - finer).norm() <= 1e-13 * finer.norm()) || !(finer.norm() < 100)) return std::nullopt;
+  return finer;
+}
+
+}  // namespace
+
+TEST_CASE("orbits begin at the origin and next to it", "[net]") {
+  // Systems of all forms of the inverse integrating factor, and those with a scaling.
+  const std::vector<TypedSystem> systems{
+      {"1", "exp(3*u) - 2*v", 1.3, 0.7},
+      {"1", "u*exp(-u^2) - 4*u*v", 1.3, 0.7},
+      {"1", "exp(2*u) - v*cos(u)", 1.3, 0.7},
+      {"1", "1 - v^2", 1.3, 0.7},
+      {"1", "2*u - u^4 + 2*u^2*v - v^2 + 1", 1.3, 0.7},
+      {"1", "v^2 + 3*v - 4", 1.3, 0.7},
+      {"1", "u^2 + 2*u*v + v^2", 1.3, 0.7},
+      {"1", "v^2 - v*sin(u) + cos(u)", 1.3, 0.7},
+      {"1", "2*u*v - 2*v^2 + 1", 1.3, 0.7},
+      {"1", "u*v^2 + 3*u*v", 1.3, 0.7},
+      {"1", "v^3/3 + v^2 + v/2 + 1", 1.3, 0.7},
+      {"1", "2*sqrt(v^2 + 1) + 3", 1.3, 0.7},
+      {"1", "2*cos(v) - 3", 1.3, 0.7},
+      {"1", "cos(3*u + 2*v)", 1.3, 0.7},
+      {"1", "exp(u)*(1 - exp(v))*exp(-v)", 1.3, 0.7},
+      {"1", "(u^5 - v^2)/u^3", 1.3, 0.7},
+      {"u", "u*sin(u) - v", 1.3, 0.7},
+      {"u", "v^2 - 1", 1.3, 0.7},
+      {"u + 1", "u*v - v^2", 1.3, 0.7},
+      {"u^2", "-2*u^2*v^2 + 3", 1.3, 0.7},
+      {"u^2 + 1", "1 - u*v", 1.3, 0.7},
+      {"u^2 - 1", "u*v - 2", 1.3, 0.7},
+      {"u^2 - 4", "-u*v^2 - 2*v^2 + 4*v", 1.3, 0.7},
+      {"cos(u)", "-v - sin(u)*cos(u) - cos(u)", 1.3, 0.7},
+      {"sin(2*u)", "-sin(2*v)", 1.3, 0.7},
+      {"v", "-4*u^2 - 4*u - v^2", 1.3, 0.7},
+      {"v", "-2*v^2 + 3*cos(u + 1)", 1.3, 0.7},
+      {"v + 1", "u + v", 1.3, 0.7},
+      {"u + v - 1", "-2*u + v - 3", 1.3, 0.7},
+      {"v - u^2", "u", 1.3, 0.7},
+      {"2*u*v", "-2*v^2 - 1", 1.3, 0.7},
+      {"u^2*v - 1", "u*v^2 - 1", 1.3, 0.7},
+      {"u^2 + v^2 + 2", "-2*u*v", 1.3, 0.7},
+      {"v*sin(u)^2", "1 - v^2*sin(u)*cos(u)", 1.3, 0.7},
+      {"1 - 3*u^2*v + 6*v^2", "3*u*v^2 - u", 1.3, 0.7},
+      {"v", "-sin(u)", 1.3, 0.7},
+      {"u*(1 - v)", "v*(u - 1)", 1.3, 0.7},
+      {"-2*cos(u) - cos(v)", "-cos(u) - 2*cos(v)", 1.3, 0.7},
+      {"u - v - u*(u^2 + v^2)", "u + v - v*(u^2 + v^2)", 1.3, 0.7},
+      {"2*u - v - 3", "u + v - 3", 1.3, 0.7},
+      {"-2*u + v", "u - 3*v", 1.3, 0.7},
+      {"u^2 - v^2", "2*u*v", 1.3, 0.7},
+      {"1", "u", 1, 0.5},
+      {"v", "u^2", 0.7, 0.4},
+      {"v", "1 - exp(u)", 1.3, 0.7},
+  };
+  int compared = 0;
+  std::vector<std::string> forms;
+  for (const TypedSystem& system : systems) {
+    const reduction::SmoothField field = answers::parse_planar_system(system.text(), {});
+    const Vector2d around = system.start();
+    const auto found = answers::solve_planar(field, reduction::find_symmetries(field.value, around), around);
+    INFO(system.text());
+    CHECK(found.plane);
+    if (!found.plane) continue;
+    INFO("solved by '" << found.plane->form() << "'");
+    forms.emplace_back(found.plane->form());
+    for (const Vector2d& start : {Vector2d(0, 0), Vector2d(1e-31, 0)}) {
+      INFO("start (" << start[0] << ", 0)");
+      const bool has_value = field.value(start).allFinite(), rests = has_value && field.value(start).isZero(0);
+      double largest = start.norm();
+      for (const double time : {0.0, 1e-3, 0.1, 0.5, 1.0}) {
+        INFO("t = " << time);
+        std::optional<Vector2d> state;
+        std::string refusal;
+        try {
+          state = found.plane->orbit(start).at(time);
+        } catch (const std::domain_error& refused) {  // for a start without a value, and behind a border
+          refusal = refused.what();
+        }
+        const auto wanted = has_value ? by_small_steps(field.value, start, time) : std::nullopt;
+        if (!wanted) continue;
+        INFO(refusal);
+        CHECK(state);
+        if (!state) continue;
+        largest = std::max(largest, wanted->norm());
+        const double error = (*state - *wanted).norm();
+        CAPTURE(*state, *wanted);
+        CHECK(error <= 1e-11 * largest);
+        if (!rests && time > 0) CHECK(*state != start);
+        ++compared;
+      }
+    }
+  }
+  CHECK(compared > 300);
+  for (const std::string form : {"scaling", "constant", "affine", "polynomial", "linear in v", "quadratic in v",
+                                 "linear in u", "quadratic in u", "product"}) {
+    INFO(form);
+    CHECK(std::ranges::count(forms, form) > 0);
+  }
+}
