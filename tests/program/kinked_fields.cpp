@@ -28,7 +28,7 @@ using Randoms = std::mt19937_64;
 
 double drawn(Randoms& random, double from, double to) {
   const double all = from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
-  return std::stod(fmt::format("{:.2f}", all));
+  return std::copysign(std::fmax(0.01, std::stod(fmt::format("{:.2f}", std::fabs(all)))), all);
 }
 std::size_t one_of(Randoms& random, std::size_t count) { return static_cast<std::size_t>(random() % count); }
 
@@ -40,11 +40,13 @@ struct Gate {
   Real value(const State& x) const { return is_circle ? x[0] * x[0] + x[1] * x[1] - c : a * x[0] + b * x[1] - c; }
   State slopes(const State& x) const { return is_circle ? State{2 * x[0], 2 * x[1]} : State{a, b}; }
   std::string text() const {
-    return is_circle ? fmt::format("u^2 + v^2 - {}", c) : fmt::format("({})*u + ({})*v - ({})", a, b, c);
+    if (is_circle) return fmt::format("u^2 + v^2 - {}", c);
+    return fmt::format("{}{}{} - ({})", a == 0 ? "" : fmt::format("({})*u", a), a == 0 || b == 0 ? "" : " + ",
+                       b == 0 ? "" : fmt::format("({})*v", b), c);
   }
 };
 
-/// A function of the state, perhaps with a break at the gate of the same number. The side of a gate is -1 or 1.
+/// A smooth function of the state.
 struct Smooth {
   std::string text;
   std::function<Real(const State& x)> value;
@@ -62,6 +64,8 @@ const std::vector<Smooth>& smooth_parts() {
   };
   return all;
 }
+
+/// A function with a break where a gate is 0. The side of the gate is -1 or 1.
 struct Broken {
   std::string text;
   Real (*value)(Real gate, int side);
@@ -250,9 +254,9 @@ TEST_CASE("orbits cross kinks and jumps without loss of digits", "[net]") {
     if (!states) continue;
     ++systems;
     const std::string text = drawn_field.text();
-    const reduction::SmoothField field = answers::parse_planar_system(text, {});
-    const auto found = answers::solve_planar(field, reduction::find_symmetries(field.value, start), start);
-    const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field.value);
+    const answers::FormulaField field = answers::parse_planar_system(text, {});
+    const auto found = answers::solve_planar(field, reduction::find_symmetries(field, start), start);
+    const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field);
     solved += found.plane.has_value();
     Failure worst{0, ""};
     const reduction::PlanarOrbit orbit = plane.orbit(start);

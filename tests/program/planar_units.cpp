@@ -49,10 +49,10 @@ struct Stated {
 constexpr std::array<double, 5> state_times{0, 0.1, 0.5, 1, 2};
 
 Stated stated(const TypedSystem& system) {
-  const reduction::SmoothField field = answers::parse_planar_system(system.text(), {});
+  const answers::FormulaField field = answers::parse_planar_system(system.text(), {});
   const Vector2d start = system.start();
-  const auto found = answers::solve_planar(field, reduction::find_symmetries(field.value, start), start);
-  const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field.value);
+  const auto found = answers::solve_planar(field, reduction::find_symmetries(field, start), start);
+  const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field);
   const reduction::PlanarOrbit orbit = plane.orbit(start);
   Stated all{std::string(plane.form()),
              std::string(name(orbit.end())),
@@ -60,7 +60,7 @@ Stated stated(const TypedSystem& system) {
              orbit.end_time(),
              orbit.period().value_or(0),
              {},
-             find_equilibria(field, start)};
+             reduction::find_equilibria(field, start)};
   for (const double time : state_times) {
     try {
       all.states.emplace_back(orbit.at(time));
@@ -222,9 +222,9 @@ TEST_CASE("orbits begin at the origin and next to it", "[net]") {
   int compared = 0;
   std::vector<std::string> forms;
   for (const TypedSystem& system : systems) {
-    const reduction::SmoothField field = answers::parse_planar_system(system.text(), {});
+    const answers::FormulaField field = answers::parse_planar_system(system.text(), {});
     const Vector2d around = system.start();
-    const auto found = answers::solve_planar(field, reduction::find_symmetries(field.value, around), around);
+    const auto found = answers::solve_planar(field, reduction::find_symmetries(field, around), around);
     INFO(system.text());
     CHECK(found.plane);
     if (!found.plane) continue;
@@ -232,7 +232,7 @@ TEST_CASE("orbits begin at the origin and next to it", "[net]") {
     forms.emplace_back(found.plane->form());
     for (const Vector2d& start : {Vector2d(0, 0), Vector2d(1e-31, 0)}) {
       INFO("start (" << start[0] << ", 0)");
-      const bool has_value = field.value(start).allFinite(), rests = has_value && field.value(start).isZero(0);
+      const bool has_value = field(start).allFinite(), rests = has_value && field(start).isZero(0);
       double largest = start.norm();
       for (const double time : {0.0, 1e-3, 0.1, 0.5, 1.0}) {
         INFO("t = " << time);
@@ -243,7 +243,7 @@ TEST_CASE("orbits begin at the origin and next to it", "[net]") {
         } catch (const std::domain_error& refused) {  // for a start without a value, and behind a border
           refusal = refused.what();
         }
-        const auto wanted = has_value ? by_small_steps(field.value, start, time) : std::nullopt;
+        const auto wanted = has_value ? by_small_steps(field, start, time) : std::nullopt;
         if (!wanted) continue;
         INFO(refusal);
         CHECK(state);
