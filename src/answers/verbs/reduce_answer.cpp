@@ -607,7 +607,7 @@ std::vector<FieldText> texts_of_symmetry() {
       {"`level`, `gap`", "",
        "level: limit below which a singular value counts as 0 and gives a generator. gap: smallest of the larger "
        "values divided by level"},
-      {"JSON `sampled_within` [U, V]", "speed, speed",
+      {"JSON `sampled_within` [U, V]", "",
        "the generators are compared with the equations at points with |u| <= U and |v| <= V"},
   };
 }
