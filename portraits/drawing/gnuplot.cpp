@@ -422,6 +422,7 @@ std::ptrdiff_t count(std::string_view text, std::string_view part) {
 /// Adds the size of the page in millimetres, and the attribute that keeps spaces. Italics divide a text into elements,
 /// and some SVG viewers drop spaces at the ends of elements.
 std::string finished_svg(std::string svg, const Figure& figure) {
+  replace_all(svg, "<text></text>", "");  // the numbers of x axes are labels
   replace_all(svg, "<text>", "<text xml:space=\"preserve\">");
   // XML does not allow the end of CDATA, U+FFFE and U+FFFF, but gnuplot leaves them in texts.
   replace_all(svg, "]]>", "]]&gt;");
