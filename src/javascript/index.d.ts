@@ -16,7 +16,7 @@ export interface System {
   drive?: number;
 }
 
-/** One number, or an array of one number for each start. */
+/** One number, or an array of one number for each start. Anything else is a TypeError, such as "1" or a BigInt64Array. */
 export type Numbers = number | ArrayLike<number>;
 
 export class Flow {

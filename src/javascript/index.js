@@ -12,6 +12,8 @@ export const balls = Object.fromEntries(library.catalogue().map(({ name, ...ball
 
 const lawOfBody = { disc: "uniform", puck: "uniform", ring: "ring" };
 
+const ofStart = ["u", "v"];
+
 /** The error for a name that is none of the allowed ones. */
 const noSuch = (kind, kinds, typed, names) =>
   new Error(`no such ${kind} '${typed}'${library.suggestion(String(typed), names)}; ${kinds}: ${names.join(", ")}`);
@@ -22,17 +24,48 @@ const bodyCalled = (name) => {
   return body;
 };
 
-/** Returns the options of a call. Throws for an unknown one. */
+const isColumn = (given) => typeof given === "object" && given !== null;
+const texts = ["law", "body", "title", "sources", "patchBy"];
+const vectors = { velocity: 2, angularVelocity: 3, youngs_modulus: 2, poisson_ratio: 2 };
+
+/** Throws if a value has another type than its name needs. JavaScript would convert true, [1] and "1" to the number 1. */
+const need = (call, name, value, several = false) => {
+  const check = (fits, needed, of = name, got = value) => {
+    if (fits) return;
+    const shown = isColumn(got) ? "an object" : typeof got === "string" ? `'${got}'` : String(got) + (typeof got === "bigint" ? "n" : "");
+    throw new TypeError(`${call}: ${of}: ${needed} is needed; got ${shown}`);
+  };
+  const isNumber = (each) => typeof each === "number";
+  if (texts.includes(name)) return check(typeof value === "string", "a string");
+  if (Object.hasOwn(vectors, name)) {
+    return check(isColumn(value) && value.length === vectors[name] && Array.from(value).every(isNumber), `an array of ${vectors[name]} numbers`);
+  }
+  if (!several || !isColumn(value)) return check(isNumber(value), several ? "a number or an array of numbers" : "a number");
+  check(isNumber(value.length), "a number or an array of numbers");
+  if (ArrayBuffer.isView(value)) {
+    try {
+      new Uint8Array(value.buffer);
+    } catch {
+      throw new TypeError(`${call}: ${name}: its memory was given away (the array is detached): copy it before`);
+    }
+  }
+  for (let i = 0; i < value.length; ++i) {
+    if (!isNumber(value[i])) check(false, "a number", `${name}[${i}]`, value[i]);
+  }
+};
+
+/** Returns the options of a call. Throws for an unknown one, and for a value of another type. */
 const only = (call, options, names, more = []) => {
   if (options === null || typeof options !== "object") throw new Error(`${call}: options are needed, {${names.join(", ")}}; got ${options}`);
-  for (const name of Object.keys(options)) {
-    if (names.includes(name) || more.includes(name)) continue;
-    throw new Error(`${call}: unknown option '${name}'${library.suggestion(name, names)}; options: ${names.join(", ")}`);
+  for (const [name, value] of Object.entries(options)) {
+    if (!names.includes(name) && !more.includes(name)) {
+      throw new Error(`${call}: unknown option '${name}'${library.suggestion(name, names)}; options: ${names.join(", ")}`);
+    }
+    if (value !== undefined) need(call, name, value, call === "stopTimes" && ["mu", ...ofStart].includes(name));
   }
   return options;
 };
 
-const ofStart = ["u", "v"];
 const ofSystem = ["mu", "law", "body", "chi", "gamma", "drive"];
 
 /** Gives a plane its system. */
@@ -48,7 +81,12 @@ const choose = (plane, { mu, law, body = "ball", chi, gamma, drive = 0 }) => {
   return plane.choose(law ?? lawOfBody[body] ?? "exact", patch, ...inertia, drive);
 };
 
-const isColumn = (given) => typeof given === "object" && given !== null;
+/** Returns the start of a motion. */
+const startOf = (call, start) => {
+  const { u, v } = only(call, start, ofStart);
+  for (const [name, value] of [["u", u], ["v", v]]) need(call, name, value, call === "stopTimes");
+  return { u, v };
+};
 
 /** Returns numbers and arrays as functions of the index, and their number. */
 const columnsOf = (given) => {
@@ -73,29 +111,30 @@ export class Flow {
   }
 
   stopTime(start) {
-    const { u, v } = only("stopTime", start, ofStart);
+    const { u, v } = startOf("stopTime", start);
     return this.#plane.stop(u, v);
   }
 
   stopTimes(starts) {
-    const { u, v } = only("stopTimes", starts, ofStart);
+    const { u, v } = startOf("stopTimes", starts);
     const { count, at } = columnsOf({ u, v });
     return Float64Array.from({ length: count }, (_, i) => stopOr(this.#plane, at.u(i), at.v(i)));
   }
 
   motion(start) {
-    const { u, v } = only("motion", start, ofStart);
+    const { u, v } = startOf("motion", start);
     return this.#plane.motion(u, v);
   }
 
   at(start, tau) {
-    const { u, v } = only("at", start, ofStart);
+    const { u, v } = startOf("at", start);
+    need("at", "tau", tau);
     const { places: _, ...state } = this.#plane.instant(u, v, tau);
     return state;
   }
 
   check(start) {
-    const { u, v } = only("check", start, ofStart);
+    const { u, v } = startOf("check", start);
     return this.#plane.checks(u, v);
   }
 }
@@ -108,6 +147,7 @@ export const stopTime = (given) => {
 export const stopTimes = (given) => {
   const { u, v, mu, ...system } = only("stopTimes", given, [...ofStart, ...ofSystem]);
   if (!isColumn(mu)) return new Flow({ mu, ...system }).stopTimes({ u, v });
+  startOf("stopTimes", { u, v });
   const { count, at } = columnsOf({ mu, u, v });
   const taus = new Float64Array(count).fill(NaN);
   const plane = new library.Plane();
@@ -161,7 +201,10 @@ export class Ball {
     const { end, path, turned, stop } = this.#plane.slide(shot, rollingFriction, rollingBelow);
     return {
       slidesUntil: end, path, turned, stopTime: stop,
-      motion: (until = stop) => this.#plane.ride(shot, rollingFriction, until),
+      motion: (until = stop) => {
+        need("motion", "until", until);
+        return this.#plane.ride(shot, rollingFriction, until);
+      },
     };
   }
 }

@@ -34,6 +34,22 @@ console.log(JSON.stringify({
     nothing: () => new Flow(), no: () => pool.roll({ quite: "another" }), lengths: () => flow.stopTimes({ u: [1, 2], v: [1, 2, 3] }),
     inherited: () => new Ball("toString"), kept: () => new Ball({ ...balls.steel, slip: 2 }).law,
   }).map(([name, call]) => [name, tried(call)])),
+  types: (() => {
+    const gone = new Float64Array(2);
+    structuredClone(gone, { transfer: [gone.buffer] });
+    const wrong = [true, "1", null, 1n, {}, [true], ["1"], [null], [1n], [undefined], new BigInt64Array(1), gone];
+    const one = [...wrong, [1], new Float64Array(1), undefined];
+    const calls = [[one, (u) => stopTime({ ...start, u })], [one, (v) => flow.stopTime({ u: 1, v })], [one, (u) => flow.motion({ u, v: 1 })],
+      [one, (v) => flow.at({ u: 1, v }, 1)], [one, (tau) => flow.at({ u: 1, v: 1 }, tau)], [one, (u) => flow.check({ u, v: 1 })],
+      [one.slice(0, -1), (mu) => stopTime({ ...start, mu })], [one.slice(0, -1), (drive) => new Flow({ mu: 0.3, drive })], [one.slice(0, -1), (chi) => new Flow({ mu: 0.3, chi })],
+      [one.slice(0, -1), (mass) => new Ball("pool", { mass })], [one.slice(0, -1), (slip) => pool.roll({ slip })],
+      [one.slice(0, -1), (rollingFriction) => pool.roll({}, { rollingFriction })], [one.slice(0, -1), (until) => pool.roll().motion(until)],
+      [wrong, (u) => stopTimes({ ...start, u })], [wrong, (v) => flow.stopTimes({ u: 1, v })], [wrong, (mu) => stopTimes({ ...start, mu })],
+      [[5, true, null, ["exact"], {}], (law) => stopTime({ ...start, law })], [[5, null], (body) => new Flow({ mu: 0.3, body })],
+      [[1, [1], "1,2", [1, "2"], [1, 2, 3]], (velocity) => pool.roll({ velocity })]];
+    const told = (call) => { try { call(); } catch (error) { return error instanceof TypeError ? error.message : \`\${error}\`; } return "nothing"; };
+    return calls.flatMap(([values, call]) => values.map((value) => [String(call), told(() => call(value))]));
+  })(),
   limits: [() => stopTime({ ...start, mu: 2 }), () => stopTime({ ...start, law: "exat" }), () => stopTime({ ...start, law: "pressure:-2" }),
     () => stopTime({ ...start, body: "disk" }), () => stopTime({ ...start, body: "disc" }), () => new Ball("poool"), () => pool.roll({ slip: -1 }),
     () => pool.roll({}, { rollingFriction: -1 }), () => pool.roll({}, { rollingBelow: -1 }), () => new Ball("puck").roll({}, { rollingBelow: 0.1 }),
@@ -59,7 +75,7 @@ try {
   assert.equal(run(process.execPath, "shown.js"), printed);
 
   write("numbers.js", numbers);
-  const { stops, disc, k, balls, rest, slides, wrong, many, each, one, refused, limits } = JSON.parse(run(process.execPath, "numbers.js"));
+  const { stops, disc, k, balls, rest, slides, wrong, many, each, one, refused, types, limits } = JSON.parse(run(process.execPath, "numbers.js"));
   for (const [law, mu, tau] of stops) close(tau, ofProgram("stop", "--law", law, "--mu", mu, "--u0", 1, "--v0", 1).tau_stop);
   close(disc, ofProgram("stop", "--body", "disc", "--u0", 1, "--v0", 2).tau_stop);
   close(k, ofProgram("terminal", "--body", "disc").k_star);
@@ -97,6 +113,8 @@ try {
     inherited: "no such ball 'toString'; balls: pool", kept: "exact",
   };
   for (const [name, words] of Object.entries(told)) assert.ok(refused[name].startsWith(words), `${refused[name]} is not ${words}`);
+
+  for (const [call, words] of types) assert.match(words, /^[a-zA-Z]+: [a-z]+(\[0\])?: (.* is needed; got |its memory was given away)/i, call);
 
   // Limits: the words after the value are the program's.
   const start = ["--mu", 0.3, "--u0", 1, "--v0", 1];
