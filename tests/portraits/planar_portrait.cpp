@@ -255,3 +255,32 @@ TEST_CASE("a planar portrait as a drawing", "[output]") {
   CHECK_FALSE(draw(linear).colour_bar.has_value());
   CHECK(layer(draw(linear).panels[0], "orbits").lines.size() == linear.orbits.size());
 }
+
+TEST_CASE("a planar portrait does not depend on the unit of length", "[symmetry]") {
+  // A damped pendulum and a relay, drawn by steps, whose coordinates are divided by S. S is a power of 2, so that the
+  // portrait in units of S is the same to rounding.
+  const std::vector<PlanarField> fields{[](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0]) - 0.02 * x[1]); },
+                                        [](const Vector2d& x) { return Vector2d(x[1], -sign(x[0]) - 0.3 * x[1]); }};
+  for (const PlanarField& field : fields) {
+    const auto portrait_in = [&](double S) {
+      PortraitRequest request;
+      request.window = Window{Vector2d(-2, -2) * S, Vector2d(2, 2) * S};
+      request.highlight = State{0.9 * S, 0.3 * S};
+      request.orbits = 6;
+      const PlanarField scaled = [=](const Vector2d& x) -> Vector2d { return field(x / S) * S; };
+      return planar_portrait(reduction::by_steps(scaled), "a system", request);
+    };
+    const PlanarPortrait one = portrait_in(1);
+    for (const double power : {-50, -30, 40}) {
+      const double S = std::exp2(power);
+      CAPTURE(S);
+      const PlanarPortrait other = portrait_in(S);
+      REQUIRE(other.orbits.size() == one.orbits.size());
+      for (std::size_t i = 0; i < one.orbits.size(); ++i) {
+        REQUIRE(other.orbits[i].u.size() == one.orbits[i].u.size());
+        CHECK((other.orbits[i].u / S - one.orbits[i].u).abs().maxCoeff() < 1e-9);
+        CHECK((other.orbits[i].v / S - one.orbits[i].v).abs().maxCoeff() < 1e-9);
+      }
+    }
+  }
+}

@@ -204,7 +204,7 @@ std::string text_of(const std::vector<reduction::TriedForm>& tried) {
   return text;
 }
 
-Json members_of(const reduction::Equilibria& equilibria) {
+Json members_of_plane(const reduction::Equilibria& equilibria) {
   Json names = Json::array();
   for (const auto& [name, matrix] : equilibria.reversors) names.push_back(name);
   Json json = portraits::equilibria_members<Json>(equilibria);
@@ -478,7 +478,7 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
   }
   reduction::Equilibria equilibria = reduction::find_equilibria(field, around);
   if (solved.plane) compare_kinds(equilibria, *solved.plane);
-  answer.members.update(members_of(equilibria));
+  answer.members.update(members_of_plane(equilibria));
   add_text(answer,
            [=, tried = solved.tried](const Digits& digits) { return text_of(tried) + text_of(equilibria, digits); });
   bool confirmed = true;
