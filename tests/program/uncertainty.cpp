@@ -1,7 +1,11 @@
 // `stop` and `roll --uncertainty` are compared with differences of the program's own stop times, and with quantiles
 // that can be computed without samples.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -66,6 +70,63 @@ TEST_CASE("the quantiles of one number are the stop times at its quantiles", "[c
             Approx(t_stop(fmt::format("{}{:.17g}", start, 3e-3 * (1 + 0.3 * z)))).epsilon(4e-3));
     }
   }
+}
+
+TEST_CASE("quantiles of what rises or falls with one number are its values at normal quantiles", "[cli]") {
+  struct Kind {
+    std::string ball;
+    std::vector<std::pair<std::string, double>> numbers;  ///< numbers that may vary, in addition to slip and spin
+  };
+  const std::vector<Kind> kinds{
+      {"pool", {{"friction", 0.2}, {"spin-deceleration", 10}, {"radius", 0.03}, {"gravity", 9}}},
+      {"gel", {{"friction", 0.5}, {"patch-radius", 7e-3}, {"radius", 0.03}}},
+      {"steel", {{"friction", 0.15}, {"mass", 0.5}, {"radius", 0.02}}},
+      {"puck", {{"friction", 0.1}, {"radius", 0.04}, {"gravity", 9}}}};
+  constexpr std::array z{-1.959963984540054, -0.994457883209753, 0.0, 0.994457883209753, 1.959963984540054};
+  std::mt19937_64 random(1);
+  const auto among = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int compared = 0;
+  for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 200 : 16); ++i) {
+    const Kind& kind = kinds[static_cast<std::size_t>(i) % kinds.size()];
+    const std::string& ball = kind.ball;
+    const bool of_stop = random() % 2 == 0;
+    const double share = std::pow(10, among(-3, -0.7));
+    // A slow slide of a ball whose patch follows from its spin deceleration lasts nearly as long for every friction.
+    const double slip = std::pow(10, among(-2, 0.7)), spin = among(20, 150);
+    auto numbers = kind.numbers;
+    numbers.insert(numbers.end(), {{"slip", std::max(slip, 0.05)}, {"spin", spin}});
+    const std::string name = numbers[random() % numbers.size()].first;
+    const double value = std::ranges::find(numbers, name, &std::pair<std::string, double>::first)->second;
+    const std::string others = fmt::format("{} --format json --ball {}", of_stop ? "stop" : "roll --samples 2", ball) +
+                               (name == "slip" ? "" : fmt::format(" --slip {:.17g}", slip)) +
+                               (name == "spin" ? "" : fmt::format(" --spin {:.17g}", spin));
+    const auto at = [&](double times) { return json_of(fmt::format("{} --{} {:.17g}", others, name, value * times)); };
+    const auto known =
+        json_of(fmt::format("{} --{} {:.17g} --uncertainty {}={:.17g}%", others, name, value, name, 100 * share))
+            .at("uncertainty");
+    std::vector<nlohmann::json> there;
+    for (const double each : z) there.push_back(at(1 + share * each));
+    for (const std::string part : {"/t_stop", "/rolls_after/t", "/rolls_after/x", "/rest/t", "/rest/x", "/spin_ends/t",
+                                   "/spin_ends/x", "/slip_length", "/turns", "/path"}) {
+      const nlohmann::json::json_pointer place(part);
+      if (of_stop && part != "/t_stop") continue;
+      if (!there.front().contains(place) || !there.front().at(place).is_number()) continue;
+      std::array<double, 5> values{};
+      std::ranges::transform(there, values.begin(),
+                             [&](const auto& each) { return each.at(place).template get<double>(); });
+      if (values[0] > values[4]) std::ranges::reverse(values);
+      if (!(std::ranges::is_sorted(values) && values[0] < values[4])) continue;
+      const auto& quantiles = (of_stop ? known : known.at(place)).at("quantiles");
+      const bool to_rounding = part == "/t_stop" || part == "/spin_ends/t";
+      const double error = 1e-3 * (values[4] - values[0]) / 4 + (to_rounding ? 1e-14 : 1e-9) * std::abs(values[2]);
+      for (std::size_t j = 0; j < z.size(); ++j) {
+        INFO(others << " --uncertainty " << name << '=' << 100 * share << "% " << part << " quantile " << j);
+        CHECK(std::abs(quantiles[j].at("value").get<double>() - values[j]) <= error);
+        ++compared;
+      }
+    }
+  }
+  CHECK(compared > 100);
 }
 
 TEST_CASE("--uncertainty says whether the first order does", "[cli]") {

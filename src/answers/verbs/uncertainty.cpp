@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -17,8 +16,8 @@
 #include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
 #include "answers/table/text_table.hpp"
-#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/stop_time_gradient.hpp"
+#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/si/event_gradient.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
@@ -139,35 +138,6 @@ Spreads read_spreads(const std::string& typed, const std::vector<Spreadable>& kn
   return {numbers, correlation};
 }
 
-/// Solutions of one system for many mu. Those at equal steps of ln mu are computed, results between are interpolated.
-class FlowsOfMu {
- public:
-  /// @param step  step of ln mu, >= 0; 0: mu does not vary. A step of 1/8 of the standard deviation of ln mu leaves an
-  ///              error of interpolation of 1e-3 standard deviations of the result
-  FlowsOfMu(const reduction::ReducedSystem& system, double step) : system_(system), step_(step) {}
-
-  VectorXd operator()(double mu, const std::function<VectorXd(const reduction::Flow&)>& value) {
-    const double steps = step_ > 0 ? std::log(mu / system_.mu()) / step_ : 0, before = std::floor(steps);
-    const double beyond = steps - before;
-    VectorXd result = value(at(static_cast<long>(before)));
-    if (beyond > 0) result = (1 - beyond) * result + beyond * value(at(static_cast<long>(before) + 1));
-    return result;
-  }
-
- private:
-  const reduction::Flow& at(long steps) {
-    const auto found = flows_.find(steps);
-    if (found != flows_.end()) return found->second;
-    const double mu = system_.mu() * std::exp(step_ * static_cast<double>(steps));
-    const reduction::ReducedSystem system(system_.law(), mu, system_.inertia(), system_.drive());
-    return flows_.emplace(steps, reduction::Flow(system)).first->second;
-  }
-
-  reduction::ReducedSystem system_;
-  double step_;
-  std::map<long, reduction::Flow> flows_;
-};
-
 /// Numbers of events as functions of other numbers, which have spreads.
 struct Varied {
   /// Indices of some entries of `numbers`.
@@ -175,14 +145,12 @@ struct Varied {
 
   std::vector<Spreadable> numbers;       ///< all numbers that may have a spread
   std::vector<Uncertainty::Part> parts;  ///< numbers of events, still without their uncertainty
-  reduction::ReducedSystem system;
   long samples;
   /// Returns the derivatives of all parts by a number; empty if they do not exist.
   std::function<std::optional<VectorXd>(std::size_t place)> slopes;
-  /// Return mu, and the parts, for other values of some numbers.
+  /// Returns the parts for other values of some numbers.
   /// @throws std::domain_error  if there is no start with these values
-  std::function<double(const Places&, const VectorXd& values)> mu;
-  std::function<VectorXd(const Places&, const VectorXd& values, FlowsOfMu&)> at;
+  std::function<VectorXd(const Places&, const VectorXd& values)> at;
 };
 
 /// Returns `count` independent standard normal numbers for a point of a lattice, which fills the space more evenly than
@@ -206,29 +174,53 @@ VectorXd normal_numbers(Index count, long point) {
 constexpr std::array<double, 5> normal_quantiles{-1.959963984540054, -0.994457883209753, 0, 0.994457883209753,
                                                  1.959963984540054};
 
-/// Sets the quantiles of a part from samples.
-/// @param samples  one or more samples of the part
-/// @param below    shares of the samples of the first-order model below the normal quantiles. The quantiles of the part
-///                 are taken at these shares, not at `probabilities`, which removes most of the sampling error.
-void set_quantiles(Uncertainty::Part& part, std::vector<double>& samples, const Eigen::ArrayXd& below) {
+/// Samples in increasing order. Between two neighbours the share of smaller samples is linear.
+class SortedSamples {
+ public:
+  explicit SortedSamples(std::vector<double> samples) : sorted_(std::move(samples)) { std::ranges::sort(sorted_); }
+
+  double share_below(double value) const {
+    const auto above = std::ranges::upper_bound(sorted_, value);
+    double place = static_cast<double>(above - sorted_.begin()) - 1;
+    if (above != sorted_.begin() && above != sorted_.end()) place += (value - above[-1]) / (*above - above[-1]);
+    return (place + 0.5) / static_cast<double>(sorted_.size());
+  }
+
+  double quantile(double share) const {
+    const auto last = static_cast<double>(sorted_.size() - 1);
+    const double place = std::clamp(share * (last + 1) - 0.5, 0.0, last), before = std::floor(place);
+    const double *const lower = &sorted_[static_cast<std::size_t>(before)], *const upper = lower + (before < last);
+    return *lower + (place - before) * (*upper - *lower);
+  }
+
+ private:
+  std::vector<double> sorted_;
+};
+
+/// Sets the quantiles of a part from samples. They are taken at the shares of the first-order samples below the normal
+/// quantiles, and not at `probabilities`. This removes most of the sampling error. If only one number varies, and the
+/// part rises or falls with it, they are the values of the part at the normal quantiles of this number.
+/// @param samples      samples of the part
+/// @param first_order  deviations by the first-order model at all points, also at those without a sample
+void set_quantiles(Uncertainty::Part& part, std::vector<double> samples, std::vector<double> first_order) {
   KnownTo& known = part.known;
+  const SortedSamples sorted(std::move(samples)), model(std::move(first_order));
   constexpr double rounding = 1e-12;
   for (std::size_t i = 0; i < known.quantiles.size(); ++i) {
-    const double share = known.standard > 0 ? below[static_cast<Index>(i)] : KnownTo::probabilities[i];
-    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
-    std::ranges::nth_element(samples, at);
-    known.quantiles[i] = *at;
-    const double off = *at - (part.value + normal_quantiles[i] * known.standard);
-    if (std::abs(off) > 0.1 * known.standard + rounding * std::abs(part.value)) known.holds = false;
+    const double off = normal_quantiles[i] * known.standard;
+    double& quantile = known.quantiles[i];
+    quantile = sorted.quantile(known.standard > 0 ? model.share_below(off) : KnownTo::probabilities[i]);
+    if (std::abs(quantile - (part.value + off)) > 0.1 * known.standard + rounding * std::abs(part.value))
+      known.holds = false;
   }
 }
 
-/// @throws BadInput  if a derivative does not exist, or if no sample is a possible start
+/// @throws BadInput  if a derivative does not exist, or if too few samples are possible starts
 Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::string_view corner) {
   Uncertainty result{varied.parts};
   const auto count = static_cast<Index>(spreads.numbers.size()), parts = static_cast<Index>(result.parts.size());
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(parts, count);
-  VectorXd values(count), standards(count), mu_shares = VectorXd::Zero(count);
+  VectorXd values(count), standards(count);
   Varied::Places places;
   for (Index i = 0; i < count; ++i) {
     const auto& [name, value, standard] = spreads.numbers[static_cast<std::size_t>(i)];
@@ -240,11 +232,6 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
     const auto slopes = varied.slopes(place);
     if (!slopes) throw BadInput("{2} no derivative at {0} = {1}; leave {0} out", name, value, corner);
     shares.col(i) = standard * *slopes;
-    // A difference quotient suffices: the spread of ln mu only sets the step of FlowsOfMu, 1/8 of this spread.
-    constexpr double step = 1e-3;
-    const double more = value + step * (value == 0 ? standard : std::abs(value));
-    const double beside = varied.mu({place}, VectorXd::Constant(1, more));
-    mu_shares[i] = std::log(beside / varied.system.mu()) / (more - value) * standard;
   }
   for (Index j = 0; j < parts; ++j) {
     KnownTo& known = result.parts[static_cast<std::size_t>(j)].known;
@@ -256,30 +243,28 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spreads.correlation);
   const Eigen::MatrixXd root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
                                solver.eigenvectors().transpose();
-  FlowsOfMu flows(varied.system, spreads.standard_of(mu_shares) / 8);
-  std::vector<std::vector<double>> samples(result.parts.size());
-  Eigen::ArrayXXd below = Eigen::ArrayXXd::Zero(parts, static_cast<Index>(normal_quantiles.size()));
+  std::vector<std::vector<double>> samples(result.parts.size()), first_order(result.parts.size());
   for (long i = 0; i < varied.samples; ++i) {
     const VectorXd errors = root * normal_numbers(count, i);
     const VectorXd to_first_order = shares * errors;
-    for (Index j = 0; j < parts; ++j) {
-      const double standard = result.parts[static_cast<std::size_t>(j)].known.standard;
-      for (Index k = 0; k < below.cols(); ++k)
-        below(j, k) += to_first_order[j] <= normal_quantiles[static_cast<std::size_t>(k)] * standard ? 1 : 0;
-    }
+    for (std::size_t j = 0; j < first_order.size(); ++j)
+      first_order[j].push_back(to_first_order[static_cast<Index>(j)]);
     try {
-      const VectorXd there = varied.at(places, values + standards.cwiseProduct(errors), flows);
+      const VectorXd there = varied.at(places, values + standards.cwiseProduct(errors));
       for (std::size_t j = 0; j < samples.size(); ++j) samples[j].push_back(there[static_cast<Index>(j)]);
       ++result.samples;
     } catch (const std::domain_error&) {
       // no start has these numbers: the sample counts as outside
     }
   }
-  if (result.samples == 0) throw BadInput("no sample of these spreads is a start: make them smaller");
+  constexpr long fewest = 200;  // 5 samples below the quantile of 2.5 %
+  if (result.samples < fewest) {
+    throw BadInput("{} of {} samples are possible starts, {} are needed for quantiles; make the spreads smaller",
+                   result.samples, varied.samples, fewest);
+  }
   result.outside = 1 - static_cast<double>(result.samples) / static_cast<double>(varied.samples);
-  below /= static_cast<double>(varied.samples);
   for (std::size_t j = 0; j < samples.size(); ++j)
-    set_quantiles(result.parts[j], samples[j], below.row(static_cast<Index>(j)));
+    set_quantiles(result.parts[j], std::move(samples[j]), std::move(first_order[j]));
   return result;
 }
 
@@ -298,21 +283,11 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
     for (const std::size_t place : places) components.push_back(events.components()[place]);
     return events.with(components, values);
   };
-  Varied varied{
-      .numbers = {},
-      .parts = {},
-      .system = si::undriven_system(experiment, law),
-      .samples = events.resisted() ? 1'000 : 10'000,  // with a drive each sample needs new solutions
-      .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
-      .mu = [&](const auto& places, const VectorXd& values) { return si::patch_ratio(moved(places, values), law); },
-      .at =
-          [&](const auto& places, const VectorXd& values, FlowsOfMu& flows) {
-            const si::Experiment other = moved(places, values);
-            return events.resisted() ? events.of(other)
-                                     : flows(si::patch_ratio(other, law), [&](const reduction::Flow& flow) -> VectorXd {
-                                         return events.of(other, flow);
-                                       });
-          }};
+  Varied varied{.numbers = {},
+                .parts = {},
+                .samples = 10'000,
+                .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
+                .at = [&](const auto& places, const VectorXd& values) { return events.of(moved(places, values)); }};
   for (const si::Component& each : events.components()) {
     const bool vector = each.quantity->count() > 1, about_vertical = each.name() == "wz";
     varied.numbers.push_back({{each.name(), events.value(each)},
@@ -323,7 +298,20 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
     varied.parts.push_back({std::string(event), std::string(of), std::string(unit),
                             events.values()[static_cast<Index>(varied.parts.size())]});
   }
-  return uncertainty_of(varied, read_spreads(typed, varied.numbers, experiment.spreads), corner);
+  const Spreads spreads = read_spreads(typed, varied.numbers, experiment.spreads);
+  const auto changes_mu = [&](const Spread& number) {
+    const auto found = std::ranges::find(events.components(), number.name, &si::Component::name);
+    const Varied::Places place{static_cast<std::size_t>(found - events.components().begin())};
+    try {
+      const si::Experiment other = moved(place, VectorXd::Constant(1, number.value + number.standard));
+      return si::patch_ratio(other, law) != si::patch_ratio(experiment, law);
+    } catch (const std::domain_error&) {
+      return true;
+    }
+  };
+  // Stop times of many mu share solutions. All other samples with a drive or with a mu of their own are solved alone.
+  if (events.resisted() || (rolling_below && std::ranges::any_of(spreads.numbers, changes_mu))) varied.samples = 1'000;
+  return uncertainty_of(varied, spreads, corner);
 }
 
 /// Returns the spreads of a ball. Spreads of slip and spin stand in place of the spreads of its velocities.
@@ -381,25 +369,20 @@ Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed) 
   }
   if (start.at_rest()) throw BadInput("a body at rest has no stop time to vary; leave it out");
   const reduction::StopTimeGradient by = start.flow().stop_time_gradient(state);
+  const reduction::StopTimesOfMu times(system.law(), system.inertia(), system.drive());
   const Varied varied{
       .numbers = {{{"u0", state.u}, "", corner}, {{"v0", state.v}, "", corner}, {{"mu", system.mu()}, ""}},
       .parts = {{"t_stop", "", "", by.tau}},
-      .system = system,
       .samples = 10'000,
       .slopes = [&](std::size_t place) -> std::optional<VectorXd> {
         return VectorXd::Constant(1, std::array{by.by_u, by.by_v, by.by_mu}[place]);
       },
-      .mu = [&](const auto& places, const VectorXd& values) { return places[0] == 2 ? values[0] : system.mu(); },
-      .at =
-          [&](const auto& places, const VectorXd& values, FlowsOfMu& flows) {
-            std::array numbers{state.u, state.v, system.mu()};
-            for (std::size_t i = 0; i < places.size(); ++i) numbers[places[i]] = values[static_cast<Index>(i)];
-            const auto [u, v, mu] = numbers;
-            if (!(mu > 0 && v >= 0)) throw std::domain_error("no such start");
-            return flows(mu, [u = u, v = v](const reduction::Flow& flow) -> VectorXd {
-              return VectorXd::Constant(1, flow.stop_time({u, v}).tau);
-            });
-          }};
+      .at = [&](const auto& places, const VectorXd& values) -> VectorXd {
+        std::array numbers{state.u, state.v, system.mu()};
+        for (std::size_t i = 0; i < places.size(); ++i) numbers[places[i]] = values[static_cast<Index>(i)];
+        const auto [u, v, mu] = numbers;
+        return VectorXd::Constant(1, times(mu, {u, v}));
+      }};
   return uncertainty_of(varied, read_spreads(typed, varied.numbers, {}), corner);
 }
 

@@ -28,7 +28,8 @@ EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& l
       described_(describe(experiment_)),
       law_(law),
       rolling_below_(rolling_below),
-      flow_(undriven_system(experiment, law)) {
+      flow_(undriven_system(experiment, law)),
+      stop_times_(law, flow_.system().inertia()) {
   const bool flat = experiment.ball.body.lies_flat();
   if (slip_at_start(experiment) == 0 && spin_at_start(experiment) == 0)
     throw std::domain_error("a body at rest has no events");
@@ -85,6 +86,11 @@ VectorXd EventNumbers::of(const Experiment& other, const reduction::Flow& flow) 
 }
 
 VectorXd EventNumbers::of(const Experiment& other) const {
+  if (!rolling_below_ && !resisted()) {
+    const double stop = seconds(other, stop_times_(patch_ratio(other, law_), reduced_start(other)));
+    require_finite_motion(other, stop);
+    return VectorXd::Constant(1, stop);
+  }
   const bool same = patch_ratio(other, law_) == flow_.system().mu();
   return of(other, same ? flow_ : reduction::Flow(undriven_system(other, law_)));
 }

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/si/description.hpp"
 
 namespace contensou::si {
@@ -42,10 +43,8 @@ class EventNumbers {
   Experiment with(const std::vector<Component>& components, const Eigen::VectorXd& values) const;
 
   /// Returns the numbers of another experiment of this kind.
-  /// @param flow  flow of undriven_system(other, law)
   /// @throws std::domain_error  as Motion::reduced and finite; if the other ball rolls for ever and this one comes to
   ///                            rest
-  Eigen::VectorXd of(const Experiment& other, const reduction::Flow& flow) const;
   Eigen::VectorXd of(const Experiment& other) const;
 
   /// Returns the derivatives of the numbers by one component, by fourth-order differences over a thousandth of its
@@ -57,11 +56,15 @@ class EventNumbers {
   std::optional<Eigen::VectorXd> slopes(const Component& by) const;
 
  private:
+  /// @param flow  flow of undriven_system(other, law)
+  Eigen::VectorXd of(const Experiment& other, const reduction::Flow& flow) const;
+
   Experiment experiment_;
   Description described_;
   reduction::Law law_;
   std::optional<double> rolling_below_;
   reduction::Flow flow_;
+  reduction::StopTimesOfMu stop_times_;  ///< stop times of other experiments, which need no solution of their own
   std::vector<EventNumber> names_;
   std::vector<Component> components_;
   Eigen::VectorXd values_;
