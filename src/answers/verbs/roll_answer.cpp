@@ -126,7 +126,7 @@ constexpr Field<Roll> rest_of_roll_fields[]{
      }},
     {"gradient", "SI",
      "partial derivatives of the numbers of each event with respect to the numbers of the ball and its start, with "
-     "--gradient. A derivative that does not exist is left out",
+     "--gradient. They are computed by differences, with an error of 1e-8. A derivative that does not exist is left out",
      [](const Roll& roll) { return roll.gradient ? members_of(*roll.gradient) : Json(); }, nullptr, 0,
      " {`rolls_after` {`t` {NAME: derivative}, ...}, ...}"},
     {"uncertainty", "as the event", "uncertainty of each number of an event, with --uncertainty; members as in stop",

@@ -118,7 +118,8 @@ class RollCommand final : public Verb {
                                    si::rolling_slip),
                        checked(quantity("m/s"), is_not_negative, "0 or more is needed"));
     app.add_flag("--gradient", gradient_,
-                 "also print the derivatives of each event with respect to each number of the ball and its start");
+                 "also print the derivatives of each event with respect to each number of the ball and its start, by "
+                 "differences with an error of 1e-8");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
                      "standard deviations of input values, such as slip=1%,friction=5%, or fit: those in "
                      "a file of 'contensou fit'. Also prints the standard deviations of the events");

@@ -42,7 +42,7 @@ class StopCommand final : public Verb {
     law_.add(app, ". With --batch also several names, between commas");
     route_.add(app);
     app.add_flag("--estimate", estimate_, "also print estimates for small mu, with their errors");
-    app.add_flag("--gradient", gradient_, "also print the derivatives of the stop time (see gradient)");
+    app.add_flag("--gradient", gradient_, "also print the exact derivatives of the stop time (see gradient)");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
                      "standard deviations of input values, such as slip=1%,friction=5%, or fit: those in "
                      "a file of 'contensou fit'. Also prints the standard deviation of the stop time");
