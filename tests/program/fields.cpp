@@ -158,6 +158,8 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
   }
   write_file(spins, spin_alone);
   const std::string against = "check --ball pool --rolling-friction 0.01 --against " + film;
+  const std::string y_up = "check --ball puck --against " + scratch.file("y_up.csv");
+  write_file(scratch.file("y_up.csv"), "t,vx,vy,vz,wx,wy,wz\n0,1,0,1,0,1,0\n0.1,0.93,0,0.93,0,0.93,0\n");
   const std::string start = " --mu 0.3 --u0 1 --v0 1", system = " --u0 1 --v0 1 --system ";
   // For each title of a list in the help: commands whose output together contains all names of the list.
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
@@ -187,7 +189,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
         "portrait --orbits 2 -o - --window 0:2,0:2" + system + "'u\\' = u*(1-v); v\\' = v*(u-1)'"}},
       {"portrait --facts", {"portrait --facts --mu 0.3", "portrait --facts --mu 0.3 --drive 0.1"}},
       {"sweep", {"sweep --mu 0.1 --u0 0:1:2 --v0 1", "sweep --ball pool --slip 0:1:2 --spin 1"}},
-      {"check", {"check --mu 0.1 --u0 1 --v0 1", against}},
+      {"check", {"check --mu 0.1 --u0 1 --v0 1", against, y_up}},
       {"terminal", {"terminal --law uniform --body disc", "terminal --mu 0.1 --drive 0.1"}},
       {"reduce", {"reduce --drive 0.1" + start, "reduce" + start}},
       {"reduce --system",

@@ -61,10 +61,10 @@ Panel panel_of(const MotionsBeside& motions, const char* name, const char* unit,
     panel.lines.push_back({{std::move(line)}, stroke, portraits::Text(legend)});
   };
   const ModelBeside& law = motions.models.front();
-  const ModelBeside& nearest = motions.nearest();
+  const ModelBeside* const nearest = motions.nearest();
   add(law, {law_colour, 2.2}, fmt::format("law {}", portraits::shortened(law.name)));
-  if (&nearest != &law) {
-    add(nearest, {nearest_colour, 1.6, true}, fmt::format("nearest: {}", portraits::shortened(nearest.name)));
+  if (nearest && nearest != &law) {
+    add(*nearest, {nearest_colour, 1.6, true}, fmt::format("nearest: {}", portraits::shortened(nearest->name)));
   }
   const double margin = 0.06 * std::max(panel.y.high - panel.y.low, 1e-300);
   panel.y.low -= panel.y.low < 0 ? margin : 0;
@@ -79,9 +79,9 @@ portraits::Figure check_figure(const MotionsBeside& motions, const std::string& 
   const ModelBeside& law = motions.models.front();
   portraits::Figure figure;
   figure.title = fmt::format("{},  law: {}", portraits::shortened(ball), portraits::shortened(law.name));
-  figure.subtitle =
-      fmt::format("largest deviation, in % of the start: slip {:.2g}, spin {:.2g}; nearest model: {}",
-                  100 * law.slip.relative, 100 * law.spin.relative, portraits::shortened(motions.nearest().name));
+  figure.subtitle = fmt::format("largest deviation, in % of the start: slip {:.2g}, spin {:.2g}; nearest model: {}",
+                                100 * law.slip.relative, 100 * law.spin.relative,
+                                motions.nearest() ? portraits::shortened(motions.nearest()->name) : "none");
   figure.panels = {panel_of(motions, "slip", "m/s", &si::SlipAndSpin::slip),
                    panel_of(motions, "spin", "rad/s", &si::SlipAndSpin::spin)};
   figure.size = portraits::fitted({180, 80}, 2, size);

@@ -1,12 +1,16 @@
 #include "answers/verbs/check_against.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <Eigen/Core>
 
 #include "answers/input/headings.hpp"
 #include "contensou/reduction/laws.hpp"
@@ -19,90 +23,151 @@ namespace contensou::answers {
 
 namespace {
 
+/// A way to read the numbers of a log.
+struct Reading {
+  bool y_up = false;      ///< the y axis points upwards
+  bool reversed = false;  ///< angular velocities have the opposite sense, as in left-handed axes
+  std::string_view turning_unit = {};
+  double turning_factor = 1;  ///< factor that converts angular velocities to those of the headings
+
+  std::string words() const {
+    std::vector<std::string> parts;
+    if (y_up) parts.emplace_back("with y up, as (x, -z, y)");
+    if (reversed) parts.emplace_back("with left-handed axes, so that wx, wy, wz are reversed");
+    if (!turning_unit.empty()) parts.push_back(fmt::format("with angular velocities in {}", turning_unit));
+    return fmt::format("{}", fmt::join(parts, " and "));
+  }
+};
+
+/// A row of a table before it is read in one way.
+struct LoggedRow {
+  long line;
+  double t;
+  Eigen::Vector3d velocity, turning;  ///< without a rigid body: slip and spin in the first and the last place
+};
+
 /// The columns of a table that describe a motion.
 class MotionColumns {
  public:
   /// @throws BadLine  if a column is missing
-  MotionColumns(const CsvReader& table, const si::Ball& ball)
-      : table_(table), radius_(ball.radius), time_(require_column(table, "t", "s")) {
+  MotionColumns(const CsvReader& table, const si::Ball& ball) : table_(table), ball_(ball) {
+    time_ = require_column(table, "t", "s");
     const auto time = find_column(table, "time", "s");
     if (time && time->column.place != time_.column.place)
       fail("columns t and time are both there: leave one of them out");
-    slip_ = find_column(table, "slip", "m/s");
-    rigid_ = !slip_ && find_column(table, "vx", "m/s");
-    if (!rigid_ && !slip_) {
+    const auto slip = find_column(table, "slip", "m/s");
+    rigid_ = !slip && find_column(table, "vx", "m/s");
+    if (!rigid_ && !slip) {
+      const bool positions = std::ranges::any_of(table.names(), [](const std::string& heading) {
+        const std::string name = usual_name(heading_of(heading).name);
+        return name == "x" || name == "y" || name == "angle";
+      });
       fail(
-          "no column is called 'slip': a motion has columns t (or time), slip and spin (or wz), or of a rigid body vx, "
-          "vy, wx, wy, wz");
-    }
-    if (rigid_) {
-      velocity_ = {require_column(table, "vx", "m/s"), require_column(table, "vy", "m/s")};
-      if (!ball.body.lies_flat())
-        turning_ = {require_column(table, "wx", "rad/s"), require_column(table, "wy", "rad/s")};
+          fmt::format("no column is called 'slip': a motion has columns t (or time), slip and spin (or wz), or of a "
+                      "rigid body vx, vy, wx, wy, wz{}",
+                      positions ? "; 'contensou fit' reads positions and angles" : ""));
     }
     const auto spin = find_column(table, "spin", "rad/s"), wz = find_column(table, "wz", "rad/s");
-    spin_ = spin ? *spin : wz ? *wz : require_column(table, rigid_ ? "wz" : "spin", "rad/s");
+    turning_[2] = spin ? *spin : wz ? *wz : require_column(table, rigid_ ? "wz" : "spin", "rad/s");
     if (spin) same_ = wz;
+    if (!rigid_) {
+      velocity_[0] = *slip;
+      return;
+    }
+    velocity_ = {require_column(table, "vx", "m/s"), require_column(table, "vy", "m/s"),
+                 find_column(table, "vz", "m/s")};
+    const char* const names[]{"wx", "wy"};
+    for (const std::size_t i : {0U, 1U}) {
+      turning_[i] =
+          ball.body.lies_flat() ? find_column(table, names[i], "rad/s") : require_column(table, names[i], "rad/s");
+    }
   }
 
-  Instant read(const CsvRow& row) const {
-    const auto value = [&](const SiColumn& column) { return column.factor * table_.number(row, column.column); };
-    Instant instant{row.line(), value(time_), {0, value(spin_)}};
-    if (same_) {
-      if (const double wz = value(*same_); wz != instant.speeds.spin) {
-        throw table_.complaint(instant.line,
-                               fmt::format("spin {} and wz {} are one angular velocity, and differ: leave one of "
-                                           "the columns out",
-                                           instant.speeds.spin, wz));
+  LoggedRow read(const CsvRow& row) const {
+    const auto value = [&](const std::optional<SiColumn>& column) {
+      return column ? column->factor * table_.number(row, column->column) : 0;
+    };
+    LoggedRow logged{row.line(), value(time_), {}, {}};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      // Only other readings use the velocity upwards, and how a flat body turns about a horizontal axis.
+      const bool needed = i < 2 || !rigid_, turns = i == 2 || !ball_.body.lies_flat();
+      const auto number = [&](const std::optional<SiColumn>& column, bool must) {
+        return must || !column || is_number(row[column->column.place]) ? value(column) : NAN;
+      };
+      logged.velocity[i] = number(velocity_[place], needed);
+      logged.turning[i] = number(turning_[place], turns);
+    }
+    if (const double spin = logged.turning.z(); same_ && value(same_) != spin) {
+      throw table_.complaint(logged.line,
+                             fmt::format("spin {} and wz {} are one angular velocity, and differ: leave one of "
+                                         "the columns out",
+                                         spin, value(same_)));
+    }
+    return logged;
+  }
+
+  Instant read(const LoggedRow& row, const Reading& reading) const {
+    const auto turned = [&](const Eigen::Vector3d& of) -> Eigen::Vector3d {
+      return reading.y_up ? Eigen::Vector3d(of.x(), -of.z(), of.y()) : of;
+    };
+    const Eigen::Vector3d v = turned(row.velocity);
+    Eigen::Vector3d w = turned(row.turning) * (reading.reversed ? -reading.turning_factor : reading.turning_factor);
+    if (!rigid_) return {row.line, row.t, {v.x(), w.z()}};
+    if (ball_.body.lies_flat()) w.x() = w.y() = 0;
+    const double slip = std::hypot(v.x() - ball_.radius * w.y(), v.y() + ball_.radius * w.x());
+    return {row.line, row.t, {slip, w.z()}, si::Velocities{v.head<2>(), w}};
+  }
+
+  /// Returns the ways to read this table, the simplest ones first. The first way is that of the headings.
+  std::vector<Reading> readings() const {
+    std::vector<Reading> all;
+    const bool names_unit =
+        std::ranges::any_of(turning_, [](const auto& column) { return column && !column->unit.empty(); });
+    constexpr double degree = std::numbers::pi / 180;
+    for (const auto& [unit, factor] :
+         {std::pair<std::string_view, double>{"", 1}, {"degrees/s", degree}, {"rpm", 6 * degree}}) {
+      if (names_unit && !unit.empty()) continue;
+      for (const auto& [y_up, reversed] : {std::pair{false, false}, {false, true}, {true, false}, {true, true}}) {
+        if ((reversed && !rigid_) || (y_up && !(velocity_[2] && turning_[1]))) continue;
+        all.push_back({y_up, reversed, unit, factor});
       }
     }
-    if (rigid_) {
-      double x = value(velocity_[0]), y = value(velocity_[1]);
-      if (!turning_.empty()) {
-        x -= radius_ * value(turning_[1]);
-        y += radius_ * value(turning_[0]);
-      }
-      instant.speeds.slip = std::hypot(x, y);
-      const double wx = turning_.empty() ? 0 : value(turning_[0]), wy = turning_.empty() ? 0 : value(turning_[1]);
-      instant.body = {{value(velocity_[0]), value(velocity_[1])}, {wx, wy, instant.speeds.spin}};
-    } else {
-      instant.speeds.slip = value(*slip_);
-    }
-    return instant;
+    return all;
   }
 
  private:
   [[noreturn]] void fail(const std::string& message) const { throw table_.complaint(table_.header_line(), message); }
 
   const CsvReader& table_;
-  double radius_;
-  SiColumn time_, spin_{};
-  std::optional<SiColumn> slip_, same_;
+  const si::Ball& ball_;
   bool rigid_ = false;
-  std::vector<SiColumn> velocity_, turning_;
+  SiColumn time_;
+  std::array<std::optional<SiColumn>, 3> velocity_, turning_;
+  std::optional<SiColumn> same_;
 };
 
-std::vector<Instant> read_instants(CsvReader& table, const si::Ball& ball) {
-  const MotionColumns columns(table, ball);
-  std::vector<Instant> instants;
+std::vector<LoggedRow> read_rows(CsvReader& table, const MotionColumns& columns) {
+  std::vector<LoggedRow> rows;
   table.for_each_row([&](const CsvRow& row) {
-    const Instant instant = columns.read(row);
-    if (instants.empty() && instant.speeds.slip < 0)  // a later slip may be negative by an error of measurement
+    const LoggedRow logged = columns.read(row);
+    const Instant instant = columns.read(logged, {});
+    if (rows.empty() && instant.speeds.slip < 0)  // a later slip may be negative by an error of measurement
       throw table.complaint(instant.line,
                             fmt::format("slip: the start is a speed, 0 or more, got {}", instant.speeds.slip));
-    if (!instants.empty() && instant.t < instants.back().t) {
-      throw table.complaint(instant.line,
-                            fmt::format("t: {} is before {} of the row above: put the rows in order of time", instant.t,
-                                        instants.back().t));
+    if (!rows.empty() && instant.t < rows.back().t) {
+      throw table.complaint(instant.line, fmt::format("t: {} is before {} of the row above: put the rows in order of "
+                                                      "time",
+                                                      instant.t, rows.back().t));
     }
-    instants.push_back(instant);
+    rows.push_back(logged);
   });
-  if (instants.size() < 2) {
+  if (rows.size() < 2) {
     throw table.complaint(
-        instants.empty() ? table.header_line() : instants.back().line,
-        fmt::format("two rows or more are needed, got {}: the motion starts as the first says", instants.size()));
+        rows.empty() ? table.header_line() : rows.back().line,
+        fmt::format("two rows or more are needed, got {}: the motion starts as the first says", rows.size()));
   }
-  return instants;
+  return rows;
 }
 
 /// Compares a model with the rows of the table.
@@ -120,25 +185,15 @@ void compare(ModelBeside& model, const MotionsBeside& motions, double tolerance)
   }
 }
 
-}  // namespace
-
-double ModelBeside::worst() const { return std::max(slip.relative, spin.relative); }
-
-const ModelBeside& MotionsBeside::nearest() const {
-  constexpr double as_close = 1e-9;
-  const double least = std::ranges::min_element(models, {}, &ModelBeside::worst)->worst();
-  return *std::ranges::find_if(models, [&](const ModelBeside& model) { return model.worst() <= least + as_close; });
-}
-
-MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
-                                   const reduction::Law& law, double tolerance) {
-  CsvReader table(path, CsvReader::Separator::comma_or_tab);
-  const std::vector<Instant> instants = read_instants(table, ball.ball);
-  const si::SlipAndSpin first = instants.front().speeds;
+/// Compares the rows of a table with the motions of all models.
+/// @throws std::domain_error  if the first row is no start of the ball
+MotionsBeside motions_beside(std::vector<Instant> rows, const si::Experiment& ball, const si::Description& values,
+                             const reduction::Law& law, double tolerance) {
+  const si::SlipAndSpin first = rows.front().speeds;
   si::Description first_row;
   // Rolling resistance and slope act on the rolling motion. Therefore the start must contain all velocities.
   const bool driven = si::is_driven(ball);
-  if (const auto& body = instants.front().body; driven && body) {
+  if (const auto& body = rows.front().body; driven && body) {
     const auto& [velocity, w] = *body;
     first_row.set(si::velocity, {velocity.x(), velocity.y()}, {"", "velocity of the first row", ""});
     first_row.set(si::angular_velocity, {w.x(), w.y(), w.z()}, {"", "angular velocity of the first row", ""});
@@ -146,18 +201,18 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
     first_row.set(si::slip, {first.slip}, {"", "slip of the first row", ""});
     first_row.set(si::spin, {first.spin}, {"", "spin of the first row", ""});
   }
-  si::Experiment experiment = ball;
-  try {
-    experiment = si::experiment_of(si::describe(ball).under(first_row).under(values));
-  } catch (const std::domain_error& error) {
-    throw table.complaint(instants.front().line, fmt::format("the start: {}", error.what()));
-  }
+  const si::Experiment experiment = [&] {
+    try {
+      return si::experiment_of(si::describe(ball).under(first_row).under(values));
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(fmt::format("the start: {}", error.what()));
+    }
+  }();
   const double slip = si::slip_at_start(experiment), spin = std::abs(si::spin_at_start(experiment));
-  if (slip == 0 && spin == 0) {
-    throw table.complaint(instants.front().line, "the ball is at rest in the first row: there is no motion to compare");
-  }
+  if (slip == 0 && spin == 0)
+    throw std::domain_error("the ball is at rest in the first row: there is no motion to compare");
   const double R = experiment.ball.radius;
-  MotionsBeside result{.rows = instants,
+  MotionsBeside result{.rows = std::move(rows),
                        .start = {slip, si::spin_at_start(experiment)},
                        .slip_unit = slip > 0 ? slip : R * spin,
                        .spin_unit = spin > 0 ? spin : slip / R,
@@ -188,6 +243,60 @@ MotionsBeside compare_with_motions(const std::string& path, const si::Experiment
     } catch (const std::domain_error&) {
       // No patch inside the ball has the measured spin deceleration under this law, so this law is not compared.
     }
+  }
+  return result;
+}
+
+}  // namespace
+
+double ModelBeside::worst() const { return std::max(slip.relative, spin.relative); }
+
+const ModelBeside& MotionsBeside::best() const {
+  constexpr double as_close = 1e-9;
+  const double least = std::ranges::min_element(models, {}, &ModelBeside::worst)->worst();
+  return *std::ranges::find_if(models, [&](const ModelBeside& model) { return model.worst() <= least + as_close; });
+}
+
+const ModelBeside* MotionsBeside::nearest() const { return best().worst() <= near ? &best() : nullptr; }
+
+MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
+                                   const reduction::Law& law, double tolerance) {
+  CsvReader table(path, CsvReader::Separator::comma_or_tab);
+  const MotionColumns columns(table, ball.ball);
+  const std::vector<LoggedRow> rows = read_rows(table, columns);
+  const auto with = [&](const Reading& reading, std::size_t step) {
+    std::vector<Instant> instants;
+    for (std::size_t i = 0; i < rows.size(); i += step) instants.push_back(columns.read(rows[i], reading));
+    return motions_beside(std::move(instants), ball, values, law, tolerance);
+  };
+  const auto as_written = [&] {
+    try {
+      return with({}, 1);
+    } catch (const std::domain_error& error) {
+      throw table.complaint(rows.front().line, error.what());
+    }
+  };
+  MotionsBeside result = as_written();
+  const double least = result.best().worst();
+  if (least <= tolerance) return result;
+  constexpr std::size_t enough = 200;  // number of rows that tell whether a reading fits
+  double allowed = std::max(tolerance, std::min(0.1, least / 10));
+  std::optional<Reading> found;
+  for (const Reading& reading : columns.readings()) {
+    try {
+      const double off = with(reading, 1 + rows.size() / enough).best().worst();
+      constexpr double as_close = 1e-9;
+      if (!(off <= allowed - (found ? as_close : 0))) continue;
+      allowed = off;
+      found = reading;
+    } catch (const std::domain_error&) {
+      // the first row, read like this, is no start of the ball
+    }
+  }
+  if (found) {
+    const MotionsBeside fitting = with(*found, 1);
+    result.reading = fmt::format("read {}, the log fits the model {} to {:.2g} of its start", found->words(),
+                                 fitting.best().name, fitting.best().worst());
   }
   return result;
 }

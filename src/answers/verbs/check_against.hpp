@@ -43,12 +43,22 @@ struct MotionsBeside {
   double slip_unit, spin_unit;      ///< m/s and rad/s; an error divided by its unit is a relative error
   std::vector<ModelBeside> models;  ///< models; the first is the motion under the law
 
+  /// Another reading of the log with which a model fits, in words; empty if none is needed or found.
+  std::string reading = {};
+
   /// Returns the model with the smallest error. Among equal errors the motion under the law wins.
-  const ModelBeside& nearest() const;
+  const ModelBeside& best() const;
+
+  /// Returns best(), or nullptr if its error exceeds `near`.
+  const ModelBeside* nearest() const;
+  static constexpr double near = 0.3;  ///< largest relative error of a model that resembles the table
 };
 
 /// Compares a table of a motion with models. The slip of a rigid body is computed as |(vx - R wy, vy + R wx)|, the slip
 /// of a body that lies flat as |(vx, vy)|.
+///
+/// If no model fits, the log of a rigid body is also read with y up, with the opposite sense of turning, and both. If
+/// the headings name no unit, each log is also read with angular velocities in degrees/s and rpm.
 ///
 /// @param path       file with columns t (or time), slip and spin (or wz, as `roll` writes); for a rigid body it may
 ///                   have vx, vy, wx, wy, wz in place of slip and spin. Units are SI or those behind the names; "-" is

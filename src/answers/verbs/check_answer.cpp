@@ -72,8 +72,11 @@ constexpr Field<MotionsBeside> beside_fields[]{
        return models;
      },
      "", 0, " [{`model`, `slip`, `spin`}]"},
-    {"nearest", "", "name of the model with the smallest differences",
-     [](const MotionsBeside& motions) -> Json { return motions.nearest().name; }},
+    {"nearest", "",
+     "name of the model with the smallest differences; none if these exceed 30 % of slip or spin at the start",
+     [](const MotionsBeside& motions) -> Json { return motions.nearest() ? motions.nearest()->name : "none"; }},
+    {"reading", "", "other axes or units with which a model fits the table, if no model fits it without them",
+     [](const MotionsBeside& motions) -> Json { return motions.reading.empty() ? Json() : Json(motions.reading); }, ""},
 };
 
 /// Returns the name of a law, in which "ok" and "FAIL" are escaped: scripts search rows for these words.
@@ -125,8 +128,14 @@ std::string as_text(const MotionsBeside& motions, const Digits& digits) {
   for (const auto& [name, motion, slip, spin] : motions.models) {
     table.add({label(name), digits(slip.relative), digits(spin.relative)});
   }
-  return fmt::format("\n{}{}\n{}\nnearest: {}\n", deviation_text("slip", "m/s", own.slip, digits),
-                     deviation_text("spin", "rad/s", own.spin, digits), table.text(), label(motions.nearest().name));
+  const ModelBeside& best = motions.best();
+  const std::string nearest = motions.nearest()
+                                  ? label(best.name)
+                                  : fmt::format("none; the best model, {}, is off by {:.3g} % of the start",
+                                                label(best.name), 100 * best.worst());
+  return fmt::format("\n{}{}\n{}\nnearest: {}\n{}", deviation_text("slip", "m/s", own.slip, digits),
+                     deviation_text("spin", "rad/s", own.spin, digits), table.text(), nearest,
+                     motions.reading.empty() ? "" : motions.reading + "\n");
 }
 
 Answer answer_of_checks(const std::vector<CheckedLaw>& rows) {

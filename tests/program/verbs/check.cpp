@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -209,6 +210,61 @@ TEST_CASE("the log of a rigid body is a motion, too, in any units", "[route]") {
   CHECK(rolls.at("start").at("spin") == 10);
 }
 
+TEST_CASE("a log in other axes or units resembles no model, and its reading is named", "[cli]") {
+  constexpr double degree = std::numbers::pi / 180;
+  struct Unit {
+    std::string words;
+    double size;
+  };
+  int unlike = 0;
+  for (const std::string ball : {"gel", "puck"}) {
+    const std::string start =
+        ball == "gel" ? "--velocity 1,0.3 --angular-velocity 20,-50,100" : "--velocity 1,0.5 --angular-velocity 0,0,40";
+    const auto json = json_of("roll --format json --samples 60 --ball " + ball + " " + start);
+    for (const auto& [y_up, reversed] : {std::pair{false, false}, {true, false}, {false, true}, {true, true}}) {
+      for (const Unit& unit : {Unit{"", 1}, {"in degrees/s", degree}, {"in rpm", 6 * degree}}) {
+        std::string table = "t,vx,vy,vz,wx,wy,wz\n";
+        for (std::size_t i = 0; i < json.at("t").size(); ++i) {
+          const auto at = [&](const char* name) { return json.at(name)[i].get<double>(); };
+          const double turn = (reversed ? -1 : 1) / unit.size, wx = turn * at("wx"), wy = turn * at("wy");
+          const double wz = turn * at("wz");
+          table += y_up ? fmt::format("{},{},0,{},{},{},{}\n", at("t"), at("vx"), -at("vy"), wx, wz, -wy)
+                        : fmt::format("{},{},{},0,{},{},{}\n", at("t"), at("vx"), at("vy"), wx, wy, wz);
+        }
+        INFO(ball << ": " << y_up << reversed << unit.words);
+        const Run run = run_program("check --format json --against - --ball " + ball, table);
+        const auto answer = nlohmann::json::parse(run.out);
+        // The sense in which a puck turns about the vertical changes nothing.
+        const bool other = y_up || (reversed && ball == "gel") || unit.size != 1;
+        CHECK(run.status == (other ? 1 : 0));
+        REQUIRE(answer.contains("reading") == other);
+        double least = 1e300;
+        for (const auto& model : answer.at("models"))
+          least = std::min(least, std::max(model.at("slip").get<double>(), model.at("spin").get<double>()));
+        CHECK((answer.at("nearest") == "none") == (least > 0.3));
+        unlike += least > 0.3 ? 1 : 0;
+        if (!other) continue;
+        const std::string reading = answer.at("reading");
+        INFO(reading);
+        CHECK((reading.find("y up") != std::string::npos) == y_up);
+        if (ball == "gel") CHECK((reading.find("left-handed") != std::string::npos) == reversed);
+        for (const std::string each : {"in degrees/s", "in rpm"})
+          CHECK((reading.find(each) != std::string::npos) == (each == unit.words));
+        CHECK_THAT(
+            run_program("check --against - --ball " + ball, table).out,
+            Contains(reading) && (least > 0.3 ? Contains("nearest: none; the best model, ") : Contains("nearest")));
+        // A unit in a heading is never doubted.
+        std::string named = table;
+        for (const std::string name : {"wx", "wy", "wz"}) named.replace(named.find(name), 2, name + " [rad/s]");
+        const auto with_units =
+            nlohmann::json::parse(run_program("check --format json --against - --ball " + ball, named).out);
+        CHECK(with_units.contains("reading") == (other && unit.size == 1));
+      }
+    }
+  }
+  CHECK(unlike > 10);
+}
+
 TEST_CASE("a table is drawn against the law", "[cli]") {
   const std::string table = "t,slip,spin\n0,1,10\n1,0.2,9\n2,0,0\n";
   const Run run = run_program("check --ball pool --against - -o - --format svg", table);
@@ -230,6 +286,7 @@ TEST_CASE("mistakes in a table that is checked", "[cli]") {
       {"", "<stdin>:1: empty input"},
       {"t,slip\n0,1\n", "<stdin>:1: no column is called 'spin'"},
       {"t,spin\n0,1\n", "<stdin>:1: no column is called 'slip': a motion has columns t (or time), slip and spin"},
+      {"t,x,y,angle\n0,0,0,0\n0.1,0.2,0,3\n", "wx, wy, wz; 'contensou fit' reads positions and angles"},
       {"t,vx,vy,wx,wz\n0,1,0,0,0\n", "<stdin>:1: no column is called 'wy'"},
       {"t,vx,wx,wy,wz\n0,1,0,0,0\n", "<stdin>:1: no column is called 'vy'"},
       {"t,time,slip,spin\n0,0,1,1\n", "<stdin>:1: columns t and time are both there"},
