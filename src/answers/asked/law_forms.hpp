@@ -6,9 +6,9 @@
 
 namespace contensou::answers {
 
-/// Words for the error of the paper's Pade law in the slip length of the balls pool, steel and bowling.
+/// Words for the error of the paper's Pade law, for any body.
 inline constexpr const char* cost_of_pade =
-    "in which the length that spin adds to the slip is too long: 5 times (pool), 129 (steel), 470 (bowling)";
+    "whose force is up to 39 % too small and whose stop times are up to 44 % too long ('contensou help laws')";
 
 /// The forms of --law, each with its meaning.
 std::vector<std::pair<std::string, std::string>> law_forms();
