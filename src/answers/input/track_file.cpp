@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,16 +36,47 @@ struct SeriesColumns {
   std::optional<SiColumn> sd;
 };
 
-/// Returns a warning if a length or speed without a unit is too large for a film and so probably in mm; else "".
+/// Returns the units in which numbers up to `largest` are usual for a film; empty if the SI unit is usual.
+/// @param jump  largest difference of successive numbers
+std::vector<std::string> likelier_units(std::string_view unit, double largest, double jump) {
+  if (unit == "rad") {
+    // Whole turns are unknown, so two successive angles in rad differ by at most a turn.
+    constexpr double many = 100, turn = 2 * std::numbers::pi;
+    return largest > many || jump > turn ? std::vector<std::string>{"deg"} : std::vector<std::string>{};
+  }
+  constexpr double fastest = 500;  // rad/s
+  if (unit == "rad/s") return largest > fastest ? std::vector<std::string>{"deg/s", "rpm"} : std::vector<std::string>{};
+  // A film shows 5 cm to 20 m, and speeds of 5 cm/s to 20 m/s. A picture has up to 10 000 pixels.
+  constexpr double too_much = 30;
+  if (largest < too_much) return {};
+  std::vector<std::string> units;
+  for (const auto& [name, least, most] : {std::tuple{"cm", 5.0, 2e3}, {"mm", 50.0, 2e4}, {"px", 0.0, 1e4}}) {
+    if (largest >= least && largest <= most) units.push_back(name + std::string(unit.substr(1)));
+  }
+  return units.empty() ? std::vector{fmt::format("m{}", unit)} : units;
+}
+
+/// Returns a question if the numbers of a column without a unit are unusual in the SI unit; else "".
 std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
-  constexpr double too_much = 30;  // m or m/s; values of a filmed ball are smaller
+  if (!of.value.unit.empty()) return "";
+  double largest = 0, jump = 0, before = NAN;
+  for (double value : series.value) {
+    if (std::isnan(value)) continue;
+    largest = std::max(largest, std::abs(value));
+    if (!std::isnan(before)) jump = std::max(jump, std::abs(value - before));
+    before = value;
+  }
   const std::string_view unit = fit::kind_of(of.observable).unit;
-  if (!of.value.unit.empty() || (unit != "m" && unit != "m/s")) return "";
-  double largest = 0;
-  for (double value : series.value) largest = std::max(largest, std::isnan(value) ? 0 : std::abs(value));
-  if (largest < too_much) return "";
-  return fmt::format("{0} is up to {1:.4g} {2}; is it in mm? Then call it '{0} [m{2}]'", of.value.column.name, largest,
-                     unit);
+  const std::vector<std::string> units = likelier_units(unit, largest, jump);
+  if (units.empty()) return "";
+  const std::string& name = of.value.column.name;
+  std::string asked, headings;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const char* const between = i == 0 ? "" : i + 1 == units.size() ? " or " : ", ";
+    asked += between + units[i];
+    headings += fmt::format("{}'{} [{}]'", between, name, units[i]);
+  }
+  return fmt::format("{} is up to {:.4g} {}; is it in {}? Then call it {}", name, largest, unit, asked, headings);
 }
 
 }  // namespace
