@@ -29,7 +29,8 @@ Dependence dependence_of(const std::vector<Eigen::MatrixXd>& runs) {
     }
   }
   Dependence result;
-  if (pairs > 0 && variance > 0) result.neighbours = products / (pairs * variance);
+  // Chance takes the estimate of a correlation near 1 beyond 1.
+  if (pairs > 0 && variance > 0) result.neighbours = std::clamp(products / (pairs * variance), -1.0, 1.0);
   if (expected > 0) result.growth = seen / expected;
   return result;
 }

@@ -13,6 +13,30 @@ namespace contensou::fit {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Returns the share of residuals farther than 4 standard deviations from the densest half of them. The densest half is
+/// the shortest interval with half of the residuals (P. J. Rousseeuw, 1984, doi:10.1080/01621459.1984.10477105).
+/// @param residuals  at least one
+/// @param least      smallest standard deviation that counts
+double far_from_most(std::vector<double> residuals, double least) {
+  std::ranges::sort(residuals);
+  const std::size_t n = residuals.size(), half = n / 2;
+  std::size_t begin = 0;
+  const auto width = [&](std::size_t first) { return residuals[first + half] - residuals[first]; };
+  for (std::size_t first = 1; first + half < n; ++first) {
+    if (width(first) < width(begin)) begin = first;
+  }
+  // Half of all normal errors lie within 0.6745 standard deviations. The densest half of n errors is narrower.
+  constexpr double half_of_normal = 0.6745, far = 4;
+  const double sd = width(begin) / (2 * half_of_normal) * (1 + 5 / static_cast<double>(n));
+  const double centre = (residuals[begin] + residuals[begin + half]) / 2, border = far * std::max(sd, least);
+  const auto count = std::ranges::count_if(residuals, [&](double each) { return std::abs(each - centre) > border; });
+  return static_cast<double>(count) / static_cast<double>(n);
+}
+
+}  // namespace
+
 Report Reporter::report() {
   set_size();
   set_errors();
@@ -24,7 +48,9 @@ Report Reporter::report() {
   set_ball();
   if (!planned_) set_misfits();
   if (fit_.fits()) set_spreads();
-  if (!planned_ && !search_.resisted && !request_.ball.ball.body.lies_flat()) set_rolling_friction_seen();
+  const bool flat = request_.ball.ball.body.lies_flat();
+  if (!planned_ && !search_.resisted && !flat) set_rolling_friction_seen();
+  if (!fit_.fits() && flat && !request_.free.patch_radius) set_patch_seen();
   require_numbers();
   return {std::move(fit_), std::move(better_)};
 }
@@ -125,16 +151,19 @@ void Reporter::set_noise() {
     }
     const auto n = static_cast<double>(rows.size());
     // The deviation follows from the median of `sizes`, but is at least the rounding step or the given deviation.
-    constexpr double far = 6;
-    const double border =
-        far * std::max(sd_by_median(sizes),
-                       search_.estimated[place] ? search_.rounding[place] * search_.weight[rows.front()] : 1);
+    constexpr double outside = 6;
+    const double least = search_.estimated[place] ? search_.rounding[place] * search_.weight[rows.front()] : 1;
+    const double border = outside * std::max(sd_by_median(sizes), least);
     std::vector<Outlier> outliers;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (sizes[i] > border) outliers.push_back(place_of(rows[i]));
     }
+    const VectorXd residuals = residuals_(rows), data = search_.data(rows);
+    const double range = data.maxCoeff() - data.minCoeff();
+    const bool is_film = std::sqrt(squares / n) > sharpest_film * range;
+    const double far = is_film ? far_from_most({residuals.begin(), residuals.end()}, least) : 0;
     fit_.noise.push_back({observable, static_cast<Index>(rows.size()), std::sqrt(squares / n), std::sqrt(variances / n),
-                          search_.estimated[place], std::move(outliers)});
+                          search_.estimated[place], std::move(outliers), far});
   }
 }
 

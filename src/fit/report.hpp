@@ -16,6 +16,9 @@ namespace contensou::fit {
 /// A number with at least this relative error counts as unknown, because catalogues are more accurate.
 inline constexpr double unknown = 0.5;
 
+/// Errors below this share of the range of values are not the noise of a film: the values are computed or rounded.
+inline constexpr double sharpest_film = 1e-4;
+
 inline bool is_of_contact(Parameter parameter) { return static_cast<int>(parameter) < contact_parameters; }
 
 /// The inverse of an information matrix, and the parameters that the matrix does not determine.
@@ -84,6 +87,7 @@ class Reporter {
   double held_back(std::size_t free) const;
   void set_misfits();
   void set_rolling_friction_seen();
+  void set_patch_seen();
   void require_numbers() const;
 
   bool is_free(Eigen::Index place) const { return std::ranges::find(search_.free, place) != search_.free.end(); }

@@ -23,9 +23,6 @@ constexpr double undecided = 1e-10;
 /// exceeds `strongly_correlated` and a relative error `hardly_nonlinear`. Or a relative error is above `nonlinear`.
 constexpr double strongly_correlated = 0.95, hardly_nonlinear = 0.01, nonlinear = 0.1;
 
-/// Errors below this share of the range of values are not the noise of a film: the values are computed or rounded.
-constexpr double sharpest_film = 1e-4;
-
 /// Powers of f and eps in combinations that a film may show: a slip gives f, a spin f eps, the end of a slip f/eps.
 const Eigen::Vector2d combinations[]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -88,6 +89,21 @@ void Reporter::set_misfits() {
     fit_.misfits.push_back(fmt::format(
         "residuals are {:.2g} times as large as the standard deviations that are given (reduced chi^2 {:.3g})",
         std::sqrt(reduced), reduced));
+  }
+}
+
+void Reporter::set_patch_seen() {
+  FitRequest with_patch = request_;
+  with_patch.free.patch_radius = true;
+  Search search(with_patch, accuracy_of_guess);
+  try {
+    const VectorXd found = search.solve();
+    constexpr double far_better = 12, whole = 0.99;
+    const double radius = std::exp(found[1]), less = fit_.aic - search.criterion(found);
+    if (less > far_better && radius < whole * request_.ball.ball.radius)
+      fit_.patch_seen = {radius, std::exp(found[0]), less};
+  } catch (const std::runtime_error&) {
+    // No patch is proposed if the search for one does not converge.
   }
 }
 

@@ -1,4 +1,5 @@
 // Estimates from films that differ from their description: outliers, wrong times, lost pictures.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -87,6 +88,66 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
   }
 }
 
+TEST_CASE("a film of a puck on a part of its face proposes this patch", "[invariant]") {
+  // A puck that stands on its whole face gets no proposal.
+  using enum Observable;
+  std::mt19937_64 random(3);
+  const std::vector<Seen> seen{{x, 3e-4}, {y, 3e-4}, {spin, 0.3}};
+  const reduction::Law law = *reduction::find_law("uniform");
+  si::Experiment puck = si::find_ball("puck")->experiment;
+  puck.ball.radius = 0.02;
+  for (int film = 0; film < (CONTENSOU_FULL_TESTS ? 40 : 5); ++film) {
+    const auto among = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const double part = film % 5 == 0 ? 1 : among(0.4, 0.8);
+    si::Experiment seen_puck = puck;
+    if (part < 1) seen_puck.contact.patch = si::PatchRadius{part * puck.ball.radius};
+    seen_puck.contact.friction = among(0.1, 0.3);
+    seen_puck.start = si::SlipAndSpin{among(0.4, 0.8), among(15, 30)};
+    const double end = si::Motion::reduced(seen_puck, law).stop_time();
+    const Track track = noisy(track_of({seen_puck, law}, ArrayXd::LinSpaced(110, 0, end), seen, false), seen, random);
+    const Fit found = fit::fit({.ball = puck, .law = law, .tracks = {track}, .free = usually_free(puck)});
+    INFO("film " << film << ", patch " << part);
+    CHECK(found.fits() == (part == 1));
+    REQUIRE(found.patch_seen.has_value() == (part < 1));
+    if (part == 1) continue;
+    CHECK(found.patch_seen->radius == Approx(part * puck.ball.radius).epsilon(0.02));
+    CHECK(found.patch_seen->friction == Approx(seen_puck.contact.friction).epsilon(0.02));
+  }
+}
+
+TEST_CASE("gross errors in 30 % of the values hide one another, and are told", "[invariant]") {
+  constexpr int films = CONTENSOU_FULL_TESTS ? 100 : 10;
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  const ArrayXd t = ArrayXd::LinSpaced(120, 0, 0.5);
+  const Track film = track_of({pool_ball()}, t, slip_and_spin, false);
+  const auto is_told = [](const Track& track) {
+    const Fit found = fit::fit({.ball = pool_ball(), .law = reduction::HertzLaw{}, .tracks = {track}});
+    return std::ranges::any_of(found.noise,
+                               [](const Noise& noise) { return noise.hides_outliers() || !noise.outliers.empty(); });
+  };
+  int alarms = 0;
+  for (int i = 0; i < films; ++i) alarms += is_told(noisy(film, slip_and_spin, random)) ? 1 : 0;
+  CHECK(alarms <= films / 50);
+  // The errors have one size and one sign, one size and both signs, or are normal.
+  for (const int kind : {0, 1, 2}) {
+    int told = 0;
+    for (int i = 0; i < films; ++i) {
+      Track bad = noisy(film, slip_and_spin, random);
+      for (std::size_t column = 0; column < 2; ++column) {
+        const double size = 20 * slip_and_spin[column].sd;
+        for (double& value : bad.series[column].value) {
+          if (random() % 10 >= 3) continue;
+          value += kind == 0 ? size : kind == 1 ? (random() % 2 == 0 ? size : -size) : size * normal(random);
+        }
+      }
+      told += is_told(bad) ? 1 : 0;
+    }
+    INFO("kind " << kind);
+    CHECK(told >= 0.9 * films);
+  }
+}
+
 TEST_CASE("films of the ball itself fit, with errors and without", "[invariant]") {
   constexpr int films = CONTENSOU_FULL_TESTS ? 1000 : 10;
   std::mt19937_64 random(1);
@@ -138,6 +199,11 @@ TEST_CASE("how errors depend on each other is found from their residuals", "[rou
     CHECK(found.neighbours == Approx(c).margin(0.01));
     CHECK(found.growth == Approx((1 + c) / (1 - c)).epsilon(0.1));
   }
+  // No correlation exceeds 1, even if neighbours are equal.
+  CHECK(dependence_of({Eigen::VectorXd::LinSpaced(30, -1, 1)}).neighbours <= 1);
+  CHECK(dependence_of({Eigen::VectorXd::Ones(30)}).neighbours == 1);
+  Eigen::VectorXd bow = Eigen::VectorXd::LinSpaced(30, -1, 1).array().square() - 1;
+  CHECK(dependence_of({bow}).neighbours <= 1);
   // This fit removes only a constant and a slope from the white noise: residuals are nearly the errors themselves.
   double neighbours = 0, growth = 0;
   constexpr int films = 1000;

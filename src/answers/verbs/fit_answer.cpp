@@ -1,6 +1,7 @@
 #include "answers/verbs/fit_answer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -38,6 +39,9 @@ Json reduced_chi2(const fit::Fit& fit, bool planned) {
   return fit.degrees_of_freedom > 0 ? Json(fit.reduced_chi2()) : Json();
 }
 
+/// Returns the time from the first to the last picture of a film, s.
+double length_of(const fit::Track& track) { return track.t.size() > 0 ? track.t.tail(1)[0] - track.t[0] : 0; }
+
 /// Returns the first times at which outliers lie, such as "t = 0.1, 0.25 s". For several tracks, each track has a list.
 std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vector<fit::Track>& tracks) {
   constexpr std::size_t most = 6;
@@ -56,11 +60,27 @@ std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vect
 std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::Track>& tracks, bool planned) {
   std::vector<std::string> remarks;
   for (const fit::Noise& noise : fit.noise) {
-    if (noise.outliers.empty() || planned) continue;
-    remarks.push_back(fmt::format(
-        "{}: {} of {} values are off by more than 6 standard deviations of the others, at {}; {}",
-        fit::kind_of(noise.observable).name, noise.outliers.size(), noise.values, places_of(noise.outliers, tracks),
-        fit.robust ? "Huber's loss lets them count for less" : "with Huber's loss (--robust) they count for less"));
+    if (planned) continue;
+    const std::string_view name = fit::kind_of(noise.observable).name;
+    const char* const robust =
+        fit.robust ? "Huber's loss lets them count for less" : "with Huber's loss (--robust) they count for less";
+    if (!noise.outliers.empty()) {
+      remarks.push_back(
+          fmt::format("{}: {} of {} values are off by more than 6 standard deviations of the others, at {}; {}", name,
+                      noise.outliers.size(), noise.values, places_of(noise.outliers, tracks), robust));
+    } else if (noise.hides_outliers()) {
+      remarks.push_back(fmt::format("{}: {:.2g} % of the values are far from where most values are; {}", name,
+                                    100 * noise.far_from_most, robust));
+    }
+  }
+  if (const Estimate& friction = fit.estimates[0]; friction.free && friction.determined() && !planned) {
+    constexpr double least = 0.002, most = 1.5;  // ice to rubber
+    if (friction.value < least || friction.value > most) {
+      remarks.push_back(fmt::format(
+          "friction {:.2g} is outside {} to {}, where friction usually lies; are the units and the pictures per second "
+          "right?",
+          friction.value, least, most));
+    }
   }
   for (std::size_t i = 0; i < fit.turns.size(); ++i) {
     const auto& [limit, others] = fit.turns[i];
@@ -92,6 +112,12 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
         "{}another motion fits as well: friction {:.4g}, slip {:.4g} m/s, spin {:.4g} rad/s, chi^2 more by {:.2g}; "
         "intervals contain both, and a column of what is not seen, spin, angle or slip, tells which",
         of, other.friction, other.slip, other.spin, other.chi2_more));
+  }
+  if (const auto& seen = fit.patch_seen) {
+    remarks.push_back(fmt::format(
+        "a patch with a radius of about {:.3g} mm, smaller than the whole face, fits far better: AIC less by {:.0f}, "
+        "friction then about {:.3g}; --free friction,patch,slip,spin lets the fit search it",
+        1e3 * seen->radius, seen->aic_less, seen->friction));
   }
   if (const auto& seen = fit.rolling_friction_seen) {
     remarks.push_back(fmt::format(
@@ -129,10 +155,14 @@ std::vector<std::string> line_on(const Estimate& estimate, const Digits& digits)
     return {name, "?", "?", "", "   not determined" + known};
   }
   const bool with_error = !estimate.skewed();
+  // The zero of a place and of an angle is arbitrary, and so is a part of it. More than 100 % of a number says nothing.
+  using enum Parameter;
+  constexpr std::array no_parts{x, y, angle, direction};
+  const bool has_parts = std::ranges::find(no_parts, estimate.parameter) == no_parts.end();
   const double percent = 100 * estimate.standard_error / std::abs(estimate.value);
   return {name, number(estimate.value),
           with_error ? Digits{std::min(digits.count, 3)}(estimate.standard_error / unit) : "",
-          with_error && std::isfinite(percent) ? fmt::format("{:.2g} %", percent) : "", "   " + interval};
+          with_error && has_parts && percent < 100 ? fmt::format("{:.2g} %", percent) : "", "   " + interval};
 }
 
 std::string table_of(const fit::Fit& fit, const std::vector<fit::Track>& tracks, const Digits& digits) {
@@ -242,12 +272,13 @@ constexpr Field<FitReport> answer_fields[]{
      "", 0, " {`name`, `friction_power`, `patch_power`, `value`, `standard_error`, `low`, `high`}"},
     {"tracks", "rad/s",
      "start of the motion in each film: estimates of `slip`, `spin`, `direction`, `vx`, `vy`, `x`, `y`, `angle`, or "
-     "`rolling` instead of `vx`, `vy` with rolling friction. `half_turn_spin`: spin above which a mark turns more than "
-     "half a turn between two pictures. `other_spins`: other spins that fit the data equally well",
+     "`rolling` instead of `vx`, `vy` with rolling friction. `lasts`: seconds from the first picture to the last. "
+     "`half_turn_spin`: spin above which a mark turns more than half a turn between two pictures. `other_spins`: other "
+     "spins that fit the data equally well",
      [](const FitReport& r) {
        Json list = Json::array();
        for (std::size_t i = 0; i < r.tracks.size(); ++i) {
-         Json track{{"file", r.tracks[i].name}, {"start", r.tracks[i].start}};
+         Json track{{"file", r.tracks[i].name}, {"start", r.tracks[i].start}, {"lasts", length_of(r.tracks[i])}};
          for (const Estimate& estimate : r.best.estimates) {
            if (is_of_start(estimate) && estimate.track == i)
              track[std::string(name_of(estimate))] = members_of_estimate(estimate);
@@ -260,13 +291,13 @@ constexpr Field<FitReport> answer_fields[]{
        }
        return list;
      },
-     "", 0, " [{`file`, `start`, `slip`, ...}]"},
+     "", 0, " [{`file`, `start`, `lasts`, `slip`, ...}]"},
     {"noise", "",
      "noise of each column: number of values, root mean square of the residuals, standard deviation. `outliers_at` "
      "[{`file`, `t`}] lists the outliers (s)",
      [](const FitReport& r) {
        Json noise = Json::object();
-       for (const auto& [observable, values, rms, sd, estimated, outliers] : r.best.noise) {
+       for (const auto& [observable, values, rms, sd, estimated, outliers, far] : r.best.noise) {
          Json places = Json::array();
          for (const auto& [track, t] : outliers) places.push_back({{"file", r.tracks[track].name}, {"t", t}});
          noise[std::string(fit::kind_of(observable).name)] = {
@@ -308,10 +339,12 @@ Answer answer_of(const std::vector<fit::Fit>& fits, const std::vector<fit::Track
 std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::Track>& tracks, bool planned,
                       const Digits& digits) {
   const fit::Fit& best = fits.front();
-  std::string text = planned
-                         ? fmt::format("{} as planned: {} values, law {}\n", best.ball.ball.name, best.values, best.law)
-                         : fmt::format("{}: {} measured value{}, law {}\n", best.ball.ball.name, best.values,
-                                       best.values == 1 ? "" : "s", best.law);
+  std::string lasts;
+  for (const fit::Track& track : tracks) {
+    if (track.t.size() > 1) lasts += fmt::format("{}{:.4g} s", lasts.empty() ? " in " : ", ", length_of(track));
+  }
+  std::string text = fmt::format("{}{}: {} {}value{}{}, law {}\n", best.ball.ball.name, planned ? " as planned" : "",
+                                 best.values, planned ? "" : "measured ", best.values == 1 ? "" : "s", lasts, best.law);
   if (!best.fits()) {
     text += "\nTHIS DOES NOT FIT: these errors and intervals do not count.\n";
     for (const std::string& misfit : best.misfits) text += fmt::format("- {}\n", misfit);

@@ -95,6 +95,12 @@ struct Noise {
   double sd;                      ///< root mean square of the standard deviations that the weights imply
   bool estimated;                 ///< true if sd is estimated from the residuals
   std::vector<Outlier> outliers;  ///< values whose residual exceeds 6 standard deviations (from the median residual)
+  /// Share of the values farther than 4 standard deviations from most values. Many outliers increase the standard
+  /// deviation and shift the fit, and then none of them is farther than 6 standard deviations from the fit.
+  double far_from_most = 0;
+
+  /// Returns true if far_from_most is larger than normal errors make it by chance in one of a thousand films.
+  bool hides_outliers() const { return far_from_most > 0.08; }
 };
 
 /// The only combination f^a eps^b that the data determine, f friction, eps patch radius: f, eps, f eps or f/eps.
@@ -131,6 +137,13 @@ struct RollingFrictionSeen {
   double chi2_less;  ///< decrease of the sum of squares
 };
 
+/// A patch smaller than the face of a flat body that is not free but would make the fit far better.
+struct PatchSeen {
+  double radius;    ///< m
+  double friction;  ///< coefficient of friction in the fit with this patch
+  double aic_less;  ///< decrease of Akaike's criterion
+};
+
 /// The result of a fit.
 struct Fit {
   std::string law;
@@ -154,6 +167,7 @@ struct Fit {
   std::vector<Turns> turns = {};                ///< one for each track
   std::vector<OtherMotion> other_motions = {};  ///< minima other than the estimate; the intervals contain them
   std::optional<RollingFrictionSeen> rolling_friction_seen = {};
+  std::optional<PatchSeen> patch_seen = {};  ///< set only if the model with the whole face does not describe the data
 
   const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
   bool rolls_with_friction() const;  ///< true if rolling friction is among the estimates
