@@ -69,8 +69,8 @@ class Flow {
   /// Returns the stop time and its gradient, README (R10), (R57), (R58). Only the first start needs an integration.
   /// @throws std::domain_error  if start is not a state, or if u = v = 0, at which no gradient exists
   ///
-  /// Accuracy  the products u by_u, v by_v, mu by_mu and so on: about 100 eps of tau. In a fast slide, k > 1000, the
-  ///           relative error of by_u is 1e-9 (exact and elliptic law: 1e-11), for k up to 1e19.
+  /// Accuracy  the products u by_u, v by_v, ...: about 100 eps of tau; 1e-9 beside a ray of a law without slopes. In a
+  ///           fast slide, k > 1000, the relative error of by_u is 1e-9 (exact, elliptic: 1e-11), for k up to 1e19.
   /// Cost      1 ms for the first start; the cost of a stop time for each further start.
   StopTimeGradient stop_time_gradient(State start) const;
 
