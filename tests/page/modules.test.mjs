@@ -114,6 +114,32 @@ test("what cannot be read in a link is told, and what can be read is not", () =>
   for (const link of ["", "#embed", "#utm_source=x", "mu=0.3&orbits=&at=0&theme=auto", ...presets.map(({ fragment }) => fragment).filter((fragment) => /gel|^$/.test(fragment))]) assert.equal(told(link), "", link);
 });
 
+test("a link that the library rejects opens the body that was asked for with its own start, else the opening", () => {
+  const opened = (link, rejects) => {
+    const store = new Store(/** @type {any} */ (known), fromFragment(link, known));
+    store.compute = (state) => {
+      if (rejects(state)) throw new Error("rejected");
+    };
+    const told = [];
+    store.tell = (words) => told.push(words);
+    store.ask(() => {}, undefined, ["besides"]);
+    assert.deepEqual(told, ["rejected besides"], link);
+    return store.state;
+  };
+  const { gravity } = gel;
+  for (const [link, rejects] of /** @type {[string, (state: State) => boolean][]} */ ([
+    ["ball=gel&orbits=1e308,1e308", ({ orbits }) => orbits[0].u > 1e300], ["ball=gel&slope=80&orbits=1,2", ({ ball }) => ball?.slope === 80],
+    ["ball=gel&gravity=1e-9&lab=1", ({ ball }) => ball?.gravity !== gravity],
+  ])) {
+    const state = opened(link, rejects);
+    assert.deepEqual([state.ball, state.orbits, state.lab], [fromFragment("ball=gel", known).ball, fromFragment("ball=gel", known).orbits, /lab/.test(link)], link);
+  }
+  const plain = opened("mu=0.2&law=pade&orbits=1e308,1", ({ orbits }) => orbits[0].u > 1e300);
+  assert.deepEqual([plain.ball, plain.mu, plain.law, plain.orbits], [null, 0.2, "pade", initialState().orbits]);
+  assert.equal(opened("mu=0.2&view=log", ({ view }) => view === "log").mu, 0.2, "the motion stays where the plane is rejected");
+  assert.equal(opened("ball=gel", ({ ball }) => ball?.name === "gel").ball?.name, "puck");
+});
+
 test("what cannot be read in a link keeps its first value", () => {
   const first = initialState();
   for (const part of ["law=nonsense", "mu=-1", "mu=x", "view=none", "window=1", "window=0,1", "orbits=x", "mu=0.3&at=2", "body=1", "body=1.5,2.5", "view=pair", "isochrones=3", "part=none", "mu=0.3&theme=red", "mu=0.3&step=9", "mu=0.3&line=1"]) {
