@@ -87,8 +87,8 @@ std::vector<NamedFigure> figures(const portraits::AskedSize& size) {
   using portraits::math;
   caption.title = portraits::title_of("Integral curves of d" + math("v") + "/d" + math("u"),
                                       fmt::format("{}", drawn_patch_ratio), system.law().name());
-  caption.subtitle = "Zhuravlev 1998, Fig. 4: all of them run into the origin, tangent to the " + math("u") + "-axis; " +
-                     math("u = 0") + " stands alone";
+  caption.subtitle = "Zhuravlev 1998, Fig. 4: all of them run into the origin, tangent to the " + math("u") +
+                     "-axis; " + math("u = 0") + " stands alone";
   return {{"fig1", portraits::patch_drawing(size)},
           {"fig2", portraits::law_figure(reduction::paper_laws(), size)},
           {"fig3", portraits::ball_drawing(size)},
