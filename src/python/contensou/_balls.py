@@ -538,7 +538,8 @@ class Roll:
 
         The result is the member uncertainty of `contensou roll --uncertainty --format json`. For each number of an
         event it contains the standard deviation to first order, the shares in it by name, quantiles of 10 000 samples
-        (1 000 with rolling friction or slope), and first_order_holds, True if standard deviation and quantiles agree.
+        (1 000 with rolling friction, on a slope, or if the patch radius divided by the ball radius varies), and
+        first_order_holds, True if standard deviation and quantiles agree.
         Raises ValueError for a number without a value, an invalid deviation, a changing load, and the uncoupled model.
         """
         typed = ",".join([*(text("uncertainty", each) for each in own),
