@@ -128,7 +128,7 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
 Answer finished(Answer answer, const PlanarSymmetries& found, bool solved) {
   Json& row = answer.rows.emplace_back();
   for (const auto& [name, value] : answer.members.items()) {
-    if (value.is_primitive() && !value.is_null()) row[name] = value;
+    if (value.is_primitive() && !value.is_null() && !value.is_boolean()) row[name] = value;
   }
   if (answer.members.contains("canonical")) row.update(answer.members["canonical"]);
   if (!found.generators.empty()) {
