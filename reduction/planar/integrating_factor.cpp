@@ -23,19 +23,23 @@ namespace {
 
 /// Returns false if the misfit of a V of few terms exceeds rounding at 100 points that the fit did not use. Then V has
 /// only nearly this form, which derivatives that are exact except for rounding can tell. Rounding is compared with the
-/// terms at the point and with their mean: at a single point all terms can be small.
+/// terms at the point and with their mean, because all terms can be small at a single point. Rounding differs in sign
+/// from point to point, but a term that V misses does not; so the root mean square has a stricter limit.
 bool holds_exactly(const SmoothField& field, const FieldSamples& samples, const InverseFactor& factor) {
-  constexpr double rounding = 1e-14;
+  constexpr double rounding = 1e-14, on_average = 3e-15;
   if (!field.jacobian || factor.form() > FactorForm::polynomial) return true;
   std::vector<InverseFactor::Misfit> misfits;
-  double mean = 0;
+  double mean = 0, square = 0;
   for (auto i = static_cast<std::size_t>(samples.fitted()); i < samples.points.size(); ++i) {
     misfits.push_back(factor.misfit(samples.points[i], samples.jets[i]));
     mean += misfits.back().size;
+    square += misfits.back().value * misfits.back().value;
   }
-  mean /= static_cast<double>(misfits.size());
-  return std::ranges::all_of(
-      misfits, [&](const InverseFactor::Misfit& at) { return std::abs(at.value) <= rounding * (at.size + mean); });
+  const auto count = static_cast<double>(misfits.size());
+  mean /= count;
+  return std::sqrt(square / count) <= on_average * mean && std::ranges::all_of(misfits, [&](const auto& at) {
+           return std::abs(at.value) <= rounding * (at.size + mean);
+         });
 }
 
 /// Returns false if V fails in wider boxes, or farther from the origin if the box is much nearer to it than all changes

@@ -23,7 +23,7 @@ using Eigen::Vector2d;
 namespace {
 
 using Real = long double;
-using State = std::array<Real, 2>;
+using RealState = std::array<Real, 2>;
 using Randoms = std::mt19937_64;
 
 double drawn(Randoms& random, double from, double to) {
@@ -37,8 +37,8 @@ struct Gate {
   bool is_circle;
   double a, b, c;
 
-  Real value(const State& x) const { return is_circle ? x[0] * x[0] + x[1] * x[1] - c : a * x[0] + b * x[1] - c; }
-  State slopes(const State& x) const { return is_circle ? State{2 * x[0], 2 * x[1]} : State{a, b}; }
+  Real value(const RealState& x) const { return is_circle ? x[0] * x[0] + x[1] * x[1] - c : a * x[0] + b * x[1] - c; }
+  RealState slopes(const RealState& x) const { return is_circle ? RealState{2 * x[0], 2 * x[1]} : RealState{a, b}; }
   std::string text() const {
     if (is_circle) return fmt::format("u^2 + v^2 - {}", c);
     return fmt::format("{}{}{} - ({})", a == 0 ? "" : fmt::format("({})*u", a), a == 0 || b == 0 ? "" : " + ",
@@ -49,18 +49,18 @@ struct Gate {
 /// A smooth function of the state.
 struct Smooth {
   std::string text;
-  std::function<Real(const State& x)> value;
+  std::function<Real(const RealState& x)> value;
 };
 const std::vector<Smooth>& smooth_parts() {
   static const std::vector<Smooth> all{
-      {"1", [](const State&) { return Real(1); }},
-      {"u", [](const State& x) { return x[0]; }},
-      {"v", [](const State& x) { return x[1]; }},
-      {"u*v", [](const State& x) { return x[0] * x[1]; }},
-      {"u^3", [](const State& x) { return x[0] * x[0] * x[0]; }},
-      {"sin(u)", [](const State& x) { return std::sin(x[0]); }},
-      {"cos(v)", [](const State& x) { return std::cos(x[1]); }},
-      {"exp(-u^2)", [](const State& x) { return std::exp(-x[0] * x[0]); }},
+      {"1", [](const RealState&) { return Real(1); }},
+      {"u", [](const RealState& x) { return x[0]; }},
+      {"v", [](const RealState& x) { return x[1]; }},
+      {"u*v", [](const RealState& x) { return x[0] * x[1]; }},
+      {"u^3", [](const RealState& x) { return x[0] * x[0] * x[0]; }},
+      {"sin(u)", [](const RealState& x) { return std::sin(x[0]); }},
+      {"cos(v)", [](const RealState& x) { return std::cos(x[1]); }},
+      {"exp(-u^2)", [](const RealState& x) { return std::exp(-x[0] * x[0]); }},
   };
   return all;
 }
@@ -90,8 +90,8 @@ struct KinkedField {
   std::vector<Gate> gates;
   std::vector<Term> terms;
 
-  State rate(const State& x, const std::vector<int>& sides) const {
-    State all{};
+  RealState rate(const RealState& x, const std::vector<int>& sides) const {
+    RealState all{};
     for (const Term& term : terms) {
       all[term.equation] +=
           term.factor *
@@ -142,7 +142,7 @@ KinkedField draw_field(Randoms& random) {
 /// Integrates a field. An orbit that touches a gate, slides along it or meets two gates at once is given up.
 class Reference {
  public:
-  Reference(const KinkedField& field, const State& start) : field_(field), x_(start) {
+  Reference(const KinkedField& field, const RealState& start) : field_(field), x_(start) {
     for (const Gate& gate : field.gates) {
       if (std::fabs(gate.value(x_)) < least_angle) lost_ = true;
       sides_.push_back(gate.value(x_) > 0 ? 1 : -1);
@@ -153,7 +153,7 @@ class Reference {
   Real largest() const { return largest_; }  ///< largest distance from the origin so far
 
   /// Returns the state at a time that is not before that of the last call; empty if the orbit is given up.
-  std::optional<State> at(Real time) {
+  std::optional<RealState> at(Real time) {
     while (!lost_ && time_ < time) advance(std::min(longest, time - time_));
     return lost_ ? std::nullopt : std::optional(x_);
   }
@@ -161,25 +161,26 @@ class Reference {
  private:
   static constexpr Real longest = 1.0L / 256, least_angle = 0.03L;
 
-  State after(Real duration) const {
-    boost::numeric::odeint::runge_kutta_fehlberg78<State, Real> stepper;
-    State x = x_;
-    stepper.do_step([&](const State& at, State& rate, Real) { rate = field_.rate(at, sides_); }, x, Real(0), duration);
+  RealState after(Real duration) const {
+    boost::numeric::odeint::runge_kutta_fehlberg78<RealState, Real> stepper;
+    RealState x = x_;
+    stepper.do_step([&](const RealState& at, RealState& rate, Real) { rate = field_.rate(at, sides_); }, x, Real(0),
+                    duration);
     return x;
   }
 
   /// Returns the rate of a gate relative to the speed: the sine of the angle at which the orbit meets the gate.
   Real angle(std::size_t gate) const {
-    const State slopes = field_.gates[gate].slopes(x_), rate = field_.rate(x_, sides_);
+    const RealState slopes = field_.gates[gate].slopes(x_), rate = field_.rate(x_, sides_);
     return (slopes[0] * rate[0] + slopes[1] * rate[1]) / std::hypot(slopes[0], slopes[1]) /
            std::hypot(rate[0], rate[1]);
   }
 
   void advance(Real duration) {
-    State next = after(duration);
+    RealState next = after(duration);
     std::optional<std::size_t> crossed;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const auto beyond = [&](const State& x) { return field_.gates[i].value(x) * sides_[i] < 0; };
+      const auto beyond = [&](const RealState& x) { return field_.gates[i].value(x) * sides_[i] < 0; };
       if (!beyond(next)) continue;
       Real before = 0, behind = duration;
       for (int halvings = 0; halvings < 70; ++halvings) {
@@ -195,7 +196,7 @@ class Reference {
     largest_ = std::max(largest_, std::hypot(x_[0], x_[1]));
     lost_ = !(largest_ < 10) || crossings_ > 200;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const State slopes = field_.gates[i].slopes(x_);
+      const RealState slopes = field_.gates[i].slopes(x_);
       const Real distance = std::fabs(field_.gates[i].value(x_)) / std::hypot(slopes[0], slopes[1]);
       if (i != crossed && distance < least_angle && (crossed || std::fabs(angle(i)) < 0.1L)) lost_ = true;
     }
@@ -207,7 +208,7 @@ class Reference {
   }
 
   const KinkedField& field_;
-  State x_;
+  RealState x_;
   std::vector<int> sides_;
   Real time_ = 0, largest_ = 0;
   int crossings_ = 0;
@@ -218,15 +219,16 @@ constexpr std::array<double, 8> times{0.1, 0.5, 1, 1.7, 2.4, 3.3, 4.4, 6};
 
 /// States at the times with the sizes that they are compared with. Empty if the orbit is given up, crosses no gate, or
 /// magnifies an error of the start more than 30 times.
-std::optional<std::vector<std::pair<State, Real>>> reference_states(const KinkedField& field, const Vector2d& start) {
+std::optional<std::vector<std::pair<RealState, Real>>> reference_states(const KinkedField& field,
+                                                                        const Vector2d& start) {
   constexpr Real shift = 1e-7L, most = 30;
   Reference reference(field, {start[0], start[1]});
   Reference beside(field, {start[0] + shift, start[1]}), above(field, {start[0], start[1] + shift});
-  std::vector<std::pair<State, Real>> states;
+  std::vector<std::pair<RealState, Real>> states;
   for (const double time : times) {
     const auto x = reference.at(time), y = beside.at(time), z = above.at(time);
     if (!x || !y || !z) return std::nullopt;
-    for (const State& other : {*y, *z}) {
+    for (const RealState& other : {*y, *z}) {
       if (std::hypot(other[0] - (*x)[0], other[1] - (*x)[1]) > most * shift) return std::nullopt;
     }
     states.emplace_back(*x, reference.largest());

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
@@ -417,7 +418,7 @@ TEST_CASE("orbits from the origin and from beside it, for every form of V", "[fa
       if (f.isZero(0)) {
         CHECK(orbit.end() == PlanarEnd::equilibrium);
         CHECK(orbit.at(1) == start);
-      } else if (f.norm() > 1e-20) {
+      } else if (f.norm() > 1e-20 && f.norm() < 1e20) {
         const double time = 1e-3;
         const Vector2d wanted = stepped(example.field, start, time);
         CHECK((orbit.at(time) - wanted).norm() < 1e-10 * wanted.norm());
@@ -446,14 +447,14 @@ TEST_CASE("an orbit is called closed only if it is", "[factor]") {
        }}};
   for (const auto& [name, family] : families) {
     for (const double e : {0., 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-3}) {
-      CAPTURE(name, e);
+      CAPTURE(name, fmt::format("e = {}", e));
       const FactorReduction reduction =
           reduced([&family = family, e](Dual u, Dual v) { return family(u, v, e); }, {0.7, 0.4});
       if (!reduction.found()) {
         CHECK(e > 0);
         continue;
       }
-      const PlanarOrbit orbit = reduction.reduction().orbit({0.7, 0.4});
+      const PlanarOrbit orbit = reduction.reduction().part_of_orbit({0.7, 0.4});
       CHECK((orbit.end() == PlanarEnd::periodic) == (e == 0));
       CHECK(orbit.end() != PlanarEnd::cycle);
     }
