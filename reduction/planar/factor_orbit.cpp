@@ -178,7 +178,7 @@ class Follower {
     }
     // The distance from the origin falls to the smallest numbers, while every part of the orbit takes longer.
     constexpr double tiny = 1e-30, longer = 0.01;
-    if (!motion_.panels.empty() && x_.stableNorm() <= tiny * size_ &&
+    if (!motion_.panels.empty() && x_.stableNorm() <= tiny * motion_.start.stableNorm() &&
         motion_.panels.back().time.at_end() > longer * motion_.followed) {
       motion_.rest.setZero();
       end(PlanarEnd::equilibrium, infinity);
@@ -218,7 +218,8 @@ class Follower {
     const Vector2d stable = (slopes * offset - out * offset) / (in - out), unstable = offset - stable;
     const bool on_line = on_curve_ || unstable.norm() <= 8 * eps * offset.norm();
     constexpr double hidden = 5e-5;
-    if (saddle && !on_line && offset.norm() < hidden * size_) {
+    const bool arrives = !motion_.panels.empty() && offset.dot(here.f) < 0;
+    if (saddle && !on_line && arrives && offset.norm() < hidden * size_) {
       stop("rounding decides on which side the orbit passes a saddle; it comes");
       return true;
     }
@@ -472,10 +473,15 @@ class Follower {
     const double extent = std::exchange(extent_, 0);
     motion_.turn_begin = std::exchange(motion_.turn_end, panel.begin + panel.time(t));
     if (!((passed_ - last).norm() <= near_ * extent)) return false;
-    const double missed = (motion_.in_panels(motion_.turn_end - motion_.turn_begin) - motion_.start).norm();
-    const bool from_start = missed <= near_ * extent;
+    // Compare with the extent of the first turn: from beside a focus it is much smaller than the closed orbit.
+    const double turn = motion_.turn_end - motion_.turn_begin;
+    const auto from_start_after = [&](double time) { return (motion_.in_panels(time) - motion_.start).norm(); };
+    const double missed = from_start_after(turn);
+    double first_extent = 0;
+    for (const double part : {0.2, 0.4, 0.6, 0.8}) first_extent = std::max(first_extent, from_start_after(part * turn));
+    const bool from_start = missed <= near_ * first_extent;
     constexpr double doubtful = 1e-6;
-    if (missed <= doubtful * extent && !(from_start && proves_return())) {
+    if (missed <= doubtful * first_extent && !(from_start && proves_return())) {
       stop("rounding hides whether the orbit returns or nears a closed one; it comes");
       return true;
     }

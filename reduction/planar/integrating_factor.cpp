@@ -281,7 +281,7 @@ FactorFormula FactorReduction::formula() const {
 }
 
 PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_work) const {
-  if (!from.allFinite() || !value_of(smooth.value, from)) {
+  if (!from.allFinite() || !value_of(field.value, from)) {
     throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
   return PlanarOrbit(follow(smooth, cleared, found(), from / unit, unit, most_work));
