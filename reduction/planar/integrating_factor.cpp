@@ -21,6 +21,43 @@ using Eigen::Vector2d;
 
 namespace {
 
+/// Returns the distance from the origin, in steps of a factor 2, at which the field first changes along several
+/// directions: a component or a switching function changes its sign, or f differs from f(0) by half of f(0). 0 if there
+/// is no change.
+double first_change(const SmoothField& field) {
+  constexpr int directions = 16, farthest = 60;
+  struct There {
+    std::optional<Vector2d> f;
+    Eigen::VectorXd switches;
+  };
+  const auto at = [&](const Vector2d& x) {
+    There there{value_of(field.value, x), {}};
+    if (field.switches) there.switches = field.switches(x).col(0);
+    return there;
+  };
+  const auto origin = value_of(field.value, Vector2d::Zero());
+  const auto changes = [&](const There& before, const There& there) {
+    if (before.f && there.f) {
+      constexpr double half = 0.5;
+      if ((before.f->array() * there.f->array() < 0).any()) return true;
+      if (origin && (*there.f - *origin).stableNorm() > half * origin->stableNorm() && !origin->isZero(0)) return true;
+    }
+    return (before.switches.array() * there.switches.array() < 0).any();
+  };
+  std::vector<There> before(directions);
+  for (int k = -farthest; k <= farthest; ++k) {
+    const double length = std::ldexp(1, k);
+    for (int i = 0; i < directions; ++i) {
+      const double angle = (i + std::numbers::phi - 1) * 2 * std::numbers::pi / directions;
+      There there = at(length * Vector2d(std::cos(angle), std::sin(angle)));
+      There& last = before[static_cast<std::size_t>(i)];
+      if (k > -farthest && changes(last, there)) return length;
+      last = std::move(there);
+    }
+  }
+  return 0;
+}
+
 /// Returns false if the misfit of a V of few terms exceeds rounding at 100 points that the fit did not use. Then V has
 /// only nearly this form, which derivatives that are exact except for rounding can tell. Rounding is compared with the
 /// terms at the point and with their mean, because all terms can be small at a single point. Rounding differs in sign
@@ -161,44 +198,23 @@ void FactorReduction::Solved::look_for_factor() {
     tried.push_back(fit->tried);
     tried.back().cleared = cleared;
     if (fit->small && fit->tried.gap >= large && holds_exactly(fitted, *samples, fit->factor) &&
-        holds_widely(fitted, *fit, length_scale(fitted, Vector2d::Zero()))) {
+        holds_widely(fitted, *fit, first_change(fitted))) {
       v = fit->factor;
     }
   }
 }
 
 double length_scale(const SmoothField& field, const Vector2d& start) {
-  constexpr double smallest = 1e-290, largest = 1e290;  // beyond, units of length underflow or overflow
-  const double size = start.lpNorm<Eigen::Infinity>();
-  if (size > 0) return std::clamp(size, smallest, largest);
-  // Walk outwards along several directions, in steps of a factor 2, until a component of the field or a switching
-  // function changes its sign.
-  constexpr int directions = 16, farthest = 60;
-  const auto signs = [&](double length, int i) {
-    const double angle = (i + std::numbers::phi - 1) * 2 * std::numbers::pi / directions;
-    const Vector2d x = length * Vector2d(std::cos(angle), std::sin(angle));
-    std::vector<bool> negative;
-    if (const auto f = value_of(field.value, x)) negative = {(*f)[0] < 0, (*f)[1] < 0};
-    if (field.switches) {
-      const Eigen::MatrixX3d switches = field.switches(x);
-      for (Eigen::Index row = 0; row < switches.rows(); ++row) negative.push_back(switches(row, 0) < 0);
-    }
-    return negative;
-  };
-  std::array<std::vector<bool>, directions> before;
-  for (int k = -farthest; k <= farthest; ++k) {
-    const double length = std::ldexp(1, k);
-    for (int i = 0; i < directions; ++i) {
-      auto there = signs(length, i);
-      if (k > -farthest && there != before[static_cast<std::size_t>(i)]) return length;
-      before[static_cast<std::size_t>(i)] = std::move(there);
-    }
-  }
-  return 1;
+  // In the units of a start that is much nearer to the origin than all changes of the field, they could not be seen.
+  constexpr double near = 1e-6, smallest = 1e-290, largest = 1e290;  // beyond, units of length underflow or overflow
+  const double size = start.lpNorm<Eigen::Infinity>(), change = first_change(field);
+  const double scale = size < near * change ? change : size;
+  return scale > 0 ? std::clamp(scale, smallest, largest) : 1;
 }
 
 Vector2d sampled_about(const SmoothField& field, const Vector2d& start) {
-  return start.isZero(0) ? Vector2d::Constant(length_scale(field, start)) : start;
+  const double size = length_scale(field, start);
+  return size > start.lpNorm<Eigen::Infinity>() ? Vector2d::Constant(size) : start;
 }
 
 FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start) {

@@ -116,8 +116,8 @@ SolvedPlane solve_by_scaling(const reduction::SmoothField& field, const reductio
                              const Eigen::Vector2d& start) {
   using Verdict = reduction::PlanarSymmetries::Verdict;
   if (found.scaling) {
-    Eigen::Vector2d around = start;
-    if (is_centre(*found.scaling, start)) around.array() += reduction::length_scale(field, start);
+    Eigen::Vector2d around = reduction::sampled_about(field, start);
+    if (is_centre(*found.scaling, around)) around.array() += reduction::length_scale(field, start);
     try {
       return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
     } catch (const std::domain_error& refused) {

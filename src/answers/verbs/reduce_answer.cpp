@@ -461,7 +461,7 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}, {"size", size}},
                 .text = [=](const Digits& digits) {
                   const std::string sampled =
-                      start.isZero(0) ? fmt::format("; the field is sampled at distances about {}", digits(size)) : "";
+                      around == start ? "" : fmt::format("; the field is sampled at distances about {}", digits(size));
                   return fmt::format("system      {}\nstart       u = {}, v = {}{}\n", text, digits(start[0]),
                                      digits(start[1]), sampled);
                 }};

@@ -48,7 +48,7 @@ class Equilibrium(NamedTuple):
     v: float
     kind: str
     eigenvalues: Optional[tuple[complex, complex]]
-    index: Optional[int]
+    index: Optional[int]  # type: ignore[assignment]  # hides the method of tuples
 
 
 class Reduction:
