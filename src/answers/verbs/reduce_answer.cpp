@@ -218,11 +218,12 @@ std::string text_of(const reduction::Equilibria& equilibria, const Digits& digit
   const auto& [points, low, high, complete, reversors] = equilibria;
   const std::string within =
       fmt::format("{} <= u <= {}, {} <= v <= {}", part(low[0]), part(high[0]), part(low[1]), part(high[1]));
-  std::string text = fmt::format("equilibria  {}, within {}\n",
-                                 points.empty() ? std::string(complete ? "none" : "none found, and there may be some")
-                                 : complete     ? fmt::format("{}", points.size())
-                                                : fmt::format("at least {}", points.size()),
-                                 within);
+  std::string text =
+      fmt::format("equilibria  {}, within {}\n",
+                  points.empty() ? std::string(complete ? "no isolated one" : "none found, and there may be some")
+                  : complete     ? fmt::format("{}", points.size())
+                                 : fmt::format("at least {}", points.size()),
+                  within);
   for (const reduction::Equilibrium& each : points) {
     text += fmt::format("equilibrium ({}, {}): {}", part(each.x[0]), part(each.x[1]), each.kind);
     if (each.eigenvalues) {
