@@ -9,9 +9,9 @@
 // Sides. At small distances r in several directions, the increments of g are compared with the linear map that fits
 // best. For a smooth field the misfit divided by r is proportional to r. At a kink it is constant; at a jump it grows.
 //
-// Search. A cell of the grid has no zero if a component of g is larger at its middle than its linear change over the
-// cell and twice the deviations of the corners from linearity. Other cells are divided until the field is nearly linear
-// in the cell. A cell for which neither holds in the end, and which has no zero found in it, is unexplained.
+// ZeroSearch. A cell of the grid has no zero if a component of g is larger at its middle than its linear change over
+// the cell and twice the deviations of the corners from linearity. Other cells are divided until the field is nearly
+// linear in the cell. A cell for which neither holds in the end, and which has no zero found in it, is unexplained.
 #include "contensou/reduction/equilibria.hpp"
 
 #include <algorithm>
@@ -252,9 +252,9 @@ Equilibrium::Eigenvalues eigenvalues_of(double trace, double determinant, double
 }
 
 /// The search for zeros in a rectangle.
-class Search {
+class ZeroSearch {
  public:
-  Search(const SmoothField& field, const Vector2d& low, const Vector2d& high)
+  ZeroSearch(const SmoothField& field, const Vector2d& low, const Vector2d& high)
       : field_(field, (high - low) / 2), low_(low), high_(high) {}
 
   Equilibria run();
@@ -294,7 +294,7 @@ class Search {
 
 /// Follows Newton's method from x.
 /// @param reach  largest distance from x; zeros farther away are found from the cells in which they lie
-void Search::follow(Vector2d x, double reach) {
+void ZeroSearch::follow(Vector2d x, double reach) {
   constexpr int most = 100, quick = 12;  // near a multiple zero a step only halves the distance
   constexpr double exact = 2e-13, multiple = 1e-3;
   const Vector2d from = x;
@@ -315,7 +315,7 @@ void Search::follow(Vector2d x, double reach) {
 }
 
 /// Returns the rounding of g near a zero: the deviations from linearity at a distance at which these are tiny.
-double Search::rounding(const Vector2d& x, const ScaledField::Linear& at) const {
+double ZeroSearch::rounding(const Vector2d& x, const ScaledField::Linear& at) const {
   constexpr double near = 1e-9;
   double largest = eps * at.slopes.norm() * x.cwiseQuotient(field_.half()).norm();
   for (int i = 0; i < 8; ++i) {
@@ -330,7 +330,7 @@ double Search::rounding(const Vector2d& x, const ScaledField::Linear& at) const 
 }
 
 /// Returns the equilibrium if x is a simple zero by the bounds of its errors, else nothing.
-std::optional<Equilibrium> Search::simple(const Vector2d& x, const ScaledField::Linear& at) const {
+std::optional<Equilibrium> ZeroSearch::simple(const Vector2d& x, const ScaledField::Linear& at) const {
   const Matrix2d& slopes = at.slopes;
   const double norm = slopes.norm(), determinant = slopes.determinant(), trace = slopes.trace();
   if (determinant == 0) return std::nullopt;
@@ -363,7 +363,7 @@ std::optional<Equilibrium> Search::simple(const Vector2d& x, const ScaledField::
 }
 
 /// Finds out whether Newton's method has ended at a zero, and of which kind.
-void Search::examine(Vector2d x) {
+void ZeroSearch::examine(Vector2d x) {
   constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, roundings = 64, slack = 1e-9;
   const auto inside = [&](const Vector2d& at) {
     return place(at).minCoeff() >= -slack && place(at).maxCoeff() <= 1 + slack;
@@ -426,7 +426,7 @@ void Search::examine(Vector2d x) {
 
 /// Divides a cell until the field is nearly linear in it or has no zero, and follows Newton's method from the parts.
 /// @param corners  g at (-1, -1), (1, -1), (-1, 1) and (1, 1)
-void Search::divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth) {
+void ZeroSearch::divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth) {
   constexpr int deepest = 5, deepest_without_value = 3, most = 8000;
   constexpr double widest = 0.2, bent = 0.5, clear = 0.2, like = 0.25;
   const auto here = field_.linear(cell.x, false);
@@ -501,7 +501,7 @@ void Search::divide(const Cell& cell, const std::array<std::optional<Vector2d>, 
 }
 
 /// Finds the index of each zero that is not simple, and compares the index with the kind.
-void Search::find_indices() {
+void ZeroSearch::find_indices() {
   constexpr double widest = 0.1, part = 0.3, smaller = 0.5;
   for (Zero& zero : zeros_) {
     Equilibrium& point = zero.point;
@@ -519,7 +519,7 @@ void Search::find_indices() {
   }
 }
 
-Equilibria Search::run() {
+Equilibria ZeroSearch::run() {
   constexpr int across = 40;
   constexpr double near = 6;  // Newton's first step leads into a cell from as many cells as the multiplicity of a zero
   const auto lattice = [&](double column, double row) {
@@ -572,7 +572,7 @@ std::vector<Reversor> find_reversors(const SmoothField& field, const Vector2d& a
 }
 
 Equilibria find_equilibria(const SmoothField& field, const Vector2d& low, const Vector2d& high) {
-  Equilibria found = Search(field, low, high).run();
+  Equilibria found = ZeroSearch(field, low, high).run();
   found.reversors = find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()));
   for (const Reversor& reversor : found.reversors) {
     if (reversor.matrix.determinant() > 0) continue;

@@ -30,13 +30,13 @@ double binomial(int n, int k) {
 }
 
 /// The points of a fit, and the matrix that makes coefficients of values at these points.
-struct Fit {
+struct TaylorFit {
   std::vector<Vector2d> points;
   MatrixXd powers, inverse;
   std::array<double, TaylorPolynomial::degree + 1>
       gain{};  ///< largest factor from values to coefficients, for each degree
 
-  Fit() {
+  TaylorFit() {
     // A polynomial of degree n is fixed by n/2 + 1 rings with 2 n + 1 points each. One more ring makes the fit even.
     constexpr int n = TaylorPolynomial::degree, rings = n / 2 + 2, around = 2 * n + 1;
     for (int ring = 0; ring < rings; ++ring) {
@@ -68,8 +68,8 @@ struct Fit {
   }
 };
 
-const Fit& fit() {
-  static const Fit points;
+const TaylorFit& fit() {
+  static const TaylorFit points;
   return points;
 }
 
@@ -138,7 +138,7 @@ double Taylor::error(int of_degree) const {
 }
 
 std::optional<Taylor> taylor(const PlanarField& field, const Vector2d& centre, const Vector2d& radii) {
-  const Fit& points = fit();
+  const TaylorFit& points = fit();
   MatrixXd values(points.powers.rows(), 2);
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
     const auto f = value_of(field, centre + radii.cwiseProduct(points.points[static_cast<std::size_t>(row)]));
