@@ -9,7 +9,7 @@
 // Sides. At small distances r in several directions, the increments of g are compared with the linear map that fits
 // best. For a smooth field the misfit divided by r is proportional to r. At a kink it is constant; at a jump it grows.
 //
-// ZeroSearch. A cell of the grid has no zero if a component of g is larger at its middle than its linear change over
+// Search. A cell of the grid has no zero if a component of g is larger at its middle than its linear change over
 // the cell and twice the deviations of the corners from linearity. Other cells are divided until the field is nearly
 // linear in the cell. A cell for which neither holds in the end, and which has no zero found in it, is unexplained.
 #include "contensou/reduction/equilibria.hpp"
