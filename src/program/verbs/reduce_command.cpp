@@ -36,7 +36,7 @@ class ReduceCommand final : public Verb {
     if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));
     const reduction::PlanarReduction plane = system_.solve(field, start);
     if (!plane.scaling()) {
-      const bool found = reduction::find_symmetries(field.value, start).scaling.has_value();
+      const bool found = reduction::find_symmetries(field, reduction::sampled_about(field, start)).scaling.has_value();
       throw BadInput(
           "the picture of reduce shows how a scaling moves orbits, and {}: 'contensou portrait --system' draws its plane",
           found ? "the scaling of this system does not solve it" : "this system has none");
