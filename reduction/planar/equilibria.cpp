@@ -547,15 +547,10 @@ Equilibria ZeroSearch::run() {
 }  // namespace
 
 std::vector<Reversor> find_reversors(const SmoothField& field, const Vector2d& around) {
-  const Reversor known[]{{"(u, -v)", Matrix2d{{1, 0}, {0, -1}}},
-                         {"(-u, v)", Matrix2d{{-1, 0}, {0, 1}}},
-                         {"(v, u)", Matrix2d{{0, 1}, {1, 0}}},
-                         {"(-v, -u)", Matrix2d{{0, -1}, {-1, 0}}},
-                         {"(-u, -v)", Matrix2d{{-1, 0}, {0, -1}}}};
   constexpr int points = 60, least = 20;
   const double large = around.lpNorm<Eigen::Infinity>(), small = around.cwiseAbs().minCoeff();
   std::vector<Reversor> found;
-  for (const Reversor& reversor : known) {
+  for (const Reversor& reversor : maps_to_try) {
     int compared = 0;
     const auto holds = [&](int i) {
       const double size = i % 2 == 0 || small == 0 ? large : small;
@@ -575,7 +570,7 @@ Equilibria find_equilibria(const SmoothField& field, const Vector2d& low, const 
   Equilibria found = ZeroSearch(field, low, high).run();
   found.reversors = find_reversors(field, low.cwiseAbs().cwiseMax(high.cwiseAbs()));
   for (const Reversor& reversor : found.reversors) {
-    if (reversor.matrix.determinant() > 0) continue;
+    if (!is_reflection(reversor)) continue;
     for (Equilibrium& each : found.points) {
       const bool on_axis = (reversor.matrix * each.x - each.x).norm() < same * (high - low).norm();
       if (on_axis && each.kind == "center or focus") each.kind = planar_kind("center");

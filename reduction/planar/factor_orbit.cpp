@@ -496,13 +496,14 @@ class Follower {
   bool proves_return() const {
     const bool of_few_terms = form_ <= FactorForm::polynomial || form_ == FactorForm::basis;
     if (on_curve_ || (of_few_terms && whole_.jacobian)) return true;
-    return std::ranges::any_of(reflections, [this](const Matrix2d& reflection) {
+    return std::ranges::any_of(maps_to_try, [this](const Reversor& reversor) {
+      if (!is_reflection(reversor)) return false;
       int sides[2] = {0, 0};
       for (const Panel& panel : motion_.panels) {
         for (const double t : {-0.6, 0.1, 0.8}) {
-          const Vector2d x = panel.at(t), away = x - reflection * x;
+          const Vector2d x = panel.at(t), away = x - reversor.matrix * x;
           ++sides[away[0] + away[1] * std::numbers::phi > 0 ? 1 : 0];
-          if (!reverses(whole_, reflection, Vector2d::Zero(), x).value_or(false)) return false;
+          if (!reverses(whole_, reversor.matrix, Vector2d::Zero(), x).value_or(false)) return false;
         }
       }
       return sides[0] > 0 && sides[1] > 0;

@@ -223,9 +223,9 @@ bool ScalingSolution::proves_center() const {
     return here && std::abs(here->slopes.trace()) <= rounding * here->slopes.cwiseAbs().sum();
   };
   if (field.jacobian && std::ranges::all_of(points, free_of_divergence)) return true;
-  return std::ranges::any_of(reflections, [&](const Eigen::Matrix2d& reflection) {
-    return std::ranges::all_of(
-        points, [&](const Vector2d& x) { return reverses(field, reflection, centre, x).value_or(true); });
+  return std::ranges::any_of(maps_to_try, [&](const Reversor& reversor) {
+    const auto holds = [&](const Vector2d& x) { return reverses(field, reversor.matrix, centre, x).value_or(true); };
+    return is_reflection(reversor) && std::ranges::all_of(points, holds);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "contensou/reduction/equilibria.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/inverse_factor.hpp"
 
@@ -23,8 +24,13 @@ inline std::optional<bool> reverses(const SmoothField& field, const Eigen::Matri
   return ((there->f + map * here->f).cwiseAbs().array() <= allowed.array()).all();
 }
 
-/// The reflections among the maps that are tried as reversors.
-inline const Eigen::Matrix2d reflections[]{Eigen::Matrix2d{{1, 0}, {0, -1}}, Eigen::Matrix2d{{-1, 0}, {0, 1}},
-                                           Eigen::Matrix2d{{0, 1}, {1, 0}}, Eigen::Matrix2d{{0, -1}, {-1, 0}}};
+/// The maps that are tried as reversors. Four of them are reflections.
+inline const Reversor maps_to_try[]{{"(u, -v)", Eigen::Matrix2d{{1, 0}, {0, -1}}},
+                                    {"(-u, v)", Eigen::Matrix2d{{-1, 0}, {0, 1}}},
+                                    {"(v, u)", Eigen::Matrix2d{{0, 1}, {1, 0}}},
+                                    {"(-v, -u)", Eigen::Matrix2d{{0, -1}, {-1, 0}}},
+                                    {"(-u, -v)", Eigen::Matrix2d{{-1, 0}, {0, -1}}}};
+
+inline bool is_reflection(const Reversor& reversor) { return reversor.matrix.determinant() < 0; }
 
 }  // namespace contensou::reduction
