@@ -49,7 +49,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   SteppedMotion(SmoothField field, const Vector2d& start, double tolerance)
       : field_(std::move(field)),
         tolerance_(tolerance),
-        size_(start.isZero(0) ? length_scale(field_, start) : start.lpNorm<Eigen::Infinity>()) {
+        size_((start.isZero(0) ? sampled_about(field_, start) : start).lpNorm<Eigen::Infinity>()) {
     end = PlanarEnd::undecided;
     end_time = std::numeric_limits<double>::quiet_NaN();
     undecided = "no reduction was found: orbits are followed by steps";

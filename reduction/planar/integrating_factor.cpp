@@ -204,17 +204,12 @@ void FactorReduction::Solved::look_for_factor() {
   }
 }
 
-double length_scale(const SmoothField& field, const Vector2d& start) {
-  // In the units of a start that is much nearer to the origin than all changes of the field, they could not be seen.
-  constexpr double near = 1e-6, smallest = 1e-290, largest = 1e290;  // beyond, units of length underflow or overflow
-  const double size = start.lpNorm<Eigen::Infinity>(), change = first_change(field);
-  const double scale = size < near * change ? change : size;
-  return scale > 0 ? std::clamp(scale, smallest, largest) : 1;
-}
-
 Vector2d sampled_about(const SmoothField& field, const Vector2d& start) {
-  const double size = length_scale(field, start);
-  return size > start.lpNorm<Eigen::Infinity>() ? Vector2d::Constant(size) : start;
+  // In the units of a start that is much nearer to the origin than all changes of the field, they could not be seen.
+  constexpr double near = 1e-6, smallest = 1e-290;  // below, units of length underflow
+  const double size = start.lpNorm<Eigen::Infinity>(), change = first_change(field);
+  if (size < near * change) return Vector2d::Constant(std::max(change, smallest));
+  return size >= smallest ? start : Vector2d::Constant(size > 0 ? smallest : 1);
 }
 
 FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start) {
@@ -224,7 +219,7 @@ FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start
   }
   // V can vanish at an equilibrium, so the search begins beside an equilibrium.
   const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
-  const double unit = std::ldexp(1, std::ilogb(length_scale(field, start)));
+  const double unit = std::ldexp(1, std::ilogb(sampled_about(field, start).lpNorm<Eigen::Infinity>()));
   auto solved = std::make_shared<Solved>(field, value->isZero(0) ? beside : start, unit);
   solved->look_for_factor();
   if (!solved->v && field.denominator) {

@@ -117,7 +117,7 @@ SolvedPlane solve_by_scaling(const reduction::SmoothField& field, const reductio
   using Verdict = reduction::PlanarSymmetries::Verdict;
   if (found.scaling) {
     Eigen::Vector2d around = reduction::sampled_about(field, start);
-    if (is_centre(*found.scaling, around)) around.array() += reduction::length_scale(field, start);
+    if (is_centre(*found.scaling, around)) around.array() += around.lpNorm<Eigen::Infinity>();
     try {
       return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
     } catch (const std::domain_error& refused) {

@@ -456,8 +456,8 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
     throw BadInput("the field has no value at the start u = {}, v = {}: give a start where it has one", start[0],
                    start[1]);
   }
-  const double size = reduction::length_scale(field, start);
   const Vector2d around = reduction::sampled_about(field, start);
+  const double size = around.lpNorm<Eigen::Infinity>();
   const PlanarSymmetries found = reduction::find_symmetries(field, around);
   Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}, {"size", size}},
                 .text = [=](const Digits& digits) {

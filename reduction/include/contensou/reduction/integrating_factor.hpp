@@ -14,14 +14,10 @@
 
 namespace contensou::reduction {
 
-/// Returns the length by which u and v are divided before a field is sampled: the larger of |u| and |v| at the start.
-/// If the start lies at the origin, or a million times nearer to it than the first change of the field, it is the
-/// distance of this change, or 1 without a change. There a component or a switching function changes its sign, or f
-/// differs from f(0) by half of f(0).
-double length_scale(const SmoothField& field, const Eigen::Vector2d& start);
-
-/// Returns the point whose coordinates set the scale of the samples of a field: the start, or the point (s, s) with
-/// s = length_scale(field, start) if s is larger than the coordinates of the start.
+/// Returns the point whose coordinates set the scale of the samples of a field: the start. If the start lies at the
+/// origin, or a million times nearer to it than the first change of the field, the point is (s, s) with the distance s
+/// of this change, or 1 without a change. There a component or a switching function changes its sign, or f differs from
+/// f(0) by half of f(0).
 Eigen::Vector2d sampled_about(const SmoothField& field, const Eigen::Vector2d& start);
 
 /// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
