@@ -731,3 +731,37 @@ TEST_CASE("a planar system has the switching functions of its formulas", "[syste
   CHECK(switches("x'' = -x - 0.2*sign(x' - 0.5)") == Eigen::RowVector3d(2.5, 0, 1));
   CHECK(switches("y' = |x*y - 4|") == Eigen::RowVector3d(2, 3, 2));
 }
+
+TEST_CASE("a branch continues a formula smoothly beyond its switching functions", "[formulas][exact]") {
+  struct Row {
+    std::string text, beyond;  // beyond: the continuation of the formula from u = 2, as a formula
+  };
+  // A part within sqrt, a logarithm or a power that is not whole stays as it is.
+  const std::vector<Row> rows{{"abs(u)", "u"},
+                              {"abs(1-u)", "u-1"},
+                              {"sign(u)*v", "v"},
+                              {"rint(u)+u", "2+u"},
+                              {"max(0,u-1)", "u-1"},
+                              {"min(0,u-1)", "0*u"},
+                              {"max(0,u-1)^2", "(u-1)^2"},
+                              {"abs(u)^3", "u^3"},
+                              {"(u > 1)*v+!(u > 1)", "v"},
+                              {"u > 1 ? u : 7", "u"},
+                              {"u > 1 && v < 9 ? u*v : 7", "u*v"},
+                              {"max(u, v, 0)", "u"},
+                              {"hypot(abs(u), v)", "hypot(u, v)"},
+                              {"sqrt(abs(u))", "sqrt(abs(u))"},
+                              {"sign(u)*abs(u)^0.5", "abs(u)^0.5"},
+                              {"ln(max(u, 1))", "ln(max(u, 1))"}};
+  const FormulaShape shape{{"u'", "v'"}, {"u", "v"}, "a system"};
+  for (const auto& [text, beyond] : rows) {
+    CAPTURE(text);
+    const Formulas whole(shape, "u' = " + text + "; v' = v", {}), wanted(shape, "u' = " + beyond + "; v' = v", {});
+    const Formulas branch = whole.branch({2, 0.5});
+    for (const double u : {-3.0, -0.5, 0.5, 1.5, 2.0, 4.0}) {
+      CHECK(branch({u, 0.7})[0] == wanted({u, 0.7})[0]);
+      CHECK(branch.with_slopes(std::array{u, 0.7})[0] == wanted.with_slopes(std::array{u, 0.7})[0]);
+    }
+    CHECK(branch({2, 0.5}) == whole({2, 0.5}));
+  }
+}

@@ -32,21 +32,32 @@ struct Operand;
 /// switching functions, or others.
 enum class Zeros : unsigned char { own, of_operands, of_first, edges };
 
+/// The smooth continuation of a function beyond the zeros of its switching functions.
+enum class Beyond : unsigned char {
+  same,     ///< the function itself
+  side,     ///< the operand or its negative, for abs
+  value,    ///< the value that the function has, for sign and comparisons
+  operand,  ///< the operand that the function takes, for min and max
+  nothing,  ///< none: the function ends, or has an infinite slope
+};
+
 /// The places where a function is not smooth. The table of functions does not compile without them.
 struct Breaks {
   /// Adds the switching functions of a function of x, or of x and y.
   using Rule = void(Switches& all, const Operand& x, const Operand& y);
-  constexpr Breaks(Rule* add_switches, Zeros of = Zeros::own)  // NOLINT(google-explicit-constructor): a table's cell
-      : add(add_switches), zeros(of) {}
-  Breaks(std::nullptr_t, Zeros = Zeros::own) = delete;
+  constexpr Breaks(Rule* add_switches, Beyond continuation, Zeros of = Zeros::own)
+      : add(add_switches), beyond(continuation), zeros(of) {}
+  Breaks(std::nullptr_t, Beyond, Zeros = Zeros::own) = delete;
 
   Rule* add;
+  Beyond beyond;
   Zeros zeros;
 };
 
 void nowhere(Switches&, const Operand&, const Operand&) {}
 Breaks::Rule at_zero, at_zeros, at_divisor, at_equals, at_halves, at_one, at_ones, at_poles, at_origin, at_cut, at_base;
-constexpr Breaks of_extremum{at_equals, Zeros::of_operands}, of_base{at_base, Zeros::of_first};
+constexpr Breaks smooth{nowhere, Beyond::same}, of_extremum{at_equals, Beyond::operand, Zeros::of_operands};
+constexpr Breaks of_comparison{at_equals, Beyond::value, Zeros::edges}, of_logarithm{at_zero, Beyond::nothing};
 
 /// A function of one number, of two, or of more (combined two at a time). A null `slope` or `slopes` means slopes of 0.
 struct Function {
@@ -70,50 +81,69 @@ Pair of_angle(double y, double x, double) {
 }
 
 constexpr Function functions[] = {
-    {"abs", {at_zero, Zeros::of_first}, std::fabs, [](double x, double) { return x < 0 ? -1.0 : 1.0; }},
-    {"sign", {at_zero, Zeros::of_first}, sign},
-    {"rint", {at_halves, Zeros::edges}, std::rint},
-    {"sin", nowhere, std::sin, [](double x, double) { return std::cos(x); }},
-    {"cos", nowhere, std::cos, [](double x, double) { return -std::sin(x); }},
-    {"tan", at_poles, std::tan, [](double, double tan) { return 1 + tan * tan; }},
-    {"asin", {at_ones, Zeros::of_first}, std::asin, [](double x, double) { return 1 / std::sqrt((1 - x) * (1 + x)); }},
-    {"acos", {at_ones, Zeros::edges}, std::acos, [](double x, double) { return -1 / std::sqrt((1 - x) * (1 + x)); }},
-    {"atan", {nowhere, Zeros::of_first}, std::atan, [](double x, double) { return 1 / (1 + x * x); }},
-    {"sinh", {nowhere, Zeros::of_first}, std::sinh, [](double x, double) { return std::cosh(x); }},
-    {"cosh", {nowhere, Zeros::edges}, std::cosh, [](double x, double) { return std::sinh(x); }},
-    {"tanh", {nowhere, Zeros::of_first}, std::tanh, [](double x, double) { return 1 / std::cosh(x) / std::cosh(x); }},
-    {"asinh", {nowhere, Zeros::of_first}, std::asinh, [](double x, double) { return 1 / std::hypot(1, x); }},
+    {"abs", {at_zero, Beyond::side, Zeros::of_first}, std::fabs, [](double x, double) { return x < 0 ? -1.0 : 1.0; }},
+    {"sign", {at_zero, Beyond::value, Zeros::of_first}, sign},
+    {"rint", {at_halves, Beyond::value, Zeros::edges}, std::rint},
+    {"sin", smooth, std::sin, [](double x, double) { return std::cos(x); }},
+    {"cos", smooth, std::cos, [](double x, double) { return -std::sin(x); }},
+    {"tan", {at_poles, Beyond::same}, std::tan, [](double, double tan) { return 1 + tan * tan; }},
+    {"asin",
+     {at_ones, Beyond::nothing, Zeros::of_first},
+     std::asin,
+     [](double x, double) { return 1 / std::sqrt((1 - x) * (1 + x)); }},
+    {"acos",
+     {at_ones, Beyond::nothing, Zeros::edges},
+     std::acos,
+     [](double x, double) { return -1 / std::sqrt((1 - x) * (1 + x)); }},
+    {"atan", {nowhere, Beyond::same, Zeros::of_first}, std::atan, [](double x, double) { return 1 / (1 + x * x); }},
+    {"sinh", {nowhere, Beyond::same, Zeros::of_first}, std::sinh, [](double x, double) { return std::cosh(x); }},
+    {"cosh", {nowhere, Beyond::same, Zeros::edges}, std::cosh, [](double x, double) { return std::sinh(x); }},
+    {"tanh",
+     {nowhere, Beyond::same, Zeros::of_first},
+     std::tanh,
+     [](double x, double) { return 1 / std::cosh(x) / std::cosh(x); }},
+    {"asinh",
+     {nowhere, Beyond::same, Zeros::of_first},
+     std::asinh,
+     [](double x, double) { return 1 / std::hypot(1, x); }},
     {"acosh",
-     {at_one, Zeros::edges},
+     {at_one, Beyond::nothing, Zeros::edges},
      std::acosh,
      [](double x, double) { return 1 / std::sqrt(x - 1) / std::sqrt(x + 1); }},
-    {"atanh", {at_ones, Zeros::of_first}, std::atanh, [](double x, double) { return 1 / (1 - x) / (1 + x); }},
-    {"exp", {nowhere, Zeros::edges}, std::exp, [](double, double exp) { return exp; }},
-    {"sqrt", {at_zero, Zeros::of_first}, std::sqrt, [](double, double root) { return 0.5 / root; }},
-    {"ln", at_zero, std::log, [](double x, double) { return 1 / x; }},
-    {"log", at_zero, std::log, [](double x, double) { return 1 / x; }},
-    {"log2", at_zero, std::log2, [](double x, double) { return 1 / x / std::numbers::ln2; }},
-    {"log10", at_zero, std::log10, [](double x, double) { return 1 / x / std::numbers::ln10; }},
-    {"hypot", {at_origin, Zeros::edges}, nullptr, nullptr, std::hypot, of_length},
-    {"atan2", at_cut, nullptr, nullptr, std::atan2, of_angle},
+    {"atanh",
+     {at_ones, Beyond::nothing, Zeros::of_first},
+     std::atanh,
+     [](double x, double) { return 1 / (1 - x) / (1 + x); }},
+    {"exp", {nowhere, Beyond::same, Zeros::edges}, std::exp, [](double, double exp) { return exp; }},
+    {"sqrt", {at_zero, Beyond::nothing, Zeros::of_first}, std::sqrt, [](double, double root) { return 0.5 / root; }},
+    {"ln", of_logarithm, std::log, [](double x, double) { return 1 / x; }},
+    {"log", of_logarithm, std::log, [](double x, double) { return 1 / x; }},
+    {"log2", of_logarithm, std::log2, [](double x, double) { return 1 / x / std::numbers::ln2; }},
+    {"log10", of_logarithm, std::log10, [](double x, double) { return 1 / x / std::numbers::ln10; }},
+    {"hypot", {at_origin, Beyond::same, Zeros::edges}, nullptr, nullptr, std::hypot, of_length},
+    {"atan2", {at_cut, Beyond::same}, nullptr, nullptr, std::atan2, of_angle},
     {"min", of_extremum, nullptr, nullptr, [](double x, double y) { return y < x ? y : x; },
      [](double x, double y, double) { return of_either(!(y < x)); }, true},
     {"max", of_extremum, nullptr, nullptr, [](double x, double y) { return x < y ? y : x; },
      [](double x, double y, double) { return of_either(!(x < y)); }, true},
-    {"sum", nowhere, nullptr, nullptr, plus, ones, true},
-    {"avg", nowhere, nullptr, nullptr, plus, ones, true},
+    {"sum", smooth, nullptr, nullptr, plus, ones, true},
+    {"avg", smooth, nullptr, nullptr, plus, ones, true},
 };
 
 constexpr Function negative{
-    "-", {nowhere, Zeros::of_first}, [](double x) { return -x; }, [](double, double) { return -1.0; }};
-constexpr Function opposite{"!", {at_zero, Zeros::edges}, [](double x) { return x == 0 ? 1.0 : 0.0; }};
+    "-", {nowhere, Beyond::same, Zeros::of_first}, [](double x) { return -x; }, [](double, double) { return -1.0; }};
+constexpr Function opposite{"!", {at_zero, Beyond::value, Zeros::edges}, [](double x) { return x == 0 ? 1.0 : 0.0; }};
 
 /// Slopes of x^y by x and by y. The slope by y is 0 at x = 0 < y, and NaN for x < 0. The slope by x is set to 0 at 0^0.
 Pair of_power(double x, double y, double value) {
   return {y == 0 ? 0 : y * std::pow(x, y - 1), value == 0 && x >= 0 ? 0 : value * std::log(x)};
 }
-constexpr Function power{
-    "^", of_base, nullptr, nullptr, [](double x, double y) { return y == 2 ? x * x : std::pow(x, y); }, of_power};
+constexpr Function power{"^",
+                         {at_base, Beyond::nothing, Zeros::of_first},
+                         nullptr,
+                         nullptr,
+                         [](double x, double y) { return y == 2 ? x * x : std::pow(x, y); },
+                         of_power};
 
 const Function* function_of(std::string_view name) {
   const auto* const found = std::ranges::find(functions, name, &Function::name);
@@ -133,7 +163,7 @@ struct Step {
   };
 };
 
-constexpr Function quotient{"/", {at_divisor, Zeros::of_first}};
+constexpr Function quotient{"/", {at_divisor, Beyond::same, Zeros::of_first}};
 
 /// Operators that bind more tightly have a higher level. "<=" must precede "<", so that the longer sign is found first.
 struct Operator {
@@ -142,19 +172,27 @@ struct Operator {
   Kind kind = Kind::two;
 };
 constexpr Operator operators[] = {
-    {{"||", {at_zeros, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x != 0 || y != 0; }},
+    {{"||",
+      {at_zeros, Beyond::value, Zeros::edges},
+      nullptr,
+      nullptr,
+      [](double x, double y) -> double { return x != 0 || y != 0; }},
      0},
-    {{"&&", {at_zeros, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x != 0 && y != 0; }},
+    {{"&&",
+      {at_zeros, Beyond::value, Zeros::edges},
+      nullptr,
+      nullptr,
+      [](double x, double y) -> double { return x != 0 && y != 0; }},
      1},
-    {{"<=", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x <= y; }}, 2},
-    {{">=", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x >= y; }}, 2},
-    {{"==", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x == y; }}, 2},
-    {{"!=", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x != y; }}, 2},
-    {{"<", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x < y; }}, 2},
-    {{">", {at_equals, Zeros::edges}, nullptr, nullptr, [](double x, double y) -> double { return x > y; }}, 2},
-    {{"+", nowhere}, 3, Kind::add},
-    {{"-", nowhere}, 3, Kind::subtract},
-    {{"*", {nowhere, Zeros::of_operands}}, 4, Kind::multiply},
+    {{"<=", of_comparison, nullptr, nullptr, [](double x, double y) -> double { return x <= y; }}, 2},
+    {{">=", of_comparison, nullptr, nullptr, [](double x, double y) -> double { return x >= y; }}, 2},
+    {{"==", of_comparison, nullptr, nullptr, [](double x, double y) -> double { return x == y; }}, 2},
+    {{"!=", of_comparison, nullptr, nullptr, [](double x, double y) -> double { return x != y; }}, 2},
+    {{"<", of_comparison, nullptr, nullptr, [](double x, double y) -> double { return x < y; }}, 2},
+    {{">", of_comparison, nullptr, nullptr, [](double x, double y) -> double { return x > y; }}, 2},
+    {{"+", smooth}, 3, Kind::add},
+    {{"-", smooth}, 3, Kind::subtract},
+    {{"*", {nowhere, Beyond::same, Zeros::of_operands}}, 4, Kind::multiply},
     {quotient, 4, Kind::divide},
 };
 constexpr int tightest = 5;  ///< above the level of every operator
@@ -457,6 +495,9 @@ int operands_of(const Step& step) {
                                                                   : 2;
 }
 
+/// Returns true for the exponents of powers that are smooth everywhere.
+bool is_whole(double exponent) { return exponent >= 0 && std::rint(exponent) == exponent; }
+
 /// Steps that compute a part of a formula.
 struct Operand {
   std::span<const Step> steps = {};
@@ -617,64 +658,64 @@ void at_cut(Switches& all, const Operand& y, const Operand& x) {
 }
 void at_base(Switches& all, const Operand& x, const Operand& y) {
   if (x.is_zero()) return all.add_zeros(y);
-  const double exponent = y.is_constant() ? y.constant() : std::nan("");
-  if (!(exponent >= 0 && std::rint(exponent) == exponent)) all.add_zeros(x);
+  if (!(y.is_constant() && is_whole(y.constant()))) all.add_zeros(x);
 }
 
 /// Returns the steps of the formula that keeps the choices of another formula at a point: see Formulas::branch.
 Steps branch(const Steps& formula, const double* values) {
-  std::vector<std::size_t> begins;         // begin of each part on the stack
-  std::vector<std::size_t> first_of;       // for each step, the begin of the part that the step completes
-  std::vector<bool> kept(formula.size());  // true: the step stays as it is
+  std::vector<std::size_t> begins;    // begin of each part on the stack
+  std::vector<std::size_t> begin_of;  // for each step, the begin of the part that the step completes
+  std::vector<Beyond> beyond;
+  const auto value_of_part = [&](std::size_t last) {
+    return run<0>(std::span(formula).subspan(begin_of[last], last + 1 - begin_of[last]), values)[0];
+  };
   for (std::size_t i = 0; i < formula.size(); ++i) {
+    const Step& step = formula[i];
     std::size_t begin = i;
-    for (int left = operands_of(formula[i]); left > 0; --left) {
+    for (int left = operands_of(step); left > 0; --left) {
       begin = begins.back();
       begins.pop_back();
     }
     begins.push_back(begin);
-    first_of.push_back(begin);
-    const Step& step = formula[i];
-    const bool has_function = step.kind == Kind::one || step.kind == Kind::two;
-    const bool singular = has_function && (step.function == &power || step.function->name == "sqrt" ||
-                                           step.function->breaks.add == at_ones ||
-                                           step.function->breaks.add == at_one || step.function->name.starts_with("l"));
-    if (singular)
-      std::fill(kept.begin() + static_cast<std::ptrdiff_t>(begin), kept.begin() + static_cast<std::ptrdiff_t>(i), true);
+    begin_of.push_back(begin);
+    const bool has_function = operands_of(step) > 0 && step.kind != Kind::choose;
+    beyond.push_back(has_function ? step.function->breaks.beyond : Beyond::same);
+    const bool whole_power =
+        step.kind == Kind::two && step.function == &power && step.right == 0 && is_whole(value_of_part(i - 1));
+    // What ends has no continuation, and its operands stay as they are.
+    if (beyond[i] == Beyond::nothing && !whole_power)
+      std::fill(beyond.begin() + static_cast<std::ptrdiff_t>(begin), beyond.end(), Beyond::same);
   }
-  const auto value_of_part = [&](std::size_t last) {
-    return run<0>(std::span(formula).subspan(first_of[last], last + 1 - first_of[last]), values)[0];
-  };
   Steps steps;
   std::vector<std::size_t> starts;  // begin of each part on the stack, in the result
   for (std::size_t i = 0; i < formula.size(); ++i) {
     const Step& step = formula[i];
-    const int operands = operands_of(step);
-    const std::size_t begin = operands == 0 ? steps.size() : starts[starts.size() - static_cast<std::size_t>(operands)];
+    const auto operands = static_cast<std::size_t>(operands_of(step));
+    const std::size_t begin = operands == 0 ? steps.size() : starts[starts.size() - operands];
     const std::size_t last = operands == 0 ? begin : starts.back();  // begin of the last operand
-    starts.resize(starts.size() - static_cast<std::size_t>(operands));
+    starts.resize(starts.size() - operands);
     starts.push_back(begin);
     const auto place = [&](std::size_t at) { return steps.begin() + static_cast<std::ptrdiff_t>(at); };
-    const auto constant = [&](double value) {
-      steps.resize(begin);
-      steps.push_back({.kind = Kind::number, .number = value});
-    };
-    const bool has_function = step.kind == Kind::one || step.kind == Kind::two;
-    if (kept[i] || !has_function || step.function->breaks.add == nowhere) {
-      steps.push_back(step);
-    } else if (step.function->name == "abs") {
-      const double at = value_of_part(i - 1);
-      if (at < 0) steps.push_back({.kind = Kind::one, .left = step.left, .function = &negative});
-      if (at == 0) steps.push_back(step);
-    } else if (step.function->name == "min" || step.function->name == "max") {
-      const double second = value_of_part(i - 1), first = value_of_part(first_of[i - 1] - 1);
-      const bool takes_first = step.function->two(first, second) == first;
-      steps.erase(place(takes_first ? last : begin), takes_first ? steps.end() : place(last));
-    } else if (step.function->name == "sign" || step.function->name == "rint" || step.function == &opposite ||
-               step.function->breaks.add == at_equals || step.function->breaks.add == at_zeros) {
-      constant(value_of_part(i));
-    } else {
-      steps.push_back(step);
+    switch (beyond[i]) {
+      case Beyond::side:
+        if (const double at = value_of_part(i - 1); at == 0) {
+          steps.push_back(step);
+        } else if (at < 0) {
+          steps.push_back({.kind = Kind::one, .left = step.left, .function = &negative});
+        }
+        break;
+      case Beyond::value:
+        steps.resize(begin);
+        steps.push_back({.kind = Kind::number, .number = value_of_part(i)});
+        break;
+      case Beyond::operand: {
+        const double second = value_of_part(i - 1), first = value_of_part(begin_of[i - 1] - 1);
+        const bool takes_first = step.function->two(first, second) == first;
+        steps.erase(place(takes_first ? last : begin), takes_first ? steps.end() : place(last));
+        break;
+      }
+      default:
+        steps.push_back(step);
     }
   }
   return steps;
