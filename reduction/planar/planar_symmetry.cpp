@@ -393,7 +393,7 @@ std::optional<Generator> simplest_scaling(Sampler& field, const Equations& equat
       finite = closer;
     }
     x = normalised(x, 64 * eps);
-    // With exact derivatives a larger misfit is that of a field which only nearly admits the scaling.
+    // If derivatives are exact, a field with a larger misfit admits the scaling only nearly.
     constexpr double rounding = 1e-12;
     if (field.is_exact() && transformed(x).residual > rounding) continue;
     const Generator found = growing(generator_of(x));

@@ -65,7 +65,7 @@ function oneOf(names, text) {
 const namesOf = (entries) => entries.map(({ name }) => name);
 
 /**
- * What `read` makes of a text of a link, or undefined.
+ * Returns the value that `read` gives for a text of a link, or undefined.
  *
  * @param {string[]} problems  gets a sentence on a text that cannot be read
  */
