@@ -12,37 +12,17 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/equilibria.hpp"
+#include "planar/dual.hpp"
 
 // A namespace of its own, because other tests have functions of these names.
 namespace contensou::reduction::multiple_zeros {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
+using tests::Dual;
 
 namespace {
 
-/// A number with its derivatives by u and v.
-struct Dual {
-  double value = 0, by_u = 0, by_v = 0;
-
-  Dual(double x) : value(x) {}  // NOLINT(google-explicit-constructor): a number is a constant
-  Dual(double x, double u, double v) : value(x), by_u(u), by_v(v) {}
-};
-
-Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.by_u + b.by_u, a.by_v + b.by_v}; }
-Dual operator-(Dual a, Dual b) { return {a.value - b.value, a.by_u - b.by_u, a.by_v - b.by_v}; }
-Dual operator-(Dual a) { return Dual(0) - a; }
-Dual operator*(Dual a, Dual b) {
-  return {a.value * b.value, a.by_u * b.value + a.value * b.by_u, a.by_v * b.value + a.value * b.by_v};
-}
-Dual operator/(Dual a, Dual b) {
-  const double q = a.value / b.value;
-  return {q, (a.by_u - q * b.by_u) / b.value, (a.by_v - q * b.by_v) / b.value};
-}
-Dual function(Dual a, double value, double slope) { return {value, slope * a.by_u, slope * a.by_v}; }
-Dual sin(Dual a) { return function(a, std::sin(a.value), std::cos(a.value)); }
-Dual cos(Dual a) { return function(a, std::cos(a.value), -std::sin(a.value)); }
-Dual sqrt(Dual a) { return function(a, std::sqrt(a.value), 0.5 / std::sqrt(a.value)); }
 double sign_of(Dual a) { return a.value > 0 ? 1 : a.value < 0 ? -1 : 0; }
 Dual abs(Dual a) { return sign_of(a) * a; }
 Dual sign(Dual a) { return sign_of(a); }

@@ -20,6 +20,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "planar/dual.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;
@@ -31,24 +32,6 @@ using Eigen::Vector2d;
 using std::numbers::pi;
 
 namespace {
-
-/// A number with its derivatives by u and v, for the exact Jacobian of a formula.
-struct Dual {
-  double value, by_u = 0, by_v = 0;
-  Dual(double number) : value(number) {}  // NOLINT(google-explicit-constructor): formulas have constants
-  Dual(double number, double u, double v) : value(number), by_u(u), by_v(v) {}
-  Dual chain(double f, double slope) const { return {f, slope * by_u, slope * by_v}; }
-};
-Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.by_u + b.by_u, a.by_v + b.by_v}; }
-Dual operator-(Dual a) { return {-a.value, -a.by_u, -a.by_v}; }
-Dual operator-(Dual a, Dual b) { return a + -b; }
-Dual operator*(Dual a, Dual b) {
-  return {a.value * b.value, a.by_u * b.value + a.value * b.by_u, a.by_v * b.value + a.value * b.by_v};
-}
-Dual operator/(Dual a, Dual b) { return a * b.chain(1 / b.value, -1 / (b.value * b.value)); }
-Dual sin(Dual a) { return a.chain(std::sin(a.value), std::cos(a.value)); }
-Dual cos(Dual a) { return a.chain(std::cos(a.value), -std::sin(a.value)); }
-Dual sqrt(Dual a) { return a.chain(std::sqrt(a.value), 1 / (2 * std::sqrt(a.value))); }
 
 using Formulas = std::function<std::array<Dual, 2>(Dual u, Dual v)>;
 
