@@ -10,7 +10,6 @@
 #include <pybind11/eigen.h>
 
 #include "answers/asked/planar_system.hpp"
-#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/infinity.hpp"
 #include "planar.hpp"
@@ -115,21 +114,13 @@ void bind_planar(py::module_& module) {
            })
       .def_property_readonly("equilibria",
                              [](const Planar& planar) {
-                               const auto found = interruptible([&] {
-                                 auto zeros = reduction::find_equilibria(planar.field, planar.start);
-                                 if (planar.solved_plane.plane) compare_kinds(zeros, planar.solved());
-                                 return zeros;
-                               });
-                               return list_of(found.points, [](const reduction::Equilibrium& each) {
+                               return list_of(planar.equilibria().points, [](const reduction::Equilibrium& each) {
                                  return py::make_tuple(each.x[0], each.x[1], each.kind, each.eigenvalues, each.index);
                                });
                              })
       .def_property_readonly(
           "reversors",
-          [](const Planar& planar) {
-            const auto found = interruptible([&] { return reduction::find_equilibria(planar.field, planar.start); });
-            return list_of(found.reversors, &reduction::Reversor::name);
-          })
+          [](const Planar& planar) { return list_of(planar.equilibria().reversors, &reduction::Reversor::name); })
       .def_property_readonly("solved", [](const Planar& planar) { return planar.solved_plane.plane.has_value(); })
       .def_property_readonly("kind",
                              [](const Planar& planar) -> std::optional<std::string> {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "answers/asked/planar_system.hpp"
+#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"
 
@@ -71,11 +72,26 @@ class Planar {
     throw std::domain_error("reduce: this field is not solved: " + solved_plane.why_not);
   }
 
+  /// Returns the equilibria and reversors, which are sought at the first call.
+  const reduction::Equilibria& equilibria() const {
+    if (!equilibria_) {
+      equilibria_ = interruptible([&] {
+        auto found = reduction::find_equilibria(field, start);
+        if (solved_plane.plane) compare_kinds(found, *solved_plane.plane);
+        return found;
+      });
+    }
+    return *equilibria_;
+  }
+
   reduction::SmoothField field;
   Eigen::Vector2d start;                           ///< point whose coordinates set the scale of the samples
   std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
   reduction::PlanarSymmetries symmetries;
   answers::SolvedPlane solved_plane;
+
+ private:
+  mutable std::optional<reduction::Equilibria> equilibria_;
 };
 
 }  // namespace contensou::python
