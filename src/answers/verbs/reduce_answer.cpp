@@ -106,7 +106,7 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
   text += "values      ";
   for (double value : found.singular_values) text += fmt::format("{:.2g} ", value);
   text += fmt::format("\n            singular ones of the determining equations at {} points, |u| <= {}, |v| <= {}; ",
-                      found.points, digits(3 * found.around[0]), digits(3 * found.around[1]));
+                      found.points, digits(found.within[0]), digits(found.within[1]));
   // Each singular value is divided by the largest one.
   return text + (found.level < 1 ? fmt::format("0 is below {:.1g}, gap {:.1g}\n", found.level, found.gap)
                                  : "the errors of differences exceed all of them\n");
@@ -119,7 +119,7 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
                          {"singular_values", found.singular_values},
                          {"level", found.level},
                          {"gap", found.gap},
-                         {"sampled_within", {3 * found.around[0], 3 * found.around[1]}}});
+                         {"sampled_within", {found.within[0], found.within[1]}}});
   add_text(answer, [=](const Digits& digits) { return text_of(found, time, digits); });
 }
 
@@ -247,9 +247,11 @@ std::string text_of(const reduction::Equilibria& equilibria, const Digits& digit
 /// Returns the canonical coordinates that the answer shows. For (2.6) they are v/u and ln v; on an axis their limits.
 PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x) {
   const reduction::Flow* flow = plane.flow();
-  PlanarCanonical there = plane.canonical(x);
-  there.dp_dq += 0.0;  // the additions turn -0 into 0
-  if (flow == nullptr) return there;
+  if (flow == nullptr) {
+    PlanarCanonical there = plane.canonical(x);
+    there.dp_dq += 0.0;  // the additions turn -0 into 0
+    return there;
+  }
   const double q = x[0] == 0 ? infinity : x[1] / x[0] + 0.0;
   const bool limit = q == 0 || std::isinf(q);
   return {q, std::log(x[1]), limit ? infinity : reduction::separated_slope(flow->system(), q)};

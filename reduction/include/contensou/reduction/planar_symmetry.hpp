@@ -108,7 +108,7 @@ struct PlanarSymmetries {
   double residual = infinity;
 
   int points = 0;                                    ///< number of points at which the equations were sampled
-  Eigen::Vector2d around = Eigen::Vector2d::Zero();  ///< |u| and |v| of the samples are at most 3 times these
+  Eigen::Vector2d within = Eigen::Vector2d::Zero();  ///< largest |u| and |v| of these points
 };
 
 /// Finds the generators by a singular value decomposition of the determining equations at up to 96 points.
