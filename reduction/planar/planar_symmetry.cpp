@@ -89,14 +89,14 @@ class Sampler {
 };
 
 constexpr int tried = 128;
-constexpr double farthest = 3;  ///< largest distance of the samples, in units of `around`
+constexpr double sampled_to = 3;  ///< largest distance of the samples, in units of `around`
 
 /// Returns point i of those at which the field is sampled. Points with even i are spread evenly about the origin, at
 /// 1/3 to 3 times `around`. Points with odd i lie nearer to the axes, down to a ratio of 1e-5.
 Vector2d sample_point(int i, const Vector2d& around) {
   const auto fraction = [](double x) { return x - std::floor(x); };
   const double turn = fraction(i * std::numbers::phi);
-  const double radius = std::pow(farthest, 2 * fraction(i * std::numbers::sqrt2) - 1);
+  const double radius = std::pow(sampled_to, 2 * fraction(i * std::numbers::sqrt2) - 1);
   Vector2d direction{std::cos(2 * std::numbers::pi * turn), std::sin(2 * std::numbers::pi * turn)};
   if (i % 2 == 1) {
     const double ratio = std::pow(10, 10 * fraction(i * std::numbers::sqrt3) - 5);
@@ -446,7 +446,7 @@ PlanarSymmetries find_symmetries(const SmoothField& field, const Vector2d& aroun
   PlanarSymmetries result;
   result.level = 8 * std::max(equations.error / largest, 8 * eps);
   result.points = static_cast<int>(equations.points.size());
-  result.within = unit * farthest * scale;
+  result.within = unit * sampled_to * scale;
   int nullity = 0;
   for (int i = 0; i < 7; ++i) {
     result.singular_values[i] = svd.values[6 - i] / largest;
