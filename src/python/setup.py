@@ -1,7 +1,7 @@
 """The wheel: the module alone, with what it needs of this tree, its libraries inside.
 
 It is tagged for this Python, and for machines with the C library of this one or a later one. This file works in its folder and,
-for pip, at the top of the archive that .ci/sdist makes.
+for pip, at the top of the archive that `.ci/release sources` makes.
 """
 
 import platform
