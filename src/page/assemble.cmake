@@ -19,7 +19,9 @@ string(REGEX REPLACE "=+\nBSD-3-Clause\n=.*" "" others "${others}")
 string(REPLACE "</html>\n" "<!--\n${licence}\n${others}-->\n</html>\n" html "${html}")
 file(WRITE ${PAGE} "${html}")
 
+# Clang warns of strings that other compilers need not support.
 file(WRITE ${EMBEDDED} "#include \"embedded_page.hpp\"\n
+#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n
 std::string_view contensou::page::embedded_page() {
   using namespace std::literals;
   return R\"PAGE(${html})PAGE\"sv;
