@@ -506,9 +506,9 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   };
   if (request.highlight) portrait.highlight = asked(*request.highlight, true);
   for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
+  portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
+  compare_kinds(portrait.equilibria, plane);
   if (plane.scaling() == nullptr) {
-    portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
-    compare_kinds(portrait.equilibria, plane);
     portrait.separatrices = tracer.separatrices(portrait.equilibria);
     for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
       for (const Polyline& line : zero_lines(piece, window.sides())) {

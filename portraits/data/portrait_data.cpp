@@ -132,10 +132,8 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
             {"centre", plane.scaling() ? Json{plane.centre()[0], plane.centre()[1]} : Json()},
             {"window", ends_of(portrait.window)},
             {"rays", rays}};
-  if (!plane.scaling()) {
-    json["form"] = plane.form().empty() ? Json() : Json(plane.form());
-    json.update(equilibria_members<Json>(portrait.equilibria));
-  }
+  if (!plane.scaling()) json["form"] = plane.form().empty() ? Json() : Json(plane.form());
+  json.update(equilibria_members<Json>(portrait.equilibria));
   return origin_of(std::move(json), source);
 }
 

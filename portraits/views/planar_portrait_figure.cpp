@@ -183,6 +183,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   }
   std::map<std::string_view, Marks> of_kind;
   for (const reduction::Equilibrium& each : portrait.equilibria.points) {
+    if (scaling) break;  // the centre is the only isolated equilibrium, and has its mark
     const auto mark = each.kind.starts_with("stable") ? Marks::Shape::dot
                       : each.kind == "saddle"         ? Marks::Shape::square
                                                       : Marks::Shape::circle;

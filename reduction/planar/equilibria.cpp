@@ -281,6 +281,7 @@ class ZeroSearch {
   void add(const Equilibrium& point, double radius) { zeros_.push_back({point, radius}); }
   void divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth);
   void find_indices();
+  void name_curve(const Vector2d& x);
 
   ScaledField field_;
   Vector2d low_, high_;
@@ -289,6 +290,7 @@ class ZeroSearch {
   std::vector<Vector2d> curves_;  ///< multiple zeros on curves of zeros
   std::vector<Cell> unexplained_;
   int cells_ = 0;
+  std::optional<Vector2d> on_curve_ = {};
   bool complete_ = true;
 };
 
@@ -362,6 +364,15 @@ std::optional<Equilibrium> ZeroSearch::simple(const Vector2d& x, const ScaledFie
   return point;
 }
 
+/// Keeps a point of a curve of zeros, if both components of the field vanish there, also a component that is tiny.
+void ZeroSearch::name_curve(const Vector2d& x) {
+  constexpr double small = 1e-6;
+  const auto jet = jet_of(field_.unscaled(), x);
+  if (on_curve_ || !jet) return;
+  const Vector2d change = jet->slopes.cwiseAbs() * field_.half();
+  if ((jet->f.cwiseAbs().array() <= small * change.array()).all()) on_curve_ = x;
+}
+
 /// Finds out whether Newton's method has ended at a zero, and of which kind.
 void ZeroSearch::examine(Vector2d x) {
   constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, roundings = 64, slack = 1e-9;
@@ -391,7 +402,10 @@ void ZeroSearch::examine(Vector2d x) {
   const auto at = field_.linear(x, true);
   if (!at) return add({x, none}, same);
   if (const auto point = simple(x, *at)) return add(*point, same);
-  if (on_simple_curve_of_zeros(field_, x, at->slopes)) return others_.push_back(x);
+  if (on_simple_curve_of_zeros(field_, x, at->slopes)) {
+    name_curve(x);
+    return others_.push_back(x);
+  }
   const auto of_multiple = [&](const Zero& zero) { return field_.distance(x, zero.point.x) < zero.radius; };
   const auto on_curve = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
   if (std::ranges::any_of(zeros_, of_multiple) || std::ranges::any_of(curves_, on_curve)) return others_.push_back(x);
@@ -401,6 +415,7 @@ void ZeroSearch::examine(Vector2d x) {
   if (better && *better != x) return examine(*better);
   if (vanishes_on_circle(field_, x, 0.05) && vanishes_on_circle(field_, x, 0.02)) {
     curves_.push_back(x);
+    name_curve(x);
     return others_.push_back(x);
   }
   const auto multiple = degenerate_point(field_.unscaled(), x, field_.half());
@@ -538,6 +553,7 @@ Equilibria ZeroSearch::run() {
   find_indices();
   Equilibria result{{}, low_, high_};
   for (const Zero& zero : zeros_) result.points.push_back(zero.point);
+  result.on_curve = on_curve_;
   result.complete = complete_ && std::ranges::all_of(unexplained_, [&](const Cell& cell) {
                       return found_near(cell.x, near * cell.half);
                     });

@@ -128,16 +128,14 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
 
   double factor(const Vector2d& x) const override { return at(x / unit).first; }
   std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override;
-  PlanarOrbit orbit(const Vector2d& from) const override {
-    constexpr int evaluations = 3'000'000;  // about one second
-    return followed(from, evaluations);
-  }
+  static constexpr int most_evaluations = 3'000'000;  ///< about one second
+  PlanarOrbit orbit(const Vector2d& from) const override { return followed(from, most_evaluations); }
   PlanarOrbit part_of_orbit(const Vector2d& from) const override {
     constexpr int evaluations = 100'000;
     return followed(from, evaluations);
   }
   PlanarOrbit followed(const Vector2d& from, int most_work) const;
-  double end_time_error(const Vector2d&) const override { return 1e-12; }
+  double end_time_error(const Vector2d& x) const override;
   std::optional<double> first_integral(const Vector2d& x) const override { return unit * unit * integral(x / unit); }
   std::shared_ptr<const Solution> reversed() const override;
 
@@ -289,6 +287,17 @@ FactorFormula FactorReduction::formula() const {
   const SmoothField& given = solved_->field;
   const Vector2d start = solved_->unit * (solved_->start.isZero(0) ? Vector2d(1, 1) : solved_->start);
   return recognised(solved_->cleared ? with_cleared_denominator(given) : given, start);
+}
+
+/// Compares with an orbit that begins a little later and is therefore divided into other parts.
+double FactorReduction::Solved::end_time_error(const Vector2d& x) const {
+  constexpr double least = 1e-12, margin = 8, early = 0.01;
+  const PlanarOrbit here = orbit(x);
+  const double time = here.period().value_or(here.end_time());
+  const PlanarOrbit again = orbit(here.at(early * time));
+  if (again.end() != here.end()) return 1;
+  const double other = again.period().value_or(early * time + again.end_time());
+  return std::max(least, margin * std::abs(other / time - 1));
 }
 
 PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_work) const {

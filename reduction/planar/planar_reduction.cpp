@@ -122,9 +122,20 @@ ScalingSolution::ScalingSolution(SmoothField given, const Generator& generator, 
 
 /// Makes the end undecided for orbits that join a ray in finite time, if the field does not determine how they
 /// continue: other orbits leave the ray, too, or the field on the ray is not the limit of its values beside the ray.
+/// Also makes the end undecided for orbits that near an axis, if rounding hides the motion on the axis beside it.
 void ScalingSolution::leave_branching_open() {
   constexpr double close = 1e-6;
+  const bool exact = centre.isZero(0) && scaling->matrix.isDiagonal(0);
   for (Direction& end : directions.dividing) {
+    const bool on_axis = exact && (end.n[0] == 0 || end.n[1] == 0);
+    const bool moves = on_axis && end.rates && end.rates->radial != 0;
+    for (Approach* side : {&end.before, &end.after}) {
+      if (!moves || !side->ray() || !side->decided() || side->radial().order == 0) continue;
+      side->leave_open();
+      undecided =
+          fmt::format("beside the angle {:.6g} rounding hides the motion along this axis, {:.2g} in scaled units",
+                      angle_of(end.n), end.rates->radial);
+    }
     const auto joins = [](const Approach& side) {
       return side.ray() && side.angular().order < 1 && side.angular().factor < 0 && side.radial().order == 0;
     };
@@ -321,12 +332,12 @@ Vector2d ScalingSolution::along_ray(const Vector2d& n, double radial, double p, 
 
 double ScalingSolution::end_time_error(const Vector2d& x) const {
   const auto time_from = [&x](const ScalingSolution& solution) {
-    const auto [n, p] = solution.section.canonical(x);
-    return solution.end_time(solution.place(n), p);
+    const PlanarOrbit from_here = solution.orbit(x);
+    return from_here.period().value_or(from_here.end_time());
   };
   constexpr double other = 1.37, margin = 8, least = 1e-13;
-  const ScalingSolution again(field, *scaling, centre + other * (x - centre), noise);
-  return std::max(least, margin * std::abs(time_from(again) / time_from(*this) - 1));
+  const auto again = std::make_shared<const ScalingSolution>(field, *scaling, centre + other * (x - centre), noise);
+  return std::max(least, margin * std::abs(time_from(*again) / time_from(*this) - 1));
 }
 
 std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {
@@ -587,7 +598,8 @@ PlanarEnd PlanarReduction::end(const Vector2d& x) const { return orbit(x).end();
 double PlanarReduction::end_time(const Vector2d& x) const { return orbit(x).end_time(); }
 
 double PlanarReduction::end_time_error(const Vector2d& x) const {
-  const double time = end_time(x);
+  const PlanarOrbit from_here = orbit(x);
+  const double time = from_here.period().value_or(from_here.end_time());
   return std::isfinite(time) && time != 0 ? solution_->end_time_error(x) : 0;
 }
 

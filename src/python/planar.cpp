@@ -118,6 +118,12 @@ void bind_planar(py::module_& module) {
                                  return py::make_tuple(each.x[0], each.x[1], each.kind, each.eigenvalues, each.index);
                                });
                              })
+      .def_property_readonly("equilibria_within",
+                             [](const Planar& planar) {
+                               const auto &low = planar.equilibria().low, &high = planar.equilibria().high;
+                               return std::pair(std::pair(low[0], high[0]), std::pair(low[1], high[1]));
+                             })
+      .def_property_readonly("equilibria_complete", [](const Planar& planar) { return planar.equilibria().complete; })
       .def_property_readonly(
           "reversors",
           [](const Planar& planar) { return list_of(planar.equilibria().reversors, &reduction::Reversor::name); })

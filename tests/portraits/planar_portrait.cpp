@@ -161,6 +161,8 @@ TEST_CASE("the data of a planar portrait say what it is", "[output]") {
   CHECK(json["orbits"].size() == 8);
   CHECK(json["orbits"][0]["tau_left"][0] == "inf");
   CHECK(json["isochrones"].empty());
+  CHECK(json["equilibria"].size() == 1);
+  CHECK(json["equilibria"][0]["kind"] == "stable node");
   for (const auto& orbit : json["orbits"]) {
     // v/u^3 is constant along orbits.
     const double first = orbit["v"][0].get<double>() / std::pow(orbit["u"][0].get<double>(), 3);

@@ -215,15 +215,19 @@ Json members_of_plane(const reduction::Equilibria& equilibria) {
 /// Returns a text on the equilibria near the start, the part of the plane in which they were sought, and the reversors.
 std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
   const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: avoids a minus sign before 0
-  const auto& [points, low, high, complete, reversors] = equilibria;
+  const auto& [points, low, high, complete, on_curve, reversors] = equilibria;
   const std::string within =
       fmt::format("{} <= u <= {}, {} <= v <= {}", part(low[0]), part(high[0]), part(low[1]), part(high[1]));
+  const std::string curve =
+      on_curve ? fmt::format("{} a curve of them through ({}, {})", points.empty() && complete ? ", but" : ", and",
+                             part((*on_curve)[0]), part((*on_curve)[1]))
+               : "";
   std::string text =
-      fmt::format("equilibria  {}, within {}\n",
+      fmt::format("equilibria  {}{}, within {}\n",
                   points.empty() ? std::string(complete ? "no isolated one" : "none found, and there may be some")
                   : complete     ? fmt::format("{}", points.size())
                                  : fmt::format("at least {}", points.size()),
-                  within);
+                  curve, within);
   for (const reduction::Equilibrium& each : points) {
     text += fmt::format("equilibrium ({}, {}): {}", part(each.x[0]), part(each.x[1]), each.kind);
     if (each.eigenvalues) {
@@ -383,7 +387,7 @@ bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
   const bool named = std::ranges::count(named_ends(), name(end)) > 0;
   members.update({{"end", named ? Json(name(end)) : Json()}, {"tau_stop", unknown ? Json() : Json(tau_stop)}});
-  const double error = std::isfinite(tau_stop) ? plane.end_time_error(start) : 0;
+  const double error = unknown ? 0 : plane.end_time_error(start);
   if (error > 0) members["accuracy"] = error;
   if (orbit.period()) members["period"] = *orbit.period();
   if (!orbit.undecided().empty()) members["undecided"] = orbit.undecided();
@@ -408,7 +412,8 @@ bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
           return std::isfinite(time) ? fmt::format(", by quadrature; relative error below {:.0e}", error)
                                      : ": it nears the centre for ever";
         case PlanarEnd::periodic:
-          return fmt::format(": it returns after {}", digits(orbit.period().value()));
+          return fmt::format(": it returns after {}; relative error below {:.0e}", digits(orbit.period().value()),
+                             error);
         case PlanarEnd::rest:
           return ": it comes to rest elsewhere";
         case PlanarEnd::equilibrium:
@@ -416,8 +421,9 @@ bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
         case PlanarEnd::cycle:
           return ": it nears a closed orbit for ever";
         default:
-          return std::isfinite(time) ? fmt::format(": it is at infinity after {}", digits(time))
-                                     : ": it goes to infinity, for ever";
+          return std::isfinite(time)
+                     ? fmt::format(": it is at infinity after {}; relative error below {:.0e}", digits(time), error)
+                     : ": it goes to infinity, for ever";
       }
     };
     return fmt::format("tau_stop    {}{}\n", digits(tau_stop), words());
@@ -670,9 +676,9 @@ std::vector<FieldText> reduce_system_fields() {
         {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`, `index`}]", "",
          "isolated points at which u and v do not change. eigenvalues [[re, im], [re, im]] of the equations linearised "
          "there; null if kind is not smooth. index: turns of (u', v') on a small circle; null if not known"},
-        {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`", "",
+        {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`, `equilibria_curve`", "",
          "part of the plane in which equilibria are sought and reversors compared: |u| and |v| at most 2.5 max(|u0|, |v0|). "
-         "complete: false if the list may be short"},
+         "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
         {"JSON `reversors`", "",
          "reversors: maps of the plane that turn each motion into a motion backward in time, such as (u, -v)"},
         {"JSON `turn` {`factor`, `sigma`}", "",
@@ -683,8 +689,8 @@ std::vector<FieldText> reduce_system_fields() {
         {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "",
          "starts that the symmetry makes of this one. Their p is larger by ln(factor)"},
         {"`tau_stop`, `accuracy`", "",
-         "time at which the motion reaches the centre, and its relative error. inf: the motion does not reach the "
-         "centre. null: the motion comes to a border before, or its end was not found"},
+         "time at which the motion reaches the centre, and its relative error; accuracy also belongs to period, and to "
+         "the time to infinity in the text. inf: the motion does not reach the centre. null: the motion comes to a border before, or its end was not found"},
         {"`end`", "", "end of the motion"},
         {"every `end`", "", fmt::format("{}; null if the end was not found", fmt::join(named_ends(), ", "))},
         {"`period`", "", "time after which the motion returns to its start"},

@@ -70,6 +70,8 @@ class Planar:
     level: float
     gap: float
     equilibria: list[tuple[float, float, str, Optional[tuple[complex, complex]], Optional[int]]]
+    equilibria_within: tuple[tuple[float, float], tuple[float, float]]
+    equilibria_complete: bool
     reversors: list[str]
     solved: bool
     kind: str

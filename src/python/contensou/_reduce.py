@@ -127,13 +127,24 @@ class Reduction:
 
     @property
     def equilibria(self) -> tuple[Equilibrium, ...]:
-        """The equilibria with |u|, |v| up to 2.5 times the larger of |u|, |v| of the start given to reduce."""
+        """The isolated equilibria in the rectangle equilibria_within."""
         return tuple(Equilibrium(*each) for each in self._core.equilibria)
+
+    @property
+    def equilibria_within(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Ranges of u and of v in which equilibria are sought and reversors compared: |u|, |v| up to 2.5 times the larger of
+        |u|, |v| of the start given to reduce."""
+        return self._core.equilibria_within
+
+    @property
+    def equilibria_complete(self) -> bool:
+        """False if there may be more equilibria in this rectangle."""
+        return self._core.equilibria_complete
 
     @property
     def reversors(self) -> tuple[str, ...]:
         """Images of (u, v) under the linear maps R that reverse motions, f(R x) = -R f(x), such as "(u, -v)". The maps are
-        compared at points with |u|, |v| up to 2.5 times the larger of |u|, |v| of the start."""
+        compared at points of the rectangle equilibria_within."""
         return tuple(self._core.reversors)
 
     @property

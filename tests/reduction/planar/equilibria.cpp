@@ -67,6 +67,26 @@ TEST_CASE("equilibria that are not isolated are left out", "[planar]") {
   CHECK(count([](const Vector2d& x) { return Vector2d(x[1], -std::pow(x[0], 3)); }) == 1);
 }
 
+TEST_CASE("a curve of equilibria is named by one of its points", "[planar]") {
+  const auto curve = [](auto f) { return find_equilibria({f}, {-3, -2}, {2, 3}).on_curve; };
+  CHECK_FALSE(curve([](const Vector2d& x) { return Vector2d(x[1], -x[0]); }));
+  CHECK_FALSE(curve([](const Vector2d& x) { return Vector2d(x[0] * x[0], -x[1]); }));
+  // The factor g vanishes on the curve; its power is the multiplicity of the zeros.
+  for (const int power : {1, 2}) {
+    const auto check = [&](const auto& g) {
+      const auto point =
+          curve([&](const Vector2d& x) -> Vector2d { return std::pow(g(x), power) * Vector2d(1, x[0] - 2 * x[1]); });
+      REQUIRE(point);
+      CHECK(std::abs(g(*point)) < 1e-6);
+    };
+    CAPTURE(power);
+    check([](const Vector2d& x) { return x[1]; });
+    check([](const Vector2d& x) { return 0.3 * x[0] - x[1] + 0.7; });
+    check([](const Vector2d& x) { return 1 - x.squaredNorm(); });
+    check([](const Vector2d& x) { return std::sin(x[0]) - x[1]; });
+  }
+}
+
 TEST_CASE("a reflection that turns motions back proves a center, alone it proves nothing", "[planar]") {
   const auto names = [](auto f, const Vector2d& around) {
     std::vector<std::string_view> found;

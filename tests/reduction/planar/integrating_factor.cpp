@@ -7,6 +7,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -214,6 +215,22 @@ TEST_CASE("Periods are those of closed forms and of a quadrature in 30 digits", 
   add(hopf, {1, 0}, 2 * pi, "Hopf's cycle, on which V = 0");
   INFO(periods.sentence());
   CHECK(periods.worst() < 200);
+}
+
+TEST_CASE("The stated error of a time covers its error, also beside a separatrix", "[factor]") {
+  // The period of a pendulum that turns round at the angle pi - d is 2 pi/agm(1, sin(d/2)).
+  for (double way = 1; way > 5e-4; way /= 2) {  // nearer to the saddle the end is not decided
+    const double angle = pi - way, rest = (pi - angle) + 1.2246467991473532e-16;
+    double a = 1, b = std::sin(rest / 2);
+    while (std::abs(a - b) > 1e-15 * a) std::tie(a, b) = std::pair((a + b) / 2, std::sqrt(a * b));
+    const PlanarReduction plane = reduced(pendulum, {angle, 0}).reduction();
+    const PlanarOrbit orbit = plane.orbit({angle, 0});
+    CAPTURE(way);
+    REQUIRE(orbit.period());
+    const double stated = plane.end_time_error({angle, 0}), wrong = std::abs(*orbit.period() * a / (2 * pi) - 1);
+    CHECK(wrong <= stated);
+    CHECK(stated <= 1e-11 + 1e-14 / way / way);  // rounding of H, relative to the distance from the separatrix
+  }
 }
 
 TEST_CASE("No V is found for systems that have none", "[factor]") {

@@ -628,6 +628,24 @@ TEST_CASE("points at rest on a ray, and a point that orbits pass", "[planar][exa
   CHECK(reduced([](const Vector2d& x) { return Vector2d(x[1], x[0] * x[0]); }).kind() == "cusp");
 }
 
+TEST_CASE("rates that differ more than doubles can show never make a point at rest", "[planar][domain]") {
+  for (const double small : {1e-8, 1e-14, 1e-18, 1e-40, 1e-300}) {
+    for (const double sign : {-1, 1}) {
+      for (const int axis : {0, 1}) {
+        Vector2d rates(-1, -1);
+        rates[axis] = sign * small;
+        const PlanarReduction plane([=](const Vector2d& x) -> Vector2d { return rates.cwiseProduct(x); },
+                                    {0, Matrix2d::Identity(), Vector2d::Zero()}, {1, 1});
+        const PlanarEnd end = plane.end({0.7, 0.4});
+        CAPTURE(rates);
+        CHECK((end == PlanarEnd::undecided || end == (sign < 0 ? PlanarEnd::centre : PlanarEnd::infinity)));
+        CHECK((plane.kind().empty() || plane.kind() == (sign < 0 ? "stable node" : "saddle")));
+        if (small >= 1e-8) CHECK(end != PlanarEnd::undecided);
+      }
+    }
+  }
+}
+
 TEST_CASE("far from 1, too", "[planar][domain]") {
   for (double unit : {1e-155, 1e160}) {
     const PlanarReduction plane =

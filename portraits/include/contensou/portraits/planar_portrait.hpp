@@ -21,8 +21,8 @@ struct PlanarPortrait : Portrait {
   std::string name;  ///< name of the system
   reduction::PlanarReduction plane;
   std::array<std::string, 2> variables = {"u", "v"};  ///< names on the axes, such as x and x'
+  reduction::Equilibria equilibria = {};              ///< equilibria in the window
   // Only for a system without a scaling:
-  reduction::Equilibria equilibria = {};         ///< equilibria in the window
   std::vector<PortraitOrbit> separatrices = {};  ///< separatrices of the saddles
   std::vector<PortraitOrbit> invariant = {};     ///< curves on which the inverse integrating factor V is 0
 };
@@ -44,13 +44,14 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// Returns the portrait as JSON.
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
-/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}]; on request highlight and through (orbits). Without a scaling
-/// centre is null, and there are also form, the members of equilibria_members, separatrices (orbits) and invariant
+/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members; on request highlight and
+/// through (orbits). Without a scaling centre is null, and there are also form, separatrices (orbits) and invariant
 /// [{u, v}], the curves V = 0.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// Returns the members equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]], index}], equilibria_within [[u, u],
-/// [v, v]] and equilibria_complete. Eigenvalues that do not exist and an index that is not known are null.
+/// [v, v]], equilibria_complete and equilibria_curve [u, v], a point of a curve of equilibria or null. Eigenvalues that
+/// do not exist and an index that is not known are null.
 /// @tparam Json  nlohmann::ordered_json
 template <class Json>
 Json equilibria_members(const reduction::Equilibria& equilibria) {
@@ -65,9 +66,11 @@ Json equilibria_members(const reduction::Equilibria& equilibria) {
     json["index"] = each.index ? Json(*each.index) : Json();
   }
   const auto &low = equilibria.low, &high = equilibria.high;
-  return {{"equilibria", list},
-          {"equilibria_within", {{low[0], high[0]}, {low[1], high[1]}}},
-          {"equilibria_complete", equilibria.complete}};
+  return {
+      {"equilibria", list},
+      {"equilibria_within", {{low[0], high[0]}, {low[1], high[1]}}},
+      {"equilibria_complete", equilibria.complete},
+      {"equilibria_curve", equilibria.on_curve ? Json{(*equilibria.on_curve)[0], (*equilibria.on_curve)[1]} : Json()}};
 }
 
 /// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or

@@ -56,6 +56,8 @@ struct Equilibria {
   /// False if there might be more equilibria: the field changes much between neighbouring points of the search.
   bool complete = true;
 
+  std::optional<Eigen::Vector2d> on_curve = {};  ///< a point of the rectangle on a curve of equilibria
+
   std::vector<Reversor> reversors = {};  ///< maps that reverse motions at points of the rectangle
 };
 

@@ -160,9 +160,10 @@ class PlanarReduction {
   /// motion never ends; NaN if the end is not decided.
   double end_time(const Eigen::Vector2d& x) const;
 
-  /// Returns an estimate of the relative error of end_time(x): eight times the difference from a second solution, by
-  /// another curve about the centre. The estimate is at least 1e-13, or 0 for an end time of 0 or infinity. Cost: a
-  /// second PlanarReduction.
+  /// Returns an estimate of the relative error of end_time(x), or of the period: eight times the difference from a
+  /// second solution. For a scaling it uses another curve about the centre, and is at least 1e-13; the cost is a second
+  /// PlanarReduction. For V it follows the orbit from a later point, in other parts, and is at least 1e-12; 1 if the
+  /// two orbits end in different ways. 0 for an end time of 0 or infinity without a period.
   /// @throws as end, and as the constructor
   double end_time_error(const Eigen::Vector2d& x) const;
 
