@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "data/round_numbers.hpp"
 
 namespace contensou::portraits {

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
-#include "contensou/reduction/root.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "data/isochrones.hpp"
 #include "data/round_numbers.hpp"
 #include "data/tracing.hpp"

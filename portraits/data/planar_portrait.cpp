@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/planar_steps.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "data/isochrones.hpp"
 #include "data/tracing.hpp"
 #include "data/widest_gaps.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "views/palette.hpp"
 
 namespace contensou::portraits {

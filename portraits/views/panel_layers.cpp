@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::portraits {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "data/tracing.hpp"
 #include "views/panel_layers.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_panel.hpp"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/regularised_time.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/flow.hpp"
 #include "data/regularised_time.hpp"
 #include "views/portrait_views.hpp"
 

@@ -3,7 +3,7 @@
 //   |V|^2 = (v - w rho)^2 + 4 v w rho sin^2(psi/2),   V_x = v - w rho cos(psi),   moment arm of V: w rho - v cos(psi)
 // Chords: q = k cos(theta) + t, |t| <= l, l^2 = 1 - k^2 sin^2(theta), 1 - rho^2 = l^2 - t^2. For k > 1 the variable b,
 // sin(theta) = sin(b)/k, l = cos(b), replaces theta, because l ends like a square root at the last chord.
-#include "contensou/reduction/contact_patch.hpp"
+#include "contensou/reduction/verification.hpp"
 
 #include <algorithm>
 #include <cmath>

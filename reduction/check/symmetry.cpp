@@ -1,4 +1,4 @@
-#include "contensou/reduction/symmetry.hpp"
+#include "contensou/reduction/verification.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -10,10 +10,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "check/hertz_inner_orbit.hpp"
-#include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
-#include "contensou/reduction/symmetry.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "system/balance.hpp"
 
 namespace contensou::reduction {

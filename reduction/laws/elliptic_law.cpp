@@ -1,4 +1,4 @@
-#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -6,7 +6,7 @@
 //   k >= 1:  Phi = (3/(16 k)) [k^2 (4 - k^2) theta* + (k^2 + 2) sqrt(k^2 - 1)]              (1.3)
 //            Psi = (3/64) [(8 - 8 k^2 + 3 k^4) theta* + 3 (2 - k^2) sqrt(k^2 - 1)]          (1.5)
 //          = 2F1(-1/2, 1/2; 5/2; k^-2)  and  2F1(1/2, 1/2; 7/2; k^-2)/(5 k)
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 #include <algorithm>
 #include <array>

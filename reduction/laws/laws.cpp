@@ -13,10 +13,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/elliptic_law.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 
 namespace contensou::reduction {

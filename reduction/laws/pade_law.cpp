@@ -1,4 +1,4 @@
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 #include <numbers>
 

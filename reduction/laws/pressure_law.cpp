@@ -1,4 +1,4 @@
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 #include <cmath>
 #include <numbers>

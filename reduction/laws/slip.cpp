@@ -1,4 +1,4 @@
-#include "contensou/reduction/slip.hpp"
+#include "contensou/reduction/friction_law.hpp"
 
 #include <cmath>
 #include <stdexcept>

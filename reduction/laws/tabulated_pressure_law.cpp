@@ -20,8 +20,8 @@
 #include <Eigen/LU>
 #include <boost/math/quadrature/gauss.hpp>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "numerics/gauss_function.hpp"
 
 namespace contensou::reduction {

@@ -1,11 +1,8 @@
-#include "contensou/reduction/tangent.hpp"
+#include "contensou/reduction/detail/tangent.hpp"
 
 #include <algorithm>
 
-#include "contensou/reduction/elliptic_law.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 namespace contensou::reduction {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "numerics/epsilon.hpp"
 
 namespace contensou::reduction {

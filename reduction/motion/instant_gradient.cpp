@@ -1,5 +1,5 @@
 // README (R61): moving the start along (u, v) scales the motion; moving the start along the field delays the motion.
-#include "contensou/reduction/instant_gradient.hpp"
+#include "contensou/reduction/flow.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -17,9 +17,9 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "system/balance.hpp"
 
 namespace contensou::reduction {

@@ -1,4 +1,4 @@
-#include "contensou/reduction/orbit_point.hpp"
+#include "contensou/reduction/orbit.hpp"
 
 namespace contensou::reduction {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/planar_kinds.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/planar_kinds.hpp"
 #include "system/balance.hpp"
 
 namespace contensou::reduction {

@@ -1,4 +1,4 @@
-#include "contensou/reduction/regularised_time.hpp"
+#include "contensou/reduction/flow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 
 namespace contensou::reduction {
 

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/quadrature_curve.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {

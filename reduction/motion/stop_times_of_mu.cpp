@@ -1,6 +1,6 @@
 // Notation (README (R18), (R50), (R58)): tau* = P + m S, y = m k/(1 + k), s = w/(r Psi(0)) + (w + v) y (tau* scaled).
 // A function f(k, r) is interpolated at Chebyshev's points r_j:  f = sum_j l_j(r) f_j(k)
-#include "contensou/reduction/stop_times_of_mu.hpp"
+#include "contensou/reduction/detail/stop_times_of_mu.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/tangent.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/tangent.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/later.hpp"
 #include "similarity/regular_solution.hpp"

@@ -1,4 +1,4 @@
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "numerics/epsilon.hpp"
 
 namespace contensou::reduction {

@@ -29,7 +29,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "contensou/reduction/planar_kinds.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/symmetries.hpp"
 
 namespace contensou::reduction {
 

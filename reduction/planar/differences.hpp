@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "numerics/epsilon.hpp"
 
 namespace contensou::reduction {

@@ -10,8 +10,8 @@
 
 #include <boost/math/tools/minima.hpp>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "numerics/epsilon.hpp"
 
 namespace contensou::reduction {

@@ -12,7 +12,7 @@
 // Search. A cell of the grid has no zero if a component of g is larger at its middle than its linear change over
 // the cell and twice the deviations of the corners from linearity. Other cells are divided until the field is nearly
 // linear in the cell. A cell for which neither holds in the end, and which has no zero found in it, is unexplained.
-#include "contensou/reduction/equilibria.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 
 #include <Eigen/LU>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/degenerate_point.hpp"

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::reduction {
 

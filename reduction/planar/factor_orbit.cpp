@@ -12,12 +12,12 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/legendre_series.hpp"
 #include "numerics/linear_ode.hpp"
-#include "planar/matrix_exponential.hpp"
+#include "numerics/matrix_exponential.hpp"
 #include "planar/region.hpp"
 #include "planar/reversal.hpp"
 

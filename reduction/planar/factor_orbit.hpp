@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "planar/inverse_factor.hpp"
 #include "planar/solution.hpp"
 

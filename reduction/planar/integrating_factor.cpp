@@ -1,4 +1,4 @@
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 #include <algorithm>
 #include <array>

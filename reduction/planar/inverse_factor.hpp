@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "planar/section_field.hpp"
 
 namespace contensou::reduction {

@@ -10,9 +10,8 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/planar_kinds.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/directions.hpp"
 #include "planar/inverse_factor.hpp"

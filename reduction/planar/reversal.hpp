@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/equilibria.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/inverse_factor.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <Eigen/LU>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
-#include "planar/matrix_exponential.hpp"
+#include "numerics/matrix_exponential.hpp"
 
 namespace contensou::reduction {
 

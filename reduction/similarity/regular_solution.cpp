@@ -20,8 +20,8 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/tangent.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/tangent.hpp"
 #include "numerics/linear_ode.hpp"
 #include "system/balance.hpp"
 

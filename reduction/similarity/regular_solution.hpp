@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "contensou/reduction/detail/similarity_solution.hpp"
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/reduction/terminal_chart.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "numerics/legendre_series.hpp"
 
 namespace contensou::reduction {

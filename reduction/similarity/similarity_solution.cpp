@@ -1,13 +1,13 @@
-#include "contensou/reduction/similarity_solution.hpp"
+#include "contensou/reduction/detail/similarity_solution.hpp"
 
 #include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
+#include "contensou/reduction/detail/quadrature_curve.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/tangent.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/tangent.hpp"
 
 namespace contensou::reduction {
 

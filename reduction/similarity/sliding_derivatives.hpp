@@ -4,10 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "contensou/reduction/detail/similarity_solution.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/stop_time_gradient.hpp"
-#include "contensou/reduction/terminal_chart.hpp"
 #include "numerics/later.hpp"
 #include "similarity/regular_solution.hpp"
 

@@ -1,4 +1,4 @@
-#include "contensou/reduction/terminal_chart.hpp"
+#include "contensou/reduction/detail/similarity_solution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::reduction {
 

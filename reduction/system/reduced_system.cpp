@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "system/balance.hpp"
 
 namespace contensou::reduction {

@@ -1,5 +1,5 @@
 // Notation (README (R2)): x = ln k; E = slows/speeds - 1 (Balance) has the sign of Phi - rho - r k Psi. E > 0: k falls.
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <boost/math/tools/minima.hpp>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "numerics/epsilon.hpp"
 #include "system/balance.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
 
 namespace contensou::fit {
 

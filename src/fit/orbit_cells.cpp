@@ -7,9 +7,9 @@
 
 #include <Eigen/LU>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::fit {
 

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/reduction/inertia.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::fit {

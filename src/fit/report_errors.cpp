@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::fit {
 

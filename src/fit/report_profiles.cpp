@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::fit {
 

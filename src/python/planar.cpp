@@ -10,8 +10,8 @@
 #include <pybind11/eigen.h>
 
 #include "answers/asked/planar_system.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/infinity.hpp"
 #include "planar.hpp"
 
 namespace contensou::python {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "answers/asked/planar_system.hpp"
-#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"
 

@@ -6,12 +6,10 @@
 #include <variant>
 
 #include "answers/asked/formula_law.hpp"
+#include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/instant_gradient.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/phase_plane.hpp"
-#include "contensou/reduction/regularised_time.hpp"
-#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/verification.hpp"
 #include "contensou/si/body.hpp"

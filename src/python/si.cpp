@@ -20,7 +20,7 @@
 #include "answers/verbs/roll_answer.hpp"
 #include "answers/verbs/uncertainty.hpp"
 #include "contensou/portraits/json.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"

@@ -20,12 +20,10 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "motion/stop_time_loop.hpp"
 #include "motion/stop_time_table.hpp"
 #include "reference_table.hpp"

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 namespace contensou::reduction {
 

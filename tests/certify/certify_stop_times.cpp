@@ -12,11 +12,10 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "motion/stop_time_table.hpp"
 #include "reduction/user_laws.hpp"
 #include "reference_table.hpp"

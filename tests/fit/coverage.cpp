@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/scaling.hpp"
 #include "scores.hpp"

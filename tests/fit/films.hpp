@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contensou/fit/fit.hpp"
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/motion.hpp"
 
 /// A film of a ball without errors.

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/fit/fit.hpp"
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "films.hpp"
 
 namespace contensou::fit {

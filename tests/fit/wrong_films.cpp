@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "fit/dependence.hpp"
 #include "scores.hpp"

@@ -1,5 +1,5 @@
 #include "contensou/portraits/json.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 #include <bit>
 #include <charconv>

@@ -15,7 +15,7 @@
 
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
 
 using namespace contensou;

@@ -8,8 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 using namespace contensou;
 using Eigen::Vector2d;

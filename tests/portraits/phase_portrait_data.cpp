@@ -10,8 +10,7 @@
 
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 using namespace contensou;
 

@@ -17,12 +17,9 @@
 #include "../octic_law.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/pgfplots.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
 #include "figures.hpp"
 
 using namespace contensou;

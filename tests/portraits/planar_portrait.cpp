@@ -10,9 +10,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "contensou/reduction/integrating_factor.hpp"
-#include "contensou/reduction/planar_steps.hpp"
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/symmetries.hpp"
 #include "figures.hpp"
 
 using namespace contensou;

@@ -7,11 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include "../octic_law.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 using namespace contensou;
 using namespace contensou::portraits;

@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
 

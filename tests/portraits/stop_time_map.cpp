@@ -11,8 +11,7 @@
 
 #include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
 
 using namespace contensou;

@@ -13,7 +13,7 @@
 
 #include "answers/verbs/reduce_answer.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/planar_kinds.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;

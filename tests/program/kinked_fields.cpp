@@ -15,7 +15,7 @@
 #include <catch2/catch.hpp>
 
 #include "answers/asked/planar_system.hpp"
-#include "contensou/reduction/planar_steps.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 using namespace contensou;
 using Eigen::Vector2d;

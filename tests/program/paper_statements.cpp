@@ -1,4 +1,4 @@
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "paper/statements.hpp"
 
 #include <cmath>
@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "paper/zh98.hpp"
 

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/asked/planar_system.hpp"
-#include "contensou/reduction/planar_steps.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "run_program.hpp"
 
 using namespace contensou;

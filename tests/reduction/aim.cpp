@@ -8,9 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/aim.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;

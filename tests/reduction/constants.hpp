@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 using contensou::infinity;
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();

@@ -18,12 +18,9 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "motion/stop_time_table.hpp"
 

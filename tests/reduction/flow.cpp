@@ -7,10 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/direct_motion.hpp"
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
 
 using namespace contensou::reduction;

@@ -1,4 +1,4 @@
-#include "contensou/reduction/similarity_solution.hpp"
+#include "contensou/reduction/detail/similarity_solution.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -6,13 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
+#include "contensou/reduction/detail/quadrature_curve.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "octic_law.hpp"
 #include "worst_case.hpp"
 

@@ -12,9 +12,7 @@
 
 #include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "user_laws.hpp"
 
 using namespace contensou::reduction;

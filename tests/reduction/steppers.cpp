@@ -8,12 +8,9 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "octic_law.hpp"

@@ -12,11 +12,9 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "motion/stop_time_table.hpp"
 #include "octic_law.hpp"
 #include "reference_table.hpp"

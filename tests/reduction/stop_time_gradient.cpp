@@ -15,13 +15,9 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/instant_gradient.hpp"
+#include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/slip.hpp"
 
 using namespace contensou::reduction;
 

@@ -14,10 +14,7 @@
 
 #include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "motion/stop_time_loop.hpp"
 #include "user_laws.hpp"

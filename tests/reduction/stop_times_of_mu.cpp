@@ -1,4 +1,4 @@
-#include "contensou/reduction/stop_times_of_mu.hpp"
+#include "contensou/reduction/detail/stop_times_of_mu.hpp"
 
 #include <cmath>
 #include <limits>
@@ -12,9 +12,7 @@
 
 #include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "reference_table.hpp"
 #include "worst_case.hpp"
 

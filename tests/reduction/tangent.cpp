@@ -1,5 +1,5 @@
 // The slopes of laws are compared with differences of the values of the laws.
-#include "contensou/reduction/tangent.hpp"
+#include "contensou/reduction/detail/tangent.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/elliptic_law.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "user_laws.hpp"
 

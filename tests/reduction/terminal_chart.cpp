@@ -1,4 +1,4 @@
-#include "contensou/reduction/terminal_chart.hpp"
+#include "contensou/reduction/detail/similarity_solution.hpp"
 
 #include <cmath>
 #include <stdexcept>

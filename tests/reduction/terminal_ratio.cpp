@@ -1,4 +1,4 @@
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 #include <cmath>
 #include <random>
@@ -6,9 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "octic_law.hpp"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/slip.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 namespace contensou::tests {
 

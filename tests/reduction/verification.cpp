@@ -10,12 +10,9 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"

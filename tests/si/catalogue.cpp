@@ -5,7 +5,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/hertz_contact.hpp"
 #include "contensou/si/scaling.hpp"

@@ -9,8 +9,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/elliptic_law.hpp"
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
 

@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/instant_gradient.hpp"
+#include "contensou/reduction/flow.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"

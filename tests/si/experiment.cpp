@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 using namespace contensou::si;
 using Catch::Matchers::Contains;

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/motion.hpp"
 #include "motion_cases.hpp"
 

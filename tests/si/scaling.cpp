@@ -6,9 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
 
 using namespace contensou;

@@ -7,9 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/scaling.hpp"
 #include "motion_cases.hpp"

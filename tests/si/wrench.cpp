@@ -1,5 +1,5 @@
 #include "contensou/si/wrench.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@
 #include <catch2/catch.hpp>
 
 #include "allocations.hpp"
-#include "contensou/reduction/hertz_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"

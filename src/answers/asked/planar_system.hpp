@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "answers/input/formulas.hpp"
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::answers {
 

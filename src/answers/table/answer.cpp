@@ -11,7 +11,7 @@
 #include "answers/table/text_table.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/pgfplots.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::answers {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/reduction/infinity.hpp"
 #include "contensou/si/description.hpp"
 #include "contensou/si/experiment.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "answers/table/text_table.hpp"
 #include "contensou/reduction/phase_plane.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::answers {
 

@@ -16,15 +16,12 @@
 #include "answers/input/message.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduced_orbits.hpp"
-#include "contensou/reduction/equilibria.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/planar_kinds.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
-#include "contensou/reduction/planar_steps.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/symmetry.hpp"
+#include "contensou/reduction/verification.hpp"
 
 namespace contensou::answers {
 

@@ -9,7 +9,7 @@
 #include "answers/asked/given_start.hpp"
 #include "answers/input/errors.hpp"
 #include "answers/table/record.hpp"
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::answers {
 

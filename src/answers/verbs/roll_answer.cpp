@@ -11,7 +11,7 @@
 #include "answers/table/text_table.hpp"
 #include "answers/verbs/ball_answer.hpp"
 #include "answers/verbs/plain_words.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 namespace contensou::answers {
 

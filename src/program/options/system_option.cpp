@@ -1,7 +1,7 @@
 #include "options/system_option.hpp"
 
 #include "answers/asked/planar_system.hpp"
-#include "contensou/reduction/planar_steps.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::program {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/integrating_factor.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "options/argument.hpp"
 
 namespace contensou::program {

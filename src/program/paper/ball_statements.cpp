@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <boost/math/quadrature/gauss.hpp>
 
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/motion.hpp"
 #include "paper/statements.hpp"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"

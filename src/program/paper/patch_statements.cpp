@@ -1,7 +1,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/minima.hpp>
 
-#include "contensou/reduction/contact_patch.hpp"
+#include "contensou/reduction/verification.hpp"
 #include "paper/statements.hpp"
 #include "paper/zh98.hpp"
 

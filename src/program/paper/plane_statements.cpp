@@ -1,13 +1,13 @@
 #include <boost/math/quadrature/exp_sinh.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/stop_time.hpp"
-#include "contensou/reduction/symmetry.hpp"
+#include "contensou/reduction/verification.hpp"
 #include "paper/statements.hpp"
 #include "paper/zh98.hpp"
 

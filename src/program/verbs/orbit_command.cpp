@@ -10,11 +10,9 @@
 
 #include "answers/input/load_table.hpp"
 #include "answers/verbs/ball_answer.hpp"
-#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
-#include "contensou/reduction/regularised_time.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/si/scaling.hpp"
 #include "options/instants_option.hpp"

@@ -15,7 +15,6 @@
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "options/figure_options.hpp"
 #include "options/output_options.hpp"
 #include "paper/statements.hpp"

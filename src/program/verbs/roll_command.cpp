@@ -8,7 +8,7 @@
 #include "answers/input/load_table.hpp"
 #include "answers/verbs/roll_answer.hpp"
 #include "contensou/portraits/roll_figure.hpp"
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"

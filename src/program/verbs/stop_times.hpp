@@ -9,8 +9,8 @@
 #include <optional>
 #include <span>
 
+#include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/si/experiment.hpp"
 #include "options/route_option.hpp"
 

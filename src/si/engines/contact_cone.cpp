@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/detail/tangent.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/tangent.hpp"
 #include "contensou/wrench.h"
 
 namespace contensou::si {

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
 
 namespace contensou::si {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/aim.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 

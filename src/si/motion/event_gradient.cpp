@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 

@@ -20,7 +20,7 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_cash_karp54.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "solution.hpp"
 
 namespace contensou::si {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "contensou/si/scaling.hpp"
 #include "solution.hpp"
 

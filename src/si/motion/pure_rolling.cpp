@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 
 namespace contensou::si {
 

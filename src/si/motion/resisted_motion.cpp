@@ -16,8 +16,8 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_cash_karp54.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
+#include "contensou/reduction/detail/root.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/root.hpp"
 #include "contensou/si/scaling.hpp"
 #include "pure_rolling.hpp"
 #include "solution.hpp"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/scaling.hpp"
 #include "solution.hpp"
 

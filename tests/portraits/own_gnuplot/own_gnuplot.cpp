@@ -3,7 +3,7 @@
 #include <gnuplot-iostream.h>
 #include <contensou/portraits/phase_portrait.hpp>
 #include <contensou/reduction/flow.hpp>
-#include <contensou/reduction/hertz_law.hpp>
+#include <contensou/reduction/laws.hpp>
 
 int main() {
   using namespace contensou;

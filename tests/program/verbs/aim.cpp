@@ -9,7 +9,7 @@
 
 #include "answers/figures/aim_figure.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/scaling.hpp"
 #include "run_program.hpp"

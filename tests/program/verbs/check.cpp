@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/contact_cone.hpp"
 #include "contensou/si/engine.hpp"

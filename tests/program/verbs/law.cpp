@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;

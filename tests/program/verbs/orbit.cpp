@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/pade_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "run_program.hpp"
 

@@ -7,9 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "run_program.hpp"
 
 using namespace contensou::reduction;

@@ -1,4 +1,4 @@
-#include "contensou/reduction/contact_patch.hpp"
+#include "contensou/reduction/verification.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,8 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/laws.hpp"
 
 using namespace contensou::reduction;
 using std::numbers::pi;

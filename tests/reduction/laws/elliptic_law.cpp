@@ -7,11 +7,9 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/contact_patch.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/verification.hpp"
 
 using namespace contensou::reduction;
 

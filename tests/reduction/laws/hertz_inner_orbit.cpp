@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/detail/quadrature_curve.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "reference_table.hpp"
 #include "worst_case.hpp"
 

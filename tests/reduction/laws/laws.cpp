@@ -11,10 +11,6 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
-#include "contensou/reduction/hertz_law.hpp"
-#include "contensou/reduction/pade_law.hpp"
-#include "contensou/reduction/pressure_law.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "dissipation.hpp"
 #include "reference_table.hpp"

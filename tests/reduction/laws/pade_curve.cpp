@@ -1,4 +1,4 @@
-#include "contensou/reduction/pade_curve.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
 
 #include <cmath>
 #include <numbers>

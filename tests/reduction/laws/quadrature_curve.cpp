@@ -1,4 +1,4 @@
-#include "contensou/reduction/quadrature_curve.hpp"
+#include "contensou/reduction/detail/quadrature_curve.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -6,10 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/hertz_law.hpp"
+#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_curve.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "user_laws.hpp"
 #include "worst_case.hpp"
 

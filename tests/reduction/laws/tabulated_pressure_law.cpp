@@ -12,7 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/pressure_law.hpp"
+#include "contensou/reduction/laws.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;

@@ -11,7 +11,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/reduction/equilibria.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "planar/dual.hpp"
 
 // A namespace of its own, because other tests have functions of these names.

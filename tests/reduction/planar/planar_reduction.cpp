@@ -12,10 +12,8 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;

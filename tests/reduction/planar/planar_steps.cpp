@@ -1,4 +1,4 @@
-#include "contensou/reduction/planar_steps.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/symmetries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/elliptic_law.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 
 using namespace contensou::reduction;
 using Catch::Matchers::Contains;

@@ -1,4 +1,4 @@
-#include "contensou/reduction/symmetry.hpp"
+#include "contensou/reduction/verification.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,6 @@
 #include "constants.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/pade_law.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "worst_case.hpp"
 

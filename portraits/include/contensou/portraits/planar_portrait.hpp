@@ -10,7 +10,6 @@
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
-#include "contensou/reduction/equilibria.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::portraits {

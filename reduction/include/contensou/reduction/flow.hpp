@@ -4,11 +4,11 @@
 #include <memory>
 #include <span>
 
+#include <Eigen/Core>
+
+#include "contensou/reduction/detail/similarity_solution.hpp"
 #include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_solution.hpp"
-#include "contensou/reduction/stop_time_gradient.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
 
 namespace contensou::reduction {
 
@@ -127,5 +127,43 @@ class Flow {
   std::shared_ptr<const Solved> solved_;
   std::shared_ptr<const Arrays> arrays_;
 };
+
+/// The state of a motion at the time tau, with its partial derivatives by the speeds at the start and by tau.
+struct InstantGradient {
+  struct Part {
+    double value;
+    double by_u, by_v;  ///< derivatives by the speeds at the start
+    double by_tau;
+  };
+  Part u, v;
+  Part slip_length;  ///< the integral of v dtau
+  Part turned;       ///< the integral of u dtau; has the sign of u
+
+  /// Returns the derivative, by a speed at the start, of the time at which u or v has a given value: -by/part.by_tau.
+  /// @param by    derivative of `part` by this speed: its by_u or by_v
+  /// @param part  the speed with the given value: u or v
+  static double time_by(double by, const Part& part) { return -by / part.by_tau; }
+};
+
+/// Returns the state, the slip length and the angle at the time tau, with their gradients (README (R61)). Gradients are
+/// algebraic in the state and in the field at the start and at tau. After the stop, speeds are 0 and lengths constant.
+/// @throws std::domain_error  if start is not a state or lies on an axis; if tau is negative, as Orbit::instant
+///
+/// Accuracy  u by_u and v by_v: 1e-13 of the largest part of the same kind, times the ratio of the larger term of
+///           D = Phi - r k Psi to D. On and next to an invariant ray 1e-9 (smooth law): mean of the ray's two sides.
+InstantGradient instant_gradient(const Flow& flow, State start, double tau);
+
+/// Returns the state of the motion from a start at the regularised time beta (ReducedSystem::regularising_weight). For
+/// beta = infinity the state is rest.
+///
+/// @param beta  >= 0, in the inverse of the unit of speed
+/// @throws std::domain_error  if beta is negative or not a number, or as Flow::orbit
+///
+/// Accuracy  as OrbitPoint::beta.
+/// Cost      about ten times that of Orbit::at_time.
+OrbitPoint at_beta(const Flow& flow, State start, double beta);
+
+/// Returns the states at several beta, in the order given. Throws as at_beta.
+OrbitColumns at_betas(const Flow& flow, State start, const Eigen::ArrayXd& betas);
 
 }  // namespace contensou::reduction

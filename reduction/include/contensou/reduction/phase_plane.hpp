@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {
 

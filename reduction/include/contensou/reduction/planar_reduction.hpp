@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -7,11 +9,13 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/detail/planar_kinds.hpp"
+#include "contensou/reduction/symmetries.hpp"
 
 namespace contensou::reduction {
 
@@ -218,5 +222,137 @@ class PlanarOrbit {
  private:
   std::shared_ptr<const Motion> motion_;
 };
+
+/// Returns the point whose coordinates set the scale of the samples of a field: the start. If the start lies at the
+/// origin, or a million times nearer to it than the first change of the field, the point is (s, s) with the distance s
+/// of this change, or 1 without a change. There a component or a switching function changes its sign, or f differs from
+/// f(0) by half of f(0).
+Eigen::Vector2d sampled_about(const SmoothField& field, const Eigen::Vector2d& start);
+
+/// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
+struct TriedForm {
+  std::string_view form;
+  double singular_value;  ///< smallest singular value: root mean square of the misfit (R66) over the points of the fit
+  double gap;             ///< smallest singular value that does not count as 0, divided by the largest that does
+  double residual;        ///< largest misfit (R66) at points that the fit did not use
+  bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
+};
+
+/// V and the first integral H as formulas in u and v; empty if the coefficients are not recognised as rational numbers.
+struct FactorFormula {
+  std::string factor, integral;
+};
+
+/// x' = f(x) solved by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68).
+///
+///     const FactorReduction reduction({field, jacobian}, start);
+///     if (reduction.found()) reduction.reduction().orbit(start).at(0.5);
+///
+/// A value type; copies share the solution.
+///
+/// Accuracy  relative 1e-12 of states and times, unless the motion amplifies rounding.
+class FactorReduction {
+ public:
+  /// Searches for V in a box, +-30 % about the start or, if the start (u, v) is an equilibrium, about (1.25 u, 0.8 v).
+  /// The forms are tried in turn; the search ends at the first form that satisfies the equation. If the field f has a
+  /// denominator D and no form fits V, the forms are tried for V D, an inverse integrating factor of D f.
+  /// @throws std::domain_error  unless the start is finite and the field has a value there
+  FactorReduction(const SmoothField& field, const Eigen::Vector2d& start);
+
+  bool found() const { return !form().empty(); }
+
+  /// Returns "constant" (div f = 0), "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v",
+  /// "quadratic in v", "linear in u", "quadratic in u" (coefficients are functions of the other coordinate), "product"
+  /// (V = A(u) B(v)) or "basis" (V is a sum of functions of the field's basis); empty if no V was found.
+  std::string_view form() const;
+
+  /// Returns the forms in the order in which they were tried.
+  const std::vector<TriedForm>& tried() const;
+
+  /// Returns V, up to a constant factor, and H, up to constants. Both are empty unless V has rational coefficients with
+  /// which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised. H is a sum of functions of u and of v.
+  FactorFormula formula() const;
+
+  /// Returns the solved system. V is 1 at the start unless V vanishes there. V has values in the box of the start; V of
+  /// form "affine" or "basis" everywhere. H has values in this box up to the nearest curve V = 0. Orbits continue
+  /// beyond the box, because V is fitted anew there.
+  /// @throws std::domain_error  if no V was found
+  PlanarReduction reduction() const;
+
+ private:
+  struct Solved;
+  std::shared_ptr<const Solved> solved_;
+};
+
+/// Returns a system whose orbits are integrated by Dormand-Prince 5(4), without reduction, for any planar field.
+///
+/// Each step keeps the error below `tolerance`, relative to the state or to a thousandth of the start; an orbit has at
+/// most 10 000 steps. Orbits are cut where a switching function changes its sign. Other jumps are detected by the error
+/// estimate of this method; the estimate of Fehlberg 7(8) does not detect jumps. Tests and answers compare the
+/// quadratures with these orbits.
+///
+/// @return a system with an empty form, undecided ends, and neither factor nor first integral
+PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12);
+
+/// A linear map R of the plane that reverses motions in time: f(R x) = -R f(x).
+struct Reversor {
+  std::string_view name;  ///< formula of the point to which R moves (u, v), such as "(u, -v)"
+  Eigen::Matrix2d matrix;
+};
+
+/// Finds the reversors among (u, -v), (-u, v), (v, u), (-v, -u) and (-u, -v).
+///
+/// f(R x) = -R f(x) is tested up to rounding, at points x whose coordinates are about as large as those of `around`.
+/// @param around  not 0
+std::vector<Reversor> find_reversors(const SmoothField& field, const Eigen::Vector2d& around);
+
+/// An isolated zero of a field.
+struct Equilibrium {
+  using Eigenvalues = std::pair<std::complex<double>, std::complex<double>>;
+
+  Eigen::Vector2d x;
+  Eigen::Matrix2d slopes;  ///< Jacobian of the field; NaN if it does not exist
+
+  /// One of planar_kinds. "not smooth": the field jumps at x, or its Jacobian differs between the sides of x.
+  /// "degenerate": an eigenvalue is 0 within its error, and the terms of higher order do not decide. "center or focus":
+  /// motions turn about x, and nothing proves that they are closed. There are three proofs. First, x lies on the axis
+  /// of a reflection that is a reversor; then every motion that meets this axis twice is closed. Second, the inverse
+  /// integrating factor V is not 0 at x; then motions are level lines of the first integral H. Third, x is the centre
+  /// of a scaling, and a turn multiplies by 1.
+  std::string_view kind = planar_kind("degenerate");
+
+  /// The eigenvalues of the Jacobian, the one with the smaller real or imaginary part first. An eigenvalue or a part
+  /// that is 0 within its error is 0. Empty if the field is not smooth at x.
+  std::optional<Eigenvalues> eigenvalues = {};
+
+  /// The number of counter-clockwise turns of the field on a small counter-clockwise circle; empty if not known.
+  std::optional<int> index = {};
+};
+
+/// The isolated equilibria in a rectangle.
+struct Equilibria {
+  std::vector<Equilibrium> points;  ///< in the order of u, then v
+  Eigen::Vector2d low, high;        ///< corners of the rectangle
+
+  /// False if there might be more equilibria: the field changes much between neighbouring points of the search.
+  bool complete = true;
+
+  std::optional<Eigen::Vector2d> on_curve = {};  ///< a point of the rectangle on a curve of equilibria
+
+  std::vector<Reversor> reversors = {};  ///< maps that reverse motions at points of the rectangle
+};
+
+/// Finds the isolated equilibria in a rectangle by Newton's method from a grid of 40 x 40 points. The grid is refined
+/// where the field is not nearly linear between its points. Zeros closer than 1e-6 of the rectangle's size, and zeros
+/// that rounding does not separate, count as one.
+Equilibria find_equilibria(const SmoothField& field, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+
+/// Finds the isolated equilibria in the square about the origin whose half side is 2.5 times the larger coordinate of a
+/// start: the usual window of a picture.
+Equilibria find_equilibria(const SmoothField& field, const Eigen::Vector2d& start);
+
+/// Turns "center or focus" into "center" where V or the scaling of the solved system proves it. A kind that the kind of
+/// the scaling's centre (PlanarReduction::kind) contradicts becomes "center or focus" or "degenerate".
+void compare_kinds(Equilibria& equilibria, const PlanarReduction& plane);
 
 }  // namespace contensou::reduction

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contensou/reduction/inertia.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::si {
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/stop_times_of_mu.hpp"
 #include "contensou/si/description.hpp"
 
 namespace contensou::si {

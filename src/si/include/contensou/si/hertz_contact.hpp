@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "contensou/reduction/inertia.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::si {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "check/asymptotic_tail.hpp"
-#include "contensou/reduction/motion.hpp"
+#include "motion/asymptotic_tail.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 
 namespace contensou::reduction {
 

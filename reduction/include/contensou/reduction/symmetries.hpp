@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {

@@ -1,4 +1,4 @@
-#include "contensou/reduction/planar_steps.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/integrating_factor.hpp"
-#include "contensou/reduction/root.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "planar/inverse_factor.hpp"
 #include "planar/region.hpp"
 #include "planar/solution.hpp"
@@ -34,7 +33,7 @@ namespace odeint = boost::numeric::odeint;
 using Pair = std::array<double, 2>;
 
 /// The field with the call operator that a stepper needs.
-struct Equations {
+struct RightSide {
   const SmoothField& field;
 
   void operator()(const Pair& x, Pair& rate, double /*t*/) const {
@@ -80,7 +79,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
 
   static Pair stepped(const State& from, double step) {
     Pair x = from.x;
-    if (step > 0) Stepper().do_step(Equations{from.region->field()}, x, from.t, step);
+    if (step > 0) Stepper().do_step(RightSide{from.region->field()}, x, from.t, step);
     return x;
   }
 
@@ -95,7 +94,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     if (states_.size() > most) stop("10000 steps are made");
     if (!last.region) stop("no single motion crosses a jump of the field");
     auto stepper = odeint::make_controlled(tolerance_ * 1e-3 * size_, tolerance_, Stepper());
-    while (stepper.try_step(Equations{last.region->field()}, next.x, next.t, step_) == odeint::fail) {
+    while (stepper.try_step(RightSide{last.region->field()}, next.x, next.t, step_) == odeint::fail) {
       if (!(step_ > 1e-300) || next.t + step_ == next.t) stop("the field has no value, or changes too fast");
     }
     if (!std::isfinite(next.x[0]) || !std::isfinite(next.x[1])) stop("it leaves the numbers");

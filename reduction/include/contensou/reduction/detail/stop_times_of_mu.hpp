@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/stop_time_gradient.hpp"
 
 namespace contensou::reduction {
 

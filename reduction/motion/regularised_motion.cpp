@@ -1,6 +1,6 @@
 // Equations in scaled units (README (R1)), with W = (16 w + 15 pi v)(8 w + 3 pi v), the weight of beta in (2.8):
 //   d ln w/dbeta = -W r Psi/w,  d ln v/dbeta = -W (Phi - rho)/v,  ds/dbeta = W
-#include "contensou/reduction/regularised_motion.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 
-#include "check/braking.hpp"
-#include "check/motion_recorder.hpp"
-#include "contensou/reduction/root.hpp"
+#include "motion/braking.hpp"
+#include "motion/motion_recorder.hpp"
+#include "contensou/reduction/detail/root.hpp"
 
 namespace contensou::reduction {
 

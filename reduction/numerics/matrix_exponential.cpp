@@ -1,4 +1,4 @@
-#include "planar/matrix_exponential.hpp"
+#include "numerics/matrix_exponential.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "check/asymptotic_tail.hpp"
+#include "motion/asymptotic_tail.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/infinity.hpp"
 #include "contensou/reduction/phase_plane.hpp"
-#include "contensou/reduction/planar_kinds.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "planar/directions.hpp"
 #include "planar/inverse_factor.hpp"
 #include "planar/solution.hpp"

@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/regularised_motion.hpp"
 
 namespace contensou::reduction {
 

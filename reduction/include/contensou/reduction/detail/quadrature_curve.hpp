@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "contensou/reduction/detail/similarity_solution.hpp"
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
 

@@ -1,6 +1,6 @@
 // The determining equations of X = c t d/dt + (A x + b) . d/dx, README (R41):
 //   A f - Df (A x + b) - c f = 0,   unknowns (A11, A12, A21, A22, b1, b2, c)
-#include "contensou/reduction/planar_symmetry.hpp"
+#include "contensou/reduction/symmetries.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
-#include "contensou/reduction/infinity.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/differences.hpp"
-#include "planar/matrix_exponential.hpp"
+#include "numerics/matrix_exponential.hpp"
 
 namespace contensou::reduction {
 

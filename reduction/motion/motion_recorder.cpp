@@ -1,4 +1,4 @@
-#include "check/motion_recorder.hpp"
+#include "motion/motion_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/terminal_ratio.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {
 

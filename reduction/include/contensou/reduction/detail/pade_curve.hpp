@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "contensou/reduction/detail/similarity_solution.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/similarity_curve.hpp"
 
 namespace contensou::reduction {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "contensou/reduction/orbit_point.hpp"
+#include "contensou/reduction/orbit.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {

@@ -1,6 +1,6 @@
 // Equations in scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W. W is the
 // weight (16 w + 15 pi v)(8 w + 3 pi v) of (2.8).
-#include "contensou/reduction/direct_motion.hpp"
+#include "contensou/reduction/detail/stepped_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,10 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "check/braking.hpp"
-#include "check/motion_recorder.hpp"
-#include "contensou/reduction/infinity.hpp"
-#include "contensou/reduction/root.hpp"
+#include "motion/braking.hpp"
+#include "motion/motion_recorder.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
 
 namespace contensou::reduction {
 
