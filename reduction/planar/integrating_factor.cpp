@@ -13,6 +13,7 @@
 
 #include "planar/factor_formula.hpp"
 #include "planar/factor_orbit.hpp"
+#include "planar/inverse_factor.hpp"
 #include "planar/solution.hpp"
 
 namespace contensou::reduction {
@@ -99,12 +100,9 @@ bool holds_widely(const SmoothField& field, const FactorFit& fit, double size) {
   });
 }
 
-}  // namespace
-
 /// The solution in units of length: all members except those of Solution divide u and v by `unit`.
-struct FactorReduction::Solved final : PlanarReduction::Solution,
-                                       std::enable_shared_from_this<FactorReduction::Solved> {
-  Solved(SmoothField of, const Vector2d& from, double length)
+struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from_this<FactorSolution> {
+  FactorSolution(SmoothField of, const Vector2d& from, double length)
       : Solution(std::move(of), ""),
         unit(length),
         smooth(in_units(field, length)),
@@ -121,7 +119,6 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
   SmoothField fitted;  ///< field for which V has its form: the field, or its product with the denominator
   Vector2d start;
   bool cleared = false;
-  std::vector<TriedForm> tried = {};
   std::optional<InverseFactor> v = {};
 
   void look_for_factor();
@@ -139,17 +136,17 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
   std::optional<double> first_integral(const Vector2d& x) const override { return unit * unit * integral(x / unit); }
   std::shared_ptr<const Solution> reversed() const override;
 
-  const InverseFactor& found() const {
-    if (!v) throw std::domain_error("FactorReduction: no inverse integrating factor was found");
-    return *v;
+  FactorFormula formula() const override {
+    const Vector2d from = unit * (start.isZero(0) ? Vector2d(1, 1) : start);
+    return recognised(cleared ? with_cleared_denominator(field) : field, from);
   }
 
   /// Returns V at a point of the box, and the field at this point.
   std::pair<double, Vector2d> at(const Vector2d& x) const {
-    const InverseFactor& fit = found();
+    const InverseFactor& fit = *v;
     if (!holds_everywhere(fit.form()) && !(fit.box().inside(x).cwiseAbs().maxCoeff() <= 1)) {
       throw std::domain_error(fmt::format(
-          "FactorReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", unit * x[0], unit * x[1],
+          "PlanarReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", unit * x[0], unit * x[1],
           unit * start[0], unit * start[1], unit * fit.box().radii[0], unit * fit.box().radii[1]));
     }
     const auto f = value_of(smooth.value, x);
@@ -161,7 +158,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
     }
     if (!f || !of_form) {
       throw std::domain_error(
-          fmt::format("FactorReduction: the field has no value at ({}, {})", unit * x[0], unit * x[1]));
+          fmt::format("PlanarReduction: the field has no value at ({}, {})", unit * x[0], unit * x[1]));
     }
     const double value = fit(x, *of_form)[0];
     return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
@@ -174,7 +171,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
     const auto rate = [&](double share) {
       const auto [here, f] = at(start + share * way);
       if (here * sign > 0) return cross(f, way) / here;
-      throw std::domain_error("FactorReduction: V = 0 between the start and the point, where H is infinite");
+      throw std::domain_error("PlanarReduction: V = 0 between the start and the point, where H is infinite");
     };
     using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
     constexpr unsigned halvings = 12;
@@ -182,7 +179,7 @@ struct FactorReduction::Solved final : PlanarReduction::Solution,
   }
 };
 
-void FactorReduction::Solved::look_for_factor() {
+void FactorSolution::look_for_factor() {
   Box box = box_about(start);
   std::optional<FieldSamples> samples;
   // If the field has no values, halve the box at most 4 times: in a small box every smooth V is close to a polynomial.
@@ -202,51 +199,17 @@ void FactorReduction::Solved::look_for_factor() {
   }
 }
 
-Vector2d sampled_about(const SmoothField& field, const Vector2d& start) {
-  // In the units of a start that is much nearer to the origin than all changes of the field, they could not be seen.
-  constexpr double near = 1e-6, smallest = 1e-290;  // below, units of length underflow
-  const double size = start.lpNorm<Eigen::Infinity>(), change = first_change(field);
-  if (size < near * change) return Vector2d::Constant(std::max(change, smallest));
-  return size >= smallest ? start : Vector2d::Constant(size > 0 ? smallest : 1);
-}
-
-FactorReduction::FactorReduction(const SmoothField& field, const Vector2d& start) {
-  const auto value = value_of(field.value, start);
-  if (!start.allFinite() || !value) {
-    throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", start[0], start[1]));
-  }
-  // V can vanish at an equilibrium, so the search begins beside an equilibrium.
-  const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
-  const double unit = std::ldexp(1, std::ilogb(sampled_about(field, start).lpNorm<Eigen::Infinity>()));
-  auto solved = std::make_shared<Solved>(field, value->isZero(0) ? beside : start, unit);
-  solved->look_for_factor();
-  if (!solved->v && field.denominator) {
-    solved->clear_denominator();
-    solved->look_for_factor();
-  }
-  if (solved->v) solved->form = name(solved->v->form());
-  solved_ = std::move(solved);
-}
-
-std::string_view FactorReduction::form() const { return solved_->form; }
-const std::vector<TriedForm>& FactorReduction::tried() const { return solved_->tried; }
-
-std::shared_ptr<const PlanarReduction::Solution> FactorReduction::Solved::reversed() const {
-  auto other = std::make_shared<Solved>(backward(field), unit * start, unit);
+std::shared_ptr<const PlanarReduction::Solution> FactorSolution::reversed() const {
+  auto other = std::make_shared<FactorSolution>(backward(field), unit * start, unit);
   if (cleared) other->clear_denominator();
   other->v = v;  // V of the reversed field is the same
   other->form = form;
   return other;
 }
 
-PlanarReduction FactorReduction::reduction() const {
-  solved_->found();
-  return PlanarReduction(solved_);
-}
-
-std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& low, const Vector2d& high) const {
+std::vector<FactorPiece> FactorSolution::factor_pieces(const Vector2d& low, const Vector2d& high) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const FactorForm shape = found().form();
+  const FactorForm shape = v->form();
   if (shape == FactorForm::constant || shape == FactorForm::product) return {};  // these forms have no zeros
   if (holds_everywhere(shape)) {
     return {{low, high, [solved = shared_from_this()](const Vector2d& x) {
@@ -282,15 +245,8 @@ std::vector<FactorPiece> FactorReduction::Solved::factor_pieces(const Vector2d& 
   return pieces;
 }
 
-FactorFormula FactorReduction::formula() const {
-  solved_->found();
-  const SmoothField& given = solved_->field;
-  const Vector2d start = solved_->unit * (solved_->start.isZero(0) ? Vector2d(1, 1) : solved_->start);
-  return recognised(solved_->cleared ? with_cleared_denominator(given) : given, start);
-}
-
 /// Compares with an orbit that begins a little later and is therefore divided into other parts.
-double FactorReduction::Solved::end_time_error(const Vector2d& x) const {
+double FactorSolution::end_time_error(const Vector2d& x) const {
   constexpr double least = 1e-12, margin = 8, early = 0.01;
   const PlanarOrbit here = orbit(x);
   const double time = here.period().value_or(here.end_time());
@@ -300,11 +256,46 @@ double FactorReduction::Solved::end_time_error(const Vector2d& x) const {
   return std::max(least, margin * std::abs(other / time - 1));
 }
 
-PlanarOrbit FactorReduction::Solved::followed(const Vector2d& from, int most_work) const {
+PlanarOrbit FactorSolution::followed(const Vector2d& from, int most_work) const {
   if (!from.allFinite() || !value_of(field.value, from)) {
-    throw std::domain_error(fmt::format("FactorReduction: the field has no value at ({}, {})", from[0], from[1]));
+    throw std::domain_error(fmt::format("PlanarReduction: the field has no value at ({}, {})", from[0], from[1]));
   }
-  return PlanarOrbit(follow(smooth, cleared, found(), from / unit, unit, most_work));
+  return PlanarOrbit(follow(smooth, cleared, *v, from / unit, unit, most_work));
+}
+
+}  // namespace
+
+Vector2d sampled_about(const SmoothField& field, const Vector2d& start) {
+  // In the units of a start that is much nearer to the origin than all changes of the field, they could not be seen.
+  constexpr double near = 1e-6, smallest = 1e-290;  // below, units of length underflow
+  const double size = start.lpNorm<Eigen::Infinity>(), change = first_change(field);
+  if (size < near * change) return Vector2d::Constant(std::max(change, smallest));
+  return size >= smallest ? start : Vector2d::Constant(size > 0 ? smallest : 1);
+}
+
+std::shared_ptr<PlanarReduction::Solution> solved_by_factor(const SmoothField& field, const Vector2d& start) {
+  const auto value = value_of(field.value, start);
+  if (!start.allFinite() || !value) {
+    throw std::domain_error(fmt::format("by_factor: the field has no value at ({}, {})", start[0], start[1]));
+  }
+  // V can vanish at an equilibrium, so the search begins beside an equilibrium.
+  const Vector2d beside(1.25 * start[0], 0.8 * start[1]);
+  const double unit = std::ldexp(1, std::ilogb(sampled_about(field, start).lpNorm<Eigen::Infinity>()));
+  auto solved = std::make_shared<FactorSolution>(field, value->isZero(0) ? beside : start, unit);
+  solved->look_for_factor();
+  if (!solved->v && field.denominator) {
+    solved->clear_denominator();
+    solved->look_for_factor();
+  }
+  if (solved->v) {
+    solved->form = name(solved->v->form());
+    return solved;
+  }
+  auto stepped = solved_by_steps(field);
+  stepped->tried = std::move(solved->tried);
+  stepped->why_not = field.basis.values ? "no sum of the functions of the basis is an inverse integrating factor"
+                                        : "no inverse integrating factor of the forms that are tried";
+  return stepped;
 }
 
 }  // namespace contensou::reduction

@@ -136,8 +136,12 @@ struct SteppedSolution final : PlanarReduction::Solution {
 
 }  // namespace
 
+std::shared_ptr<PlanarReduction::Solution> solved_by_steps(SmoothField field, double tolerance) {
+  return std::make_shared<SteppedSolution>(std::move(field), tolerance);
+}
+
 PlanarReduction by_steps(SmoothField field, double tolerance) {
-  return PlanarReduction(std::make_shared<const SteppedSolution>(std::move(field), tolerance));
+  return PlanarReduction(solved_by_steps(std::move(field), tolerance));
 }
 
 }  // namespace contensou::reduction

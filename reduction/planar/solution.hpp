@@ -32,6 +32,7 @@ struct PlanarReduction::Solution {
   virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
+  virtual FactorFormula formula() const { return {}; }
 
   /// Returns the canonical coordinates of the scaling. A solution without a scaling throws here, and in `point`.
   /// @param x  finite, and not the centre
@@ -46,6 +47,8 @@ struct PlanarReduction::Solution {
 
   SmoothField field;
   std::string_view form;
+  std::string why_not;
+  std::vector<TriedForm> tried;
   std::optional<Generator> scaling;
   Eigen::Vector2d centre = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool star = false;
@@ -80,6 +83,12 @@ struct SectionSolution : PlanarReduction::Solution {
 /// Solves a system by its scaling. Arguments and exceptions are those of the constructor of PlanarReduction.
 std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(SmoothField field, const Generator& scaling,
                                                                    const Eigen::Vector2d& around, double noise);
+
+/// Returns the solution of by_factor, which has no form if it is by steps.
+std::shared_ptr<PlanarReduction::Solution> solved_by_factor(const SmoothField& field, const Eigen::Vector2d& start);
+
+/// Returns a solution by steps, as by_steps.
+std::shared_ptr<PlanarReduction::Solution> solved_by_steps(SmoothField field, double tolerance = 1e-12);
 
 struct PlanarOrbit::Motion {
   virtual ~Motion() = default;

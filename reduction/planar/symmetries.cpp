@@ -419,6 +419,11 @@ double Generator::growth() const {
   return matrix.trace() / 2 - std::sqrt(std::max(squared, 0.0));
 }
 
+bool Generator::fixes(const Vector2d& x) const {
+  constexpr double rounding = 1e-12;
+  return (x - centre()).stableNorm() <= rounding * x.stableNorm();
+}
+
 Vector2d Generator::centre() const {
   return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // the addition to 0 turns -0 into 0
 }

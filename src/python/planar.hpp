@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "answers/asked/planar_system.hpp"
+#include "answers/input/message.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"
 
@@ -57,18 +57,18 @@ class Planar {
  public:
   /// @param known  solution, if there is one
   Planar(reduction::SmoothField given, const Eigen::Vector2d& around,
-         const std::optional<reduction::PlanarReduction>& known = {})
-      : field(std::move(given)) {
+         std::optional<reduction::PlanarReduction> known = {})
+      : field(std::move(given)), plane(std::move(known)) {
     interruptible([&] {
       start = reduction::sampled_about(field, around);
       symmetries = reduction::find_symmetries(field, start);
-      solved_plane = known ? answers::SolvedPlane{known, ""} : answers::solve_planar(field, symmetries, around);
+      if (!plane) plane = reduction::reduce(field, around, symmetries);
     });
   }
 
   const reduction::PlanarReduction& solved() const {
-    if (solved_plane.plane) return *solved_plane.plane;
-    throw std::domain_error("reduce: this field is not solved: " + solved_plane.why_not);
+    if (plane->solved()) return *plane;
+    throw std::domain_error("reduce: this field is not solved: " + answers::words_of(plane->why_not()));
   }
 
   /// Returns the equilibria and reversors, which are sought at the first call.
@@ -76,7 +76,7 @@ class Planar {
     if (!equilibria_) {
       equilibria_ = interruptible([&] {
         auto found = reduction::find_equilibria(field, start);
-        if (solved_plane.plane) compare_kinds(found, *solved_plane.plane);
+        compare_kinds(found, *plane);
         return found;
       });
     }
@@ -87,7 +87,7 @@ class Planar {
   Eigen::Vector2d start;                           ///< point whose coordinates set the scale of the samples
   std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
   reduction::PlanarSymmetries symmetries;
-  answers::SolvedPlane solved_plane;
+  std::optional<reduction::PlanarReduction> plane;  ///< never empty after the constructor
 
  private:
   mutable std::optional<reduction::Equilibria> equilibria_;

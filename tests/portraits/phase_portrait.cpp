@@ -135,7 +135,7 @@ TEST_CASE("Every point of an isochrone has its stop time and lies in the window"
 }
 
 TEST_CASE("Isochrones are at round multiples of the time unit, from the first to the corner of the window", "[table]") {
-  const Flow flow({reduction::PadeLaw{}, 0.3});
+  const Flow flow(reduction::PadeLaw{}, 0.3);
   constexpr double unit = 0.7;
   const PhasePortrait portrait = phase_portrait(flow, {.time_unit = unit});
   const double first = portrait.isochrones.front().tau_stop / unit;
@@ -199,7 +199,7 @@ TEST_CASE("The axis of v follows mu: below 0.48 a linear one shows a comb", "[ta
 }
 
 TEST_CASE("A window that is given is kept; a highlighted start lies in the window that is chosen", "[table]") {
-  const Flow flow({reduction::PadeLaw{}, 0.3});
+  const Flow flow(reduction::PadeLaw{}, 0.3);
   const Window kept = phase_portrait(flow, {.sides = {{2, 0.5}}}).window;
   CHECK((kept.low == Vector2d(-2, 0) && kept.high == Vector2d(2, 0.5)));
   for (const State& start : {State{-3, 0.2}, State{0, 2}, State{5, 0}, State{1e-140, 1e140}}) {
@@ -281,7 +281,7 @@ TEST_CASE("Views have names, and the names lead back", "[table]") {
 }
 
 TEST_CASE("Numbers of orbits and isochrones are those asked for", "[table]") {
-  const Flow flow({reduction::PadeLaw{}, 0.3});
+  const Flow flow(reduction::PadeLaw{}, 0.3);
   const PhasePortrait few = phase_portrait(flow, {.orbits = 5, .isochrones = 0});
   CHECK(few.orbits.size() == 10);
   CHECK(few.isochrones.empty());

@@ -55,7 +55,7 @@ TEST_CASE("JSON has the documented fields, and its numbers read back to the same
 }
 
 TEST_CASE("In the view of beta each state of an orbit has its beta, as its axis has it", "[route]") {
-  const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+  const reduction::Flow flow(reduction::HertzLaw{}, 0.3);
   const auto portrait =
       portraits::phase_portrait(flow, {.view = portraits::View::regularised, .highlight = reduction::State{-1, 2}});
   const portraits::PanelMap map = portraits::draw_mapped(portrait).maps.front();

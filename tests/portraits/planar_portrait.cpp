@@ -115,11 +115,11 @@ TEST_CASE("the orbit of a start begins there, one through a point at the border"
 
 TEST_CASE("the curves V = 0 are drawn where V changes its sign and where it only touches 0", "[physics]") {
   const auto lines_of = [](const PlanarField& field) {
-    const reduction::FactorReduction reduction({field}, {0.3, 0.5});
-    REQUIRE(reduction.found());
+    const reduction::PlanarReduction plane = reduction::by_factor({field}, {0.3, 0.5});
+    REQUIRE(plane.solved());
     PortraitRequest request;
     request.window = Window{{-1, -1}, {1.2, 1.1}};
-    return planar_portrait(reduction.reduction(), "a system", request).invariant;
+    return planar_portrait(plane, "a system", request).invariant;
   };
   // V = (1 + u^2) v^power is the only V of these fields.
   for (const double power : {1, 2}) {

@@ -96,7 +96,7 @@ TEST_CASE("a copy in plane and strip is the motion from the start so many times 
 
 TEST_CASE("copies over their starts are one line, other starts are not", "[route]") {
   for (const reduction::State start : {reduction::State{1, 1}, {-0.2, 0.3}}) {
-    const reduction::Flow flow({reduction::HertzLaw{}, 1});
+    const reduction::Flow flow(reduction::HertzLaw{}, 1);
     const Figure figure = figure_of(flow, start);
     REQUIRE(figure.panels.size() == 3);
     const Panel& panel = figure.panels[2];
@@ -129,7 +129,7 @@ TEST_CASE("copies over their starts are one line, other starts are not", "[route
 TEST_CASE("an orbit comes to the stop for any mu and any start", "[limit]") {
   for (const double mu : {1.0, 0.01, 1e-4}) {
     for (const reduction::State start : {reduction::State{1, 1e-20}, {1, 1}, {1e-20, 1}}) {
-      const Figure figure = figure_of(reduction::Flow({reduction::HertzLaw{}, mu}), start);
+      const Figure figure = figure_of(reduction::Flow(reduction::HertzLaw{}, mu), start);
       const Polyline& line = by_size(figure.panels[0])[3]->lines[0];
       INFO("mu = " << mu << " from " << start.u << ", " << start.v);
       CHECK(line.size() < 4400);
@@ -186,7 +186,7 @@ TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
 }
 
 TEST_CASE("what the symmetry moves along itself has no strip", "[limit]") {
-  const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+  const reduction::Flow flow(reduction::HertzLaw{}, 0.3);
   for (const reduction::State start : {reduction::State{0, 1}, {1, 0}, {0, 0}}) {
     CHECK_THROWS_AS(figure_of(flow, start), std::domain_error);
   }

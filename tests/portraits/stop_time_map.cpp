@@ -36,7 +36,7 @@ Figure logarithmic() { return figure_of(0.1, {decades(101, -2, 2), decades(101, 
 }  // namespace
 
 TEST_CASE("A map has a row for each v0 and a column for each u0", "[route]") {
-  const Flow flow({reduction::HertzLaw{}, 0.3});
+  const Flow flow(reduction::HertzLaw{}, 0.3);
   const StopTimeMap map = stop_time_map(flow, {even(7, -1, 2), even(3, 0, 4)});
   REQUIRE(map.tau.rows() == 3);
   REQUIRE(map.tau.cols() == 7);
@@ -49,7 +49,7 @@ TEST_CASE("A map has a row for each v0 and a column for each u0", "[route]") {
 }
 
 TEST_CASE("A map in units of its own is the same picture", "[route]") {
-  const Flow flow({reduction::HertzLaw{}, 0.3});
+  const Flow flow(reduction::HertzLaw{}, 0.3);
   const MapAxes axes{even(7, 0, 2), even(5, 0, 4)};
   const Figure plain = draw(stop_time_map(flow, axes));
   // The unit of u is 0.5 and the unit of time 10.
@@ -70,7 +70,7 @@ TEST_CASE("A map in units of its own is the same picture", "[route]") {
 
 TEST_CASE("Every point of an isochrone stops at its time, and lies in the map", "[invariant]") {
   for (const double mu : {0.01, 0.3, 1.0}) {
-    const reduction::Flow flow({reduction::PadeLaw{}, mu});
+    const reduction::Flow flow(reduction::PadeLaw{}, mu);
     for (const MapAxes& axes :
          {MapAxes{even(5, -2, 2), even(5, 0, 3), false}, MapAxes{even(5, 1, 2), even(5, 1, 3), false},
           MapAxes{even(5, -4, -1), even(5, 0, 3), false}, MapAxes{even(5, 1e-3, 2), even(5, 1e-5, 30), true}}) {
@@ -141,7 +141,7 @@ TEST_CASE("The colours of a map are its stop times, from the lower left", "[tabl
       return axis.logarithmic ? axis.low * std::pow(axis.high / axis.low, fraction)
                               : axis.low + fraction * (axis.high - axis.low);
     };
-    const Flow flow({reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3});
+    const Flow flow(reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3);
     double worst = 0;
     for (std::size_t i = 0; i < rows; i += 7) {
       for (std::size_t j = 0; j < colours.columns; j += 7) {
@@ -162,7 +162,7 @@ TEST_CASE("The colours of a map are its stop times, from the lower left", "[tabl
 TEST_CASE("Isochrones have labels that tell their time, inside the panel", "[invariant]") {
   for (const Figure& figure : {linear(), logarithmic()}) {
     const Panel& panel = figure.panels.at(0);
-    const Flow flow({reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3});
+    const Flow flow(reduction::PadeLaw{}, panel.x.logarithmic ? 0.1 : 0.3);
     CHECK(panel.labels.size() >= 6);
     for (const Label& label : panel.labels) {
       CHECK(flow.stop_time({label.at.x, label.at.y}).tau == Approx(std::stod(label.text.words())).epsilon(1e-3));

@@ -257,9 +257,8 @@ TEST_CASE("orbits cross kinks and jumps without loss of digits", "[net]") {
     ++systems;
     const std::string text = drawn_field.text();
     const answers::FormulaField field = answers::parse_planar_system(text, {});
-    const auto found = answers::solve_planar(field, reduction::find_symmetries(field, start), start);
-    const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field);
-    solved += found.plane.has_value();
+    const reduction::PlanarReduction plane = reduction::reduce(field, start, reduction::find_symmetries(field, start));
+    solved += plane.solved();
     Failure worst{0, ""};
     const reduction::PlanarOrbit orbit = plane.orbit(start);
     for (std::size_t i = 0; i < times.size(); ++i) {

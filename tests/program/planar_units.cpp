@@ -55,8 +55,7 @@ Stated stated(const TypedSystem& system) {
   Stated all{nlohmann::json::parse(run.out), {}};
   const answers::FormulaField field = answers::parse_planar_system(system.text(), {});
   const Vector2d start = system.start();
-  const auto found = answers::solve_planar(field, reduction::find_symmetries(field, start), start);
-  const reduction::PlanarReduction plane = found.plane ? *found.plane : reduction::by_steps(field);
+  const reduction::PlanarReduction plane = reduction::reduce(field, start, reduction::find_symmetries(field, start));
   const reduction::PlanarOrbit orbit = plane.orbit(start);
   for (const double time : state_times) {
     try {
@@ -216,20 +215,20 @@ TEST_CASE("orbits begin at the origin and next to it", "[net]") {
   for (const TypedSystem& system : systems) {
     const answers::FormulaField field = answers::parse_planar_system(system.text(), {});
     const Vector2d around = system.start();
-    const auto found = answers::solve_planar(field, reduction::find_symmetries(field, around), around);
+    const reduction::PlanarReduction plane = reduction::reduce(field, around, reduction::find_symmetries(field, around));
     INFO(system.text());
-    CHECK(found.plane);
-    if (!found.plane) continue;
-    INFO("solved by '" << found.plane->form() << "'");
-    forms.emplace_back(found.plane->form());
+    CHECK(plane.solved());
+    if (!plane.solved()) continue;
+    INFO("solved by '" << plane.form() << "'");
+    forms.emplace_back(plane.form());
     for (const Vector2d& start : {Vector2d(0, 0), Vector2d(1e-31, 0)}) {
       INFO("start (" << start[0] << ", 0)");
       const bool has_value = field(start).allFinite(), rests = has_value && field(start).isZero(0);
       if (!has_value) {
-        CHECK_THROWS_AS(found.plane->orbit(start).at(1), std::domain_error);
+        CHECK_THROWS_AS(plane.orbit(start).at(1), std::domain_error);
         continue;
       }
-      const reduction::PlanarOrbit orbit = found.plane->orbit(start);
+      const reduction::PlanarOrbit orbit = plane.orbit(start);
       double largest = start.norm();
       for (const double time : {1e-3, 0.0, 0.1, 0.5, 1.0}) {  // at 0 an error is compared with the state at 1e-3
         const auto wanted = by_small_steps(field, start, time);

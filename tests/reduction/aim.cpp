@@ -125,7 +125,7 @@ TEST_CASE("what a motion comes to is what its steps sum up to", "[aim][invariant
 }
 
 TEST_CASE("the reversed question on the axes", "[aim][edge]") {
-  const Flow flow({HertzLaw{}, 0.2});
+  const Flow flow(HertzLaw{}, 0.2);
   const auto same = [](const std::optional<State>& found, State wanted) {
     REQUIRE(found);
     CHECK(found->u == Approx(wanted.u).epsilon(1e-14));
@@ -157,7 +157,7 @@ TEST_CASE("the reversed question on the axes", "[aim][edge]") {
 }
 
 TEST_CASE("what the reversed question refuses", "[aim][edge]") {
-  const Flow flow({PadeLaw{}, 0.2});
+  const Flow flow(PadeLaw{}, 0.2);
   CHECK_THROWS_AS(aimed(flow, {1, {}, {}}), std::domain_error);
   CHECK_THROWS_AS(aimed(flow, {1, 1, 1}), std::domain_error);
   CHECK_THROWS_AS(aimed(flow, {1, -1, {}}), std::domain_error);
@@ -173,6 +173,6 @@ TEST_CASE("what the reversed question refuses", "[aim][edge]") {
   const Reached spinning = reached(falls, {0.823, 2.38}), straight = reached(falls, {0, 1});
   CHECK(spinning.distance / (spinning.tau * spinning.tau) > straight.distance / (straight.tau * straight.tau));
   CHECK_THROWS_WITH(aimed(falls, {spinning.tau, spinning.distance, {}}), Contains("this law's Phi falls from"));
-  CHECK_THROWS_WITH(aimed(Flow({WavyLaw{0, 6}, 0.2}), {1, 1, {}}), Contains("this law's Psi grows from"));
+  CHECK_THROWS_WITH(aimed(Flow(WavyLaw{0, 6}, 0.2), {1, 1, {}}), Contains("this law's Psi grows from"));
   for (const std::string& name : names) CHECK_NOTHROW(require_monotone(*find_law(name)));
 }

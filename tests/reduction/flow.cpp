@@ -37,7 +37,7 @@ TEST_CASE("one flow answers for all motions of a system", "[flow][route]") {
 }
 
 TEST_CASE("copies of a flow share what is solved, and its table is released", "[flow]") {
-  const Flow flow({HertzLaw{}, 0.3});
+  const Flow flow(HertzLaw{}, 0.3);
   const Flow copy = flow;
   CHECK(flow.solution().through(0) == copy.solution().through(0));
   std::weak_ptr<const SimilarityCurve> curve;
@@ -88,7 +88,7 @@ TEST_CASE("the first integral is constant along the steps of (2.6)", "[flow][inv
 }
 
 TEST_CASE("the first integral is shifted by ln c under scaling, and has no value on the axes", "[flow][symmetry]") {
-  const Flow flow({HertzLaw{}, 0.5});
+  const Flow flow(HertzLaw{}, 0.5);
   const double ln_2 = std::log(2), ln_7 = std::log(7);
   const double here = flow.log_first_integral(1, ln_2);
   CHECK(flow.log_first_integral(7, ln_2 + ln_7) == Approx(here + ln_7).epsilon(1e-14));

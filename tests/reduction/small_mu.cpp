@@ -112,7 +112,7 @@ TEST_CASE("E1 and E2 of the Pade ball are those of the textbook formula", "[smal
   const double x = std::log1p(15 * pi / (16 * mu));
   const auto got = estimates({PadeLaw{}, mu}, {1, 1});
   CHECK(got.at("E1") == Approx(16 / (5 * mu) + 3 * pi / 7 + 24.0 / 35 * mu * x).epsilon(1e-15));
-  const double exact = Flow({PadeLaw{}, mu}).stop_time({1, 1}).tau;
+  const double exact = Flow(PadeLaw{}, mu).stop_time({1, 1}).tau;
   CHECK(got.at("E1") - exact == Approx(4.6e-4).epsilon(0.02));
   CHECK(std::abs(got.at("E2") - exact) == Approx(2.5e-7).epsilon(0.02));
   CHECK(got.count("log") == 0);
@@ -281,7 +281,7 @@ TEST_CASE("the motion for small mu begins at the start, slows down, and stops at
   CHECK(SmallMuMotion({PadeLaw{}, 0.1}, {0, 0}).at_time(0).v == 0);
   for (const State start : {State{2, 0}, State{0, 2}}) {
     const SmallMuMotion motion({PadeLaw{}, 0.1}, start);
-    const Orbit exact = Flow({PadeLaw{}, 0.1}).orbit(start);
+    const Orbit exact = Flow(PadeLaw{}, 0.1).orbit(start);
     for (double tau : {0.5, 1.5, 2.6}) {
       CHECK(motion.at_time(tau).u == Approx(exact.at_time(tau).u).epsilon(1e-14));
       CHECK(motion.at_time(tau).v == Approx(exact.at_time(tau).v).epsilon(1e-14));

@@ -181,7 +181,7 @@ TEST_CASE("a stop time scales bit for bit, also below and above the ordinary", "
       }
     }
   }
-  CHECK(Flow({PadeLaw{}, 1}).stop_time({5e-324, 0}).tau == 1.5e-323);  // exact: 3.2 times the smallest double
+  CHECK(Flow(PadeLaw{}, 1).stop_time({5e-324, 0}).tau == 1.5e-323);  // exact: 3.2 times the smallest double
   CHECK(std::isfinite(Flow({PadeLaw{}, 1e150, homogeneous_ball}).stop_time({1, 1}).tau));
 }
 

@@ -81,8 +81,8 @@ Quantities integrated(PreciseLaw law, const ReducedSystem& system, Precise u, Pr
 }  // namespace
 
 TEST_CASE("the gradient of the Pade ball", "[gradient][formula]") {
-  const StopTimeGradient found = Flow({PadeLaw{}, 0.3}).stop_time_gradient({1, 1});
-  CHECK(found.tau == Flow({PadeLaw{}, 0.3}).stop_time({1, 1}).tau);
+  const StopTimeGradient found = Flow(PadeLaw{}, 0.3).stop_time_gradient({1, 1});
+  CHECK(found.tau == Flow(PadeLaw{}, 0.3).stop_time({1, 1}).tau);
   CHECK(found.by_v == Approx(1.52868423111).epsilon(1e-11));
   CHECK(found.by_u == Approx(10.9679009161).epsilon(1e-11));
 }
@@ -323,7 +323,7 @@ TEST_CASE("the gradient of an instant is that of differences, and obeys the chai
     CHECK(both.slip_length.by_v - one.slip_length.by_v ==
           Approx(other.slip_length.by_u * one.u.by_v + other.slip_length.by_v * one.v.by_v).epsilon(1e-8).margin(1e-9));
   }
-  const Flow flow({HertzLaw{}, 0.1});
+  const Flow flow(HertzLaw{}, 0.1);
   // The ball rolls when the slip has fallen to 1e-3. This time is `rolls`.
   const double rolls = flow.orbit({1, 1}).time_of_v(1e-3);
   const InstantGradient then = instant_gradient(flow, {1, 1}, rolls);
@@ -335,7 +335,7 @@ TEST_CASE("the gradient of an instant is that of differences, and obeys the chai
 }
 
 TEST_CASE("the gradient of one speed alone, and of none", "[gradient][errors]") {
-  const Flow flow({HertzLaw{}, 0.1});
+  const Flow flow(HertzLaw{}, 0.1);
   const StopTimeGradient pivots = flow.stop_time_gradient({-2, 0});
   CHECK(pivots.by_u == Approx(pivots.tau / -2));
   CHECK(pivots.by_v == 0);

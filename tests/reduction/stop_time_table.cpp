@@ -272,7 +272,7 @@ TEST_CASE("what is no start is refused alone and is not a number among others", 
   }
 
   std::vector<double> two(2), three(3);
-  const Flow flow({PadeLaw{}, 0.1});
+  const Flow flow(PadeLaw{}, 0.1);
   CHECK_THROWS_WITH(flow.stop_times(two, three, two), Contains("2 u0, 3 v0, 2 tau"));
   CHECK_THROWS_WITH(flow.stop_times(two, two, three), Contains("3 tau"));
   CHECK_THROWS_WITH(flow.stop_times(two, two, two, 0), Contains("0 threads"));
@@ -282,7 +282,7 @@ TEST_CASE("what is no start is refused alone and is not a number among others", 
 TEST_CASE("a flow knows when a table pays, and a part of many starts has the bits of the whole",
           "[stop_time_table][invariant]") {
   const double mu = 0.3;
-  const Flow flow({HertzLaw{}, mu});
+  const Flow flow(HertzLaw{}, mu);
   const StopTimeTable table(flow);
   Starts starts = random_starts(mu, Flow::many_starts);
   for (std::size_t i : {3U, 4U}) starts.v0[i] = i % 2 == 0 ? -1 : not_a_number;

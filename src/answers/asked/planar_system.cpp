@@ -5,7 +5,6 @@
 #include <cctype>
 
 #include "answers/input/errors.hpp"
-#include "answers/input/message.hpp"
 
 namespace contensou::answers {
 
@@ -103,55 +102,6 @@ FormulaField::operator reduction::SmoothField() const {
     };
   }
   return field;
-}
-
-bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start) {
-  constexpr double rounding = 1e-12;
-  return (start - scaling.centre()).stableNorm() <= rounding * start.stableNorm();
-}
-
-namespace {
-
-SolvedPlane solve_by_scaling(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
-                             const Eigen::Vector2d& start) {
-  using Verdict = reduction::PlanarSymmetries::Verdict;
-  if (found.scaling) {
-    Eigen::Vector2d around = reduction::sampled_about(field, start);
-    if (is_centre(*found.scaling, around)) around.array() += around.lpNorm<Eigen::Infinity>();
-    try {
-      return {reduction::PlanarReduction(field, *found.scaling, around, found.residual), ""};
-    } catch (const std::domain_error& refused) {
-      return {std::nullopt, words_of(refused.what())};
-    }
-  }
-  if (found.verdict == Verdict::none) return {std::nullopt, "no scaling was found"};
-  if (found.verdict == Verdict::undecided) {
-    return {std::nullopt, "the field's noise, or its kinks, hide whether it has a scaling"};
-  }
-  const bool everywhere = std::ranges::all_of(found.generators, &reduction::Generator::everywhere);
-  return {std::nullopt, everywhere ? "no generator is a scaling"
-                                   : "no scaling holds throughout, only within sectors in which the field is smooth: "
-                                     "across their borders orbits are no copies of one another"};
-}
-
-}  // namespace
-
-SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
-                         const Eigen::Vector2d& start) {
-  SolvedPlane solved;
-  if (!field.basis.values) solved = solve_by_scaling(field, found, start);
-  if (solved.plane) return solved;
-  const reduction::FactorReduction by_factor(field, start);
-  solved.tried = by_factor.tried();
-  if (by_factor.found()) {
-    solved.plane = by_factor.reduction();
-    solved.formula = [by_factor] { return by_factor.formula(); };
-  } else if (field.basis.values) {
-    solved.why_not = "no sum of the functions of the basis is an inverse integrating factor";
-  } else {
-    solved.why_not += ", and no inverse integrating factor of the forms that are tried";
-  }
-  return solved;
 }
 
 }  // namespace contensou::answers

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "answers/input/formulas.hpp"
-#include "contensou/reduction/planar_reduction.hpp"
+#include "contensou/reduction/symmetries.hpp"
 
 namespace contensou::answers {
 
@@ -43,20 +41,5 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
 /// @throws BadInput  as Formulas; for no function, and for more functions than Basis::most
 reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
                              const std::map<std::string, double>& parameters);
-
-/// Returns true if a start equals the centre of the scaling up to rounding.
-bool is_centre(const reduction::Generator& scaling, const Eigen::Vector2d& start);
-
-/// The solution of a system by a scaling or an inverse integrating factor, or else the reason why there is none.
-struct SolvedPlane {
-  std::optional<reduction::PlanarReduction> plane;
-  std::string why_not;
-  std::vector<reduction::TriedForm> tried = {};            ///< forms of the inverse integrating factor that were tried
-  std::function<reduction::FactorFormula()> formula = {};  ///< formula of the factor that solves the system
-};
-
-/// @param found  symmetries of `field`, found by reduction::find_symmetries with the same start
-SolvedPlane solve_planar(const reduction::SmoothField& field, const reduction::PlanarSymmetries& found,
-                         const Eigen::Vector2d& start);
 
 }  // namespace contensou::answers

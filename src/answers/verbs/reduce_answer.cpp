@@ -325,12 +325,12 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
 }
 
 /// Adds to the answer a solution by the inverse integrating factor V, for a system without a scaling.
-void add_factor(Answer& answer, const SolvedPlane& solved) {
-  const std::string_view divided = solved.tried.back().cleared ? " divided by the denominator" : "";
-  const std::string_view form = solved.plane->form();
+void add_factor(Answer& answer, const PlanarReduction& plane) {
+  const std::string_view divided = plane.tried().back().cleared ? " divided by the denominator" : "";
+  const std::string_view form = plane.form();
   const std::string_view shown = form == "basis" ? "a sum of the basis" : form == "affine" ? "f ^ X, X affine" : form;
   const std::string v = fmt::format("{}{}", shown, divided);
-  const auto [factor, integral] = solved.formula();
+  const auto [factor, integral] = plane.formula();
   Json& members = answer.members;
   members["factor"] = factor.empty() ? v + ", 1 at the start" : fmt::format("{}{}", factor, divided);
   if (!integral.empty()) members["integral"] = integral;
@@ -472,37 +472,34 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
                                      digits(start[1]), sampled);
                 }};
   add_symmetries(answer, found, "t");
-  const SolvedPlane solved = solve_planar(field, found, start);
-  answer.members["form"] = solved.plane ? Json(solved.plane->form()) : Json();
-  if (!solved.tried.empty()) {
+  const PlanarReduction plane = reduce(field, start, found);
+  answer.members["form"] = plane.solved() ? Json(plane.form()) : Json();
+  if (!plane.tried().empty()) {
     Json tried = Json::array();
-    for (const auto& [form, value, gap, residual, cleared] : solved.tried) {
+    for (const auto& [form, value, gap, residual, cleared] : plane.tried()) {
       tried.push_back({{"form", form}, {"singular_value", or_infinity(value)}, {"gap", or_infinity(gap)}});
       if (cleared) tried.back()["cleared"] = true;
     }
     answer.members["tried"] = tried;
   }
   reduction::Equilibria equilibria = reduction::find_equilibria(field, around);
-  if (solved.plane) compare_kinds(equilibria, *solved.plane);
+  compare_kinds(equilibria, plane);
   answer.members.update(members_of_plane(equilibria));
-  add_text(answer,
-           [=, tried = solved.tried](const Digits& digits) { return text_of(tried) + text_of(equilibria, digits); });
+  add_text(answer, [=](const Digits& digits) { return text_of(plane.tried()) + text_of(equilibria, digits); });
   bool confirmed = true;
-  if (solved.plane && solved.plane->scaling()) {
-    const bool at_centre = is_centre(*solved.plane->scaling(), start);
-    add_scaling(answer, *solved.plane, start, at_centre);
-    if (!answer.members.contains("end")) {
-      confirmed = add_end(answer, *solved.plane, at_centre ? solved.plane->centre() : start);
-    }
-  } else if (solved.plane) {
-    add_factor(answer, solved);
-    confirmed = add_end(answer, *solved.plane, start);
+  if (plane.scaling()) {
+    const bool at_centre = plane.scaling()->fixes(start);
+    add_scaling(answer, plane, start, at_centre);
+    if (!answer.members.contains("end")) confirmed = add_end(answer, plane, at_centre ? plane.centre() : start);
+  } else if (plane.solved()) {
+    add_factor(answer, plane);
+    confirmed = add_end(answer, plane, start);
   } else if (!found.generators.empty()) {
-    add_text(answer, [why = solved.why_not](const Digits&) {
+    add_text(answer, [why = words_of(plane.why_not())](const Digits&) {
       return fmt::format("solution    none by quadrature: {}\n", why);
     });
   }
-  answer = finished(answer, found, solved.plane.has_value());
+  answer = finished(answer, found, plane.solved());
   answer.passed &= confirmed;
   return answer;
 }

@@ -34,11 +34,4 @@ std::array<std::string, 2> SystemOption::variables(const std::map<std::string, d
   return {names.at(0), names.at(1)};
 }
 
-reduction::PlanarReduction SystemOption::solve(const reduction::SmoothField& field,
-                                               const Eigen::Vector2d& around) const {
-  SolvedPlane solved =
-      solve_planar(field, reduction::find_symmetries(field, reduction::sampled_about(field, around)), around);
-  return solved.plane ? *std::move(solved.plane) : reduction::by_steps(field);
-}
-
 }  // namespace contensou::program

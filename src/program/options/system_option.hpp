@@ -25,9 +25,6 @@ class SystemOption {
   /// @throws BadInput  as parse_planar_system
   std::array<std::string, 2> variables(const std::map<std::string, double>& parameters) const;
 
-  /// Returns the system for a portrait: solved if possible; else its orbits are computed by steps in time.
-  reduction::PlanarReduction solve(const reduction::SmoothField& field, const Eigen::Vector2d& around) const;
-
  private:
   Argument system_, basis_;
 };

@@ -216,7 +216,7 @@ class PortraitCommand final : public Verb {
     }
     const Output output = read_output();
     portraits::PlanarPortrait portrait =
-        portraits::planar_portrait(system_.solve(field, around), system_.text(), request_);
+        portraits::planar_portrait(reduction::reduce(field, around), system_.text(), request_);
     portrait.variables = system_.variables(law_.parameters());
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }

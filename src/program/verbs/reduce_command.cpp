@@ -34,7 +34,7 @@ class ReduceCommand final : public Verb {
     const reduction::SmoothField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));
-    const reduction::PlanarReduction plane = system_.solve(field, start);
+    const reduction::PlanarReduction plane = reduction::reduce(field, start);
     if (!plane.scaling()) {
       const bool found = reduction::find_symmetries(field, reduction::sampled_about(field, start)).scaling.has_value();
       throw BadInput(

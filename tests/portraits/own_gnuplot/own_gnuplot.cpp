@@ -7,7 +7,7 @@
 
 int main() {
   using namespace contensou;
-  const reduction::Flow flow({reduction::HertzLaw{}, 0.8});
+  const reduction::Flow flow(reduction::HertzLaw{}, 0.8);
   const portraits::PhasePortrait portrait = portraits::phase_portrait(flow, {.sides = {{1, 1}}});
   Gnuplot gp;
   gp << "set terminal pngcairo size 720,450\nset output 'own.png'\nset xlabel 'u'\nset ylabel 'v'\n"

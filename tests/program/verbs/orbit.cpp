@@ -22,7 +22,7 @@ TEST_CASE("orbit gives 200 rows from the start to the stop", "[cli]") {
   CHECK(rows[1][5] == "0");
   CHECK(std::stod(rows[100][1]) < 0);  // u keeps the sign of its start
   const auto& last = rows.back();
-  CHECK(std::stod(last[0]) == Flow({PadeLaw{}, 0.3}).orbit({-1, 1}).stop_time());
+  CHECK(std::stod(last[0]) == Flow(PadeLaw{}, 0.3).orbit({-1, 1}).stop_time());
   CHECK(last[1] == "0");
   CHECK(last[2] == "0");
   CHECK(last[3] == "-inf");
@@ -35,7 +35,7 @@ TEST_CASE("--at keeps its order, and rests past the stop", "[cli]") {
         rows_of(run_program("orbit --law pade --mu 0.3 --u0 1 --v0 1 --at 3,0,99,1.5 --route " + route).out);
     INFO(route);
     REQUIRE(rows.size() == 5);
-    const Orbit orbit = Flow({PadeLaw{}, 0.3}).orbit({1, 1});
+    const Orbit orbit = Flow(PadeLaw{}, 0.3).orbit({1, 1});
     for (std::size_t i : {1, 2, 4}) {
       const OrbitPoint point = orbit.at_time(std::stod(rows[i][0]));
       CHECK(std::stod(rows[i][1]) == Approx(point.u).epsilon(1e-9));
@@ -55,7 +55,7 @@ TEST_CASE("half of an orbit's samples lie where it slides", "[cli]") {
     REQUIRE(rows.size() == 201);
     CHECK(std::stod(rows[101][2]) == Approx(1e-3).epsilon(1e-6));
     const double stop = std::stod(rows[200][0]);
-    CHECK(stop == Approx(Flow({PadeLaw{}, 0.1}).orbit({1, 1}).stop_time()).epsilon(1e-9));
+    CHECK(stop == Approx(Flow(PadeLaw{}, 0.1).orbit({1, 1}).stop_time()).epsilon(1e-9));
     const auto even = rows_of(run_program(command + " --equidistant").out);
     CHECK(std::stod(even[100][0]) == Approx(stop * 99 / 199).epsilon(1e-9));
   }

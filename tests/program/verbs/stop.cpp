@@ -78,7 +78,7 @@ TEST_CASE("routes and laws of stop agree with the library", "[route]") {
     INFO(route);
     CHECK(stop.at("route") == route);
     CHECK(stop.at("law") == "exact");
-    CHECK(stop.at("tau_stop").get<double>() == Approx(Flow({HertzLaw{}, 0.3}).stop_time({1, 1}).tau).epsilon(1e-10));
+    CHECK(stop.at("tau_stop").get<double>() == Approx(Flow(HertzLaw{}, 0.3).stop_time({1, 1}).tau).epsilon(1e-10));
   }
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("overrides act as if the run file had said so", "[cli]") {
 
 TEST_CASE("a known accuracy is in every format", "[cli]") {
   for (const Law& law : {Law(PadeLaw{}), Law(PressureLaw::uniform())}) {
-    const double accuracy = Flow({law, 0.1}).stop_time({2, 1}).accuracy;
+    const double accuracy = Flow(law, 0.1).stop_time({2, 1}).accuracy;
     const std::string start = fmt::format("stop --mu 0.1 --u0 2 --v0 1 --law {}", law.name());
     CHECK(json_of(start + " --format json").at("accuracy") == accuracy);
     const auto rows = rows_of(run_program(start + " --format csv").out);

@@ -26,8 +26,8 @@ TEST_CASE("a batch keeps columns and rows and adds tau_stop", "[cli]") {
   const Run run = run_program("stop --law pade --batch -", "v0,note,mu,u0\n1,b,0.1,1\n 0.5 ,a,0.2,-3\n0,c,1,0\n");
   CHECK(run.status == 0);
   CHECK(run.err.empty());
-  CHECK(run.out == "v0,note,mu,u0,tau_stop\n1,b,0.1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) +
-                       "\n 0.5 ,a,0.2,-3," + shortest(Flow({PadeLaw{}, 0.2}).stop_time({-3, 0.5}).tau) +
+  CHECK(run.out == "v0,note,mu,u0,tau_stop\n1,b,0.1,1," + shortest(Flow(PadeLaw{}, 0.1).stop_time({1, 1}).tau) +
+                       "\n 0.5 ,a,0.2,-3," + shortest(Flow(PadeLaw{}, 0.2).stop_time({-3, 0.5}).tau) +
                        "\n0,c,1,0,0\n");
 }
 
@@ -37,9 +37,9 @@ TEST_CASE("a batch by another law and every route", "[route]") {
         run_program("stop --batch - --law exact --route " + route, "mu,u0,v0\n0.1,1,1\n0.2,1,1\n0.1,2,1\n").out);
     INFO(route);
     REQUIRE(rows.size() == 4);
-    CHECK(std::stod(rows[1][3]) == Approx(Flow({HertzLaw{}, 0.1}).stop_time({1, 1}).tau).epsilon(1e-10));
-    CHECK(std::stod(rows[2][3]) == Approx(Flow({HertzLaw{}, 0.2}).stop_time({1, 1}).tau).epsilon(1e-10));
-    CHECK(std::stod(rows[3][3]) == Approx(Flow({HertzLaw{}, 0.1}).stop_time({2, 1}).tau).epsilon(1e-10));
+    CHECK(std::stod(rows[1][3]) == Approx(Flow(HertzLaw{}, 0.1).stop_time({1, 1}).tau).epsilon(1e-10));
+    CHECK(std::stod(rows[2][3]) == Approx(Flow(HertzLaw{}, 0.2).stop_time({1, 1}).tau).epsilon(1e-10));
+    CHECK(std::stod(rows[3][3]) == Approx(Flow(HertzLaw{}, 0.1).stop_time({2, 1}).tau).epsilon(1e-10));
   }
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("a bad table is refused with its line", "[cli]") {
     std::string out = {};  ///< rows of the output before the bad row
   };
   const std::string one_row =
-      "mu,u0,v0,tau_stop\n0.1,1,1," + shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau) + "\n";
+      "mu,u0,v0,tau_stop\n0.1,1,1," + shortest(Flow(PadeLaw{}, 0.1).stop_time({1, 1}).tau) + "\n";
   const std::vector<Fault> faults{
       {"", "<stdin>:1: ", "empty input"},
       {"\n\n# nothing\n", "<stdin>:1: ", "empty input"},
@@ -262,7 +262,7 @@ TEST_CASE("a long batch has the stop times of single calls, and one set of bits 
   REQUIRE(rows.size() == table.mu.size() + 1);
   std::size_t misplaced = 0, different = 0;
   for (std::size_t i = 0; i < table.mu.size(); ++i) {
-    const double tau = Flow({PadeLaw{}, table.mu[i]}).stop_time(table.starts[i]).tau;
+    const double tau = Flow(PadeLaw{}, table.mu[i]).stop_time(table.starts[i]).tau;
     const bool single = i < 1000;  // rows after these use the solution for every mu
     misplaced += rows[i + 1][1] != fmt::format("row {}", i);
     if (single ? rows[i + 1].back() != shortest(tau) : !(std::abs(std::stod(rows[i + 1].back()) / tau - 1) < 2e-15)) {
@@ -329,7 +329,7 @@ TEST_CASE("a batch of any length takes constant memory", "[limit][memory]") {
       "--threads 1 -o '{}')",
       row, CONTENSOU_PROGRAM, scratch.file("out.csv"));
   CHECK(std::system(command.c_str()) == 0);
-  const std::string tau = shortest(Flow({PadeLaw{}, 0.1}).stop_time({1, 1}).tau);
+  const std::string tau = shortest(Flow(PadeLaw{}, 0.1).stop_time({1, 1}).tau);
   CHECK(std::filesystem::file_size(scratch.file("out.csv")) ==
         200000 * (row.size() + 1 + tau.size() + 1) + std::string("mu,u0,v0,note,tau_stop\n").size());
 }

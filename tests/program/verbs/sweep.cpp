@@ -46,7 +46,7 @@ TEST_CASE("a sweep as csv: u0 runs fastest, then v0, then mu", "[cli]") {
   for (double mu : {0.1, 0.3}) {
     for (double v0 : {0.0, 0.5}) {
       for (double u0 : {-1.0, 0.0, 1.0}) {
-        expected += fmt::format("{},{},{},{}\n", mu, u0, v0, Flow({PadeLaw{}, mu}).stop_time({u0, v0}).tau);
+        expected += fmt::format("{},{},{},{}\n", mu, u0, v0, Flow(PadeLaw{}, mu).stop_time({u0, v0}).tau);
       }
     }
   }
@@ -76,7 +76,7 @@ TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   REQUIRE(map.values.size() == 15);
   for (std::size_t i = 0; i < 15; ++i) {
     const State start{0.5 * static_cast<double>(i % 5), 0.5 + 0.5 * static_cast<double>(i / 5)};
-    CHECK(map.values[i] == Approx(Flow({HertzLaw{}, 0.1}).stop_time(start).tau).epsilon(1e-14));
+    CHECK(map.values[i] == Approx(Flow(HertzLaw{}, 0.1).stop_time(start).tau).epsilon(1e-14));
   }
 
   REQUIRE(run_program("sweep --mu 0.1:0.2:2" + axes).status == 0);
@@ -84,7 +84,7 @@ TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   CHECK_THAT(cube.dictionary, Contains("'shape': (2, 3, 5), }"));
   REQUIRE(cube.values.size() == 30);
   CHECK(std::vector<double>(cube.values.begin(), cube.values.begin() + 15) == map.values);
-  CHECK(cube.values[29] == Approx(Flow({HertzLaw{}, 0.2}).stop_time({2, 1.5}).tau).epsilon(1e-14));
+  CHECK(cube.values[29] == Approx(Flow(HertzLaw{}, 0.2).stop_time({2, 1.5}).tau).epsilon(1e-14));
   // A range of one number gives the array an axis. --format sets the format of a file without an ending.
   CHECK_THAT(NumpyFile(run_program("sweep --mu 1:1:1 --u0 1 --v0 0:1:2 -o - --format npy").out).dictionary,
              Contains("'shape': (1, 2, 1), }"));

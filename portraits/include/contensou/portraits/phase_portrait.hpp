@@ -93,7 +93,7 @@ struct Portrait {
 /// isochrones (lines of states with one stop time) and the singular points (reduction::PhasePlane). u, v and tau have
 /// one unit.
 ///
-///     const reduction::Flow flow({reduction::HertzLaw{}, 0.3});
+///     const reduction::Flow flow(reduction::HertzLaw{}, 0.3);
 ///     const PhasePortrait portrait = phase_portrait(flow, {});  // the default view and window
 ///     render(draw(portrait), PictureFormat::svg);              // the bytes of a picture
 struct PhasePortrait : Portrait {

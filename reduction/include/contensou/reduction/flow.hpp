@@ -25,7 +25,7 @@ class StopTimeTable;
 /// curves (SimilaritySolution). A Flow contains these curves, by quadrature or in closed form. It returns the stop
 /// time and the state at any time without steps in time.
 ///
-///     const Flow flow({HertzLaw{}, 0.1});  // a homogeneous ball with the patch radius 0.1 R, exact law
+///     const Flow flow(HertzLaw{}, 0.1);  // a homogeneous ball with the patch radius 0.1 R, exact law
 ///     flow.stop_time({1, 1}).tau;          // from u = 1, v = 1
 ///     flow.orbit({1, 1}).at_time(16);      // the state at tau = 16
 ///     flow.terminal().ends;                // the limits of k = v/(mu |u|) at the stop
@@ -42,6 +42,9 @@ class Flow {
   /// Solves the system by the law's closed form if there is one, else by quadrature.
   /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios does not find
   Flow(const ReducedSystem& system);  // NOLINT(google-explicit-constructor): a system determines its flow
+
+  /// Solves the system of the homogeneous ball on a level plane, ReducedSystem(law, patch_ratio).
+  explicit Flow(const Law& law, double patch_ratio) : Flow(ReducedSystem(law, patch_ratio)) {}
 
   /// Solves the system by quadrature even if the law has a closed form.
   static Flow by_quadrature(const ReducedSystem& system);

@@ -84,14 +84,28 @@ struct FactorPiece {
   std::function<double(const Eigen::Vector2d& x)> value;  ///< V at x; NaN at a point where V has no value
 };
 
+/// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
+struct TriedForm {
+  std::string_view form;
+  double singular_value;  ///< smallest singular value: root mean square of the misfit (R66) over the points of the fit
+  double gap;             ///< smallest singular value that does not count as 0, divided by the largest that does
+  double residual;        ///< largest misfit (R66) at points that the fit did not use
+  bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
+};
+
+/// V and the first integral H as formulas in u and v; empty if the coefficients are not recognised as rational numbers.
+struct FactorFormula {
+  std::string factor, integral;
+};
+
 /// A planar system x' = f(x) reduced to quadratures. The reduction uses a scaling X = c t d/dt + A (x - x_0) . d/dx, so
 /// that f on one closed curve about x_0 determines f everywhere. If there is no scaling, the reduction uses an inverse
-/// integrating factor V (FactorReduction).
+/// integrating factor V. Orbits of a system without both are integrated by steps.
 ///
-///     const PlanarReduction reduction(field, *find_symmetries(field, start).scaling, start);
-///     reduction.end(start);          // PlanarEnd::centre
-///     reduction.end_time(start);     // time at which the motion reaches the centre
-///     reduction.orbit(start).at(0.5) // state at the time 0.5
+///     const PlanarReduction plane = reduce(field, start);
+///     plane.form();                    // "scaling", a form of by_factor, or empty: orbits by steps
+///     plane.orbit(start).at(0.5);      // state at the time 0.5
+///     if (plane.solved()) plane.end(start);  // PlanarEnd::centre
 ///
 /// Source: reduction/README.md (R42) to (R45). A value type; copies share the solution.
 ///
@@ -110,8 +124,20 @@ class PlanarReduction {
   struct Solution;  // planar/solution.hpp
   explicit PlanarReduction(std::shared_ptr<const Solution> solution);
 
-  /// Returns the method of the solution: "scaling", or a form of FactorReduction.
+  /// Returns the method of the solution: "scaling", or a form of by_factor; empty if orbits are integrated by steps.
   std::string_view form() const;
+  bool solved() const { return !form().empty(); }
+
+  /// Returns the reason why the system is not solved by a quadrature; empty if it is.
+  const std::string& why_not() const;
+
+  /// Returns the forms of V in the order in which they were tried; empty for a scaling.
+  const std::vector<TriedForm>& tried() const;
+
+  /// Returns V, up to a constant factor, and H, up to constants. Both are empty unless V solves the system and has
+  /// rational coefficients with which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised. H is a sum
+  /// of functions of u and of v.
+  FactorFormula formula() const;
 
   const SmoothField& field() const;
 
@@ -190,16 +216,6 @@ class PlanarReduction {
   std::shared_ptr<const Solution> solution_;
 };
 
-/// Returns the equations of motion (2.6) in the whole plane, planar_field, solved by a flow. The rays of the result are
-/// the invariant half-lines of PhasePlane.
-///
-/// p is ln |x|. The first integral is that of the flow, ln |u| - ln w(k). Under a drive v = 0 is a border. Two motions
-/// that are mirror images start at each of its points, so orbits from v = 0 are rejected.
-///
-/// Accuracy  times as StopTime::accuracy. reversed() is solved from the values of the field, without the flow.
-/// Cost      0.1 ms, and the solution of the flow
-PlanarReduction reduced(const Flow& flow);
-
 /// One motion of a planar system.
 class PlanarOrbit {
  public:
@@ -229,60 +245,28 @@ class PlanarOrbit {
 /// f(0) by half of f(0).
 Eigen::Vector2d sampled_about(const SmoothField& field, const Eigen::Vector2d& start);
 
-/// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
-struct TriedForm {
-  std::string_view form;
-  double singular_value;  ///< smallest singular value: root mean square of the misfit (R66) over the points of the fit
-  double gap;             ///< smallest singular value that does not count as 0, divided by the largest that does
-  double residual;        ///< largest misfit (R66) at points that the fit did not use
-  bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
-};
+/// Solves x' = f(x) by a scaling, else by an inverse integrating factor (by_factor), else by steps (by_steps).
+/// @param found  symmetries of the field, found about sampled_about(field, start)
+/// @throws std::domain_error  unless the start is finite and the field has a value there; as find_symmetries
+PlanarReduction reduce(const SmoothField& field, const Eigen::Vector2d& start, const PlanarSymmetries& found);
+PlanarReduction reduce(const SmoothField& field, const Eigen::Vector2d& start);
 
-/// V and the first integral H as formulas in u and v; empty if the coefficients are not recognised as rational numbers.
-struct FactorFormula {
-  std::string factor, integral;
-};
-
-/// x' = f(x) solved by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68).
+/// Solves x' = f(x) by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68); else by steps.
 ///
-///     const FactorReduction reduction({field, jacobian}, start);
-///     if (reduction.found()) reduction.reduction().orbit(start).at(0.5);
+/// V is sought in a box, +-30 % about the start or, if the start (u, v) is an equilibrium, about (1.25 u, 0.8 v). The
+/// search ends at the first form that satisfies the equation: "constant" (div f = 0), "affine" (V = f ^ X, X affine),
+/// "polynomial" (degree 4 or less), "linear in v", "quadratic in v", "linear in u", "quadratic in u" (coefficients are
+/// functions of the other coordinate) and "product" (V = A(u) B(v)); for a field with a basis only "basis" (V is a sum
+/// of its functions). If the field f has a denominator D and no form fits V, the forms are tried for V D, an inverse
+/// integrating factor of D f.
 ///
-/// A value type; copies share the solution.
+/// V is 1 at the start unless V vanishes there. V has values in the box of the start; V of form "affine" or "basis"
+/// everywhere. H has values in this box up to the nearest curve V = 0. Orbits continue beyond the box, because V is
+/// fitted anew there.
+/// @throws std::domain_error  unless the start is finite and the field has a value there
 ///
 /// Accuracy  relative 1e-12 of states and times, unless the motion amplifies rounding.
-class FactorReduction {
- public:
-  /// Searches for V in a box, +-30 % about the start or, if the start (u, v) is an equilibrium, about (1.25 u, 0.8 v).
-  /// The forms are tried in turn; the search ends at the first form that satisfies the equation. If the field f has a
-  /// denominator D and no form fits V, the forms are tried for V D, an inverse integrating factor of D f.
-  /// @throws std::domain_error  unless the start is finite and the field has a value there
-  FactorReduction(const SmoothField& field, const Eigen::Vector2d& start);
-
-  bool found() const { return !form().empty(); }
-
-  /// Returns "constant" (div f = 0), "affine" (V = f ^ X, X affine), "polynomial" (degree 4 or less), "linear in v",
-  /// "quadratic in v", "linear in u", "quadratic in u" (coefficients are functions of the other coordinate), "product"
-  /// (V = A(u) B(v)) or "basis" (V is a sum of functions of the field's basis); empty if no V was found.
-  std::string_view form() const;
-
-  /// Returns the forms in the order in which they were tried.
-  const std::vector<TriedForm>& tried() const;
-
-  /// Returns V, up to a constant factor, and H, up to constants. Both are empty unless V has rational coefficients with
-  /// which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised. H is a sum of functions of u and of v.
-  FactorFormula formula() const;
-
-  /// Returns the solved system. V is 1 at the start unless V vanishes there. V has values in the box of the start; V of
-  /// form "affine" or "basis" everywhere. H has values in this box up to the nearest curve V = 0. Orbits continue
-  /// beyond the box, because V is fitted anew there.
-  /// @throws std::domain_error  if no V was found
-  PlanarReduction reduction() const;
-
- private:
-  struct Solved;
-  std::shared_ptr<const Solved> solved_;
-};
+PlanarReduction by_factor(const SmoothField& field, const Eigen::Vector2d& start);
 
 /// Returns a system whose orbits are integrated by Dormand-Prince 5(4), without reduction, for any planar field.
 ///
@@ -293,6 +277,16 @@ class FactorReduction {
 ///
 /// @return a system with an empty form, undecided ends, and neither factor nor first integral
 PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12);
+
+/// Returns the equations of motion (2.6) in the whole plane, planar_field, solved by a flow. The rays of the result are
+/// the invariant half-lines of PhasePlane.
+///
+/// p is ln |x|. The first integral is that of the flow, ln |u| - ln w(k). Under a drive v = 0 is a border. Two motions
+/// that are mirror images start at each of its points, so orbits from v = 0 are rejected.
+///
+/// Accuracy  times as StopTime::accuracy. reversed() is solved from the values of the field, without the flow.
+/// Cost      0.1 ms, and the solution of the flow
+PlanarReduction reduced(const Flow& flow);
 
 /// A linear map R of the plane that reverses motions in time: f(R x) = -R f(x).
 struct Reversor {

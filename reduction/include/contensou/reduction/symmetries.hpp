@@ -72,6 +72,9 @@ struct Generator {
 
   /// Returns the centre, the point at which A x + b vanishes. A must have an inverse.
   Eigen::Vector2d centre() const;
+
+  /// Returns true if x equals the centre up to rounding.
+  bool fixes(const Eigen::Vector2d& x) const;
 };
 
 /// The generators (Generator) that a field admits. Every x' = f(x) also admits d/dt.
