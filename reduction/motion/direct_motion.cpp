@@ -14,10 +14,9 @@
 #include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "motion/braking.hpp"
-#include "motion/motion_recorder.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
+#include "motion/stepping.hpp"
 
 namespace contensou::reduction {
 

@@ -1,9 +1,11 @@
+// README (R61): moving the start along (u, v) scales the motion; moving the start along the field delays the motion.
 #include "contensou/reduction/flow.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/reduction/detail/root.hpp"
 #include "motion/stop_time_table.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/later.hpp"
@@ -184,6 +187,94 @@ bool Flow::by_table(std::size_t starts) const { return starts >= many_starts && 
 const StopTimeTable& Flow::table() const {
   // The table contains a copy of the flow. If it shared this flow, the two would keep each other alive for ever.
   return arrays_->table.made([this] { return StopTimeTable(Flow(solved_)); });
+}
+
+InstantGradient instant_gradient(const Flow& flow, State start, double tau) {
+  const ReducedSystem& system = flow.system();
+  require_state("instant_gradient", start);
+  if (start.u == 0 || start.v == 0) {
+    throw std::domain_error(fmt::format(
+        "instant_gradient: a start with u not 0 and v > 0 is needed, got u = {}, v = {}", start.u, start.v));
+  }
+  const Orbit motion = flow.orbit(start);
+  const Orbit::Instant at = motion.instant(tau);
+  const Rate first = system.field(start);
+  const Rate last = at.v > 0 || at.u != 0 ? system.field({at.u, at.v}) : Rate{0, 0};
+  const double D = start.u * first.v - start.v * first.u;
+  constexpr double clear = 1e-5;
+  if (!(std::abs(D) > clear * std::max(std::abs(start.u * first.v), std::abs(start.v * first.u)))) {
+    // Across a ray the state is as smooth as the law, so the gradient is the mean of two gradients beside the ray.
+    for (double aside = 3 * clear; aside < 0.01; aside *= 3) {
+      const State below{start.u, start.v * (1 - aside)}, above{start.u, start.v * (1 + aside)};
+      const auto is_clear = [&](State beside) {
+        const Rate rate = system.field(beside);
+        return std::abs(beside.u * rate.v - beside.v * rate.u) > clear * std::abs(beside.v * rate.u);
+      };
+      if (!is_clear(below) || !is_clear(above)) continue;
+      InstantGradient one = instant_gradient(flow, below, tau), other = instant_gradient(flow, above, tau);
+      const auto mean = [](const InstantGradient::Part& a, const InstantGradient::Part& b, double value, double rate) {
+        return InstantGradient::Part{value, (a.by_u + b.by_u) / 2, (a.by_v + b.by_v) / 2, rate};
+      };
+      return {mean(one.u, other.u, at.u, last.u), mean(one.v, other.v, at.v, last.v),
+              mean(one.slip_length, other.slip_length, at.slip_length, at.v),
+              mean(one.turned, other.turned, at.turned, at.u)};
+    }
+    throw std::domain_error(fmt::format(
+        "instant_gradient: under law {} every k near that of u = {}, v = {} keeps what it is: no gradient by k",
+        system.law().name(), start.u, start.v));
+  }
+  // Two derivatives by the start are known: along (u, v), a scaling, and along the field, a delay.
+  const auto part = [&](double value, int degree, double rate, double later) {
+    const double scaled = degree * value - tau * rate;
+    return InstantGradient::Part{value, (scaled * first.v - start.v * later) / D,
+                                 (start.u * later - first.u * scaled) / D, rate};
+  };
+  return {part(at.u, 1, last.u, last.u), part(at.v, 1, last.v, last.v), part(at.slip_length, 2, at.v, at.v - start.v),
+          part(at.turned, 2, at.u, at.u - start.u)};
+}
+
+namespace {
+
+using std::numbers::pi;
+
+OrbitPoint at_beta(const Orbit& orbit, double mu, State start, double beta) {
+  if (!(beta >= 0)) throw std::domain_error(fmt::format("at_beta: beta must be >= 0, got {}", beta));
+  const double stop = orbit.stop_time();
+  if (beta == 0) return orbit.at_time(0);
+  OrbitPoint found = orbit.at_time_left(0);
+  if (std::isinf(beta) || stop == 0) return found;
+  if (orbit.on_axis()) {
+    // The speed that is not 0 falls linearly. In dtau = weight dbeta the weight is proportional to the square of this
+    // speed. If the share f of the time is left, beta is (1 - f)/f times its value at f = 1/2.
+    const double spent = beta / orbit.at_time_left(stop / 2).beta;
+    if (std::isfinite(spent)) found = orbit.at_time_left(stop / (1 + spent));
+  } else {
+    // Towards the stop beta grows like 1/(time left), so ln beta is nearly linear in ln (time left).
+    const double unit = 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v);
+    const auto at = [&](double ln_share) { return orbit.at_time_left(std::min(stop * std::exp(ln_share), stop)); };
+    const auto missing = [&](double ln_share) { return std::log(beta + unit) - std::log(at(ln_share).beta + unit); };
+    constexpr double last = -700;  // a smaller share of the time underflows
+    double low = -1;
+    while (low > last && missing(low) > 0) low = std::max(2 * low, last);
+    found = at(root_between(missing, low, 0, missing(low), std::log(beta + unit) - std::log(unit)));
+  }
+  found.beta = beta;
+  return found;
+}
+
+}  // namespace
+
+OrbitPoint at_beta(const Flow& flow, State start, double beta) {
+  return at_beta(flow.orbit(start), flow.system().mu(), start, beta);
+}
+
+OrbitColumns at_betas(const Flow& flow, State start, const Eigen::ArrayXd& betas) {
+  const Orbit orbit = flow.orbit(start);
+  OrbitColumns columns(betas.size());
+  for (Eigen::Index i = 0; i < betas.size(); ++i) {
+    columns.set(i, at_beta(orbit, flow.system().mu(), start, betas[i]));
+  }
+  return columns;
 }
 
 }  // namespace contensou::reduction

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-/// Linear algebra of matrices of any size. One source alone compiles Eigen's templates, because this takes seconds.
 namespace contensou::reduction {
 
 /// The singular value decomposition U diag(values) V^T of a matrix, with thin U and V.
@@ -29,5 +28,8 @@ Eigen::MatrixXd echelon(Eigen::MatrixXd basis);
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);
 Eigen::VectorXd product(const Eigen::MatrixXd& left, const Eigen::VectorXd& right);
+
+/// Returns exp(A) of a real 2 x 2 matrix. For a diagonal matrix each entry is accurate to its last bits.
+Eigen::Matrix2d matrix_exponential(const Eigen::Matrix2d& matrix);
 
 }  // namespace contensou::reduction

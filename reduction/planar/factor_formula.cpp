@@ -1,7 +1,7 @@
 // V and H as formulas. The functions of V's form have names. The null vectors of README (R64) in these functions
 // are brought to row echelon form. The entries are rational if V has rational coefficients. They are rounded to
 // fractions, and the misfit (R66) is computed with the fractions.
-#include "planar/factor_formula.hpp"
+#include "planar/inverse_factor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "numerics/decomposition.hpp"
-#include "planar/inverse_factor.hpp"
 
 namespace contensou::reduction {
 

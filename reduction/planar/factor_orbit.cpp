@@ -1,7 +1,7 @@
 // An orbit of f = (F, G) is a level line of H, dH = (F dv - G du)/V, computed part by part, README (R67), (R68). There
 // are no steps in time. A part is a curve w(s): one coordinate w as a function of the other, s, moved onto the level by
 // Newton's method. The time is the integral of ds/F (ds/G if s is v).
-#include "planar/factor_orbit.hpp"
+#include "planar/inverse_factor.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -14,10 +14,10 @@
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
+#include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/legendre_series.hpp"
 #include "numerics/linear_ode.hpp"
-#include "numerics/matrix_exponential.hpp"
 #include "planar/region.hpp"
 #include "planar/reversal.hpp"
 

@@ -11,8 +11,6 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "planar/factor_formula.hpp"
-#include "planar/factor_orbit.hpp"
 #include "planar/inverse_factor.hpp"
 #include "planar/solution.hpp"
 

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +12,7 @@
 
 #include "contensou/reduction/planar_reduction.hpp"
 #include "planar/section_field.hpp"
+#include "planar/solution.hpp"
 
 namespace contensou::reduction {
 
@@ -130,5 +133,20 @@ struct FactorFit {
 
 /// Returns the best V of this form; empty if all functions of the form vanish.
 std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples);
+
+/// Returns the inverse integrating factor V and the first integral H of a system as formulas. V is a sum with rational
+/// coefficients of monomials in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of
+/// the field's own basis.
+///
+/// @param field  field whose V is such a sum
+FactorFormula recognised(const SmoothField& field, const Eigen::Vector2d& start);
+
+/// Follows the orbit through the start, a level line of the first integral H, to its end.
+/// @param cleared  true if V was fitted for the product of the field and its denominator
+/// @param factor  inverse integrating factor in a box about `start`
+/// @param most_work  number of evaluations of the field after which the end is left undecided
+/// @param unit    length by which u and v are divided in all arguments; the motion has no units
+std::shared_ptr<const PlanarOrbit::Motion> follow(const SmoothField& field, bool cleared, const InverseFactor& factor,
+                                                  const Eigen::Vector2d& start, double unit, int most_work);
 
 }  // namespace contensou::reduction

@@ -9,7 +9,6 @@
 #include "contensou/reduction/detail/root.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
-#include "numerics/matrix_exponential.hpp"
 
 namespace contensou::reduction {
 

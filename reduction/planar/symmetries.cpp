@@ -16,7 +16,6 @@
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/differences.hpp"
-#include "numerics/matrix_exponential.hpp"
 
 namespace contensou::reduction {
 
