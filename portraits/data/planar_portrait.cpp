@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -67,16 +68,40 @@ std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
   return parts;
 }
 
-/// Traces orbits: with a scaling along the directions q, otherwise forwards and backwards in time.
+/// Traces orbits in a window.
 class PlanarTracer {
  public:
   PlanarTracer(const PlanarReduction& plane, const Window& window)
-      : plane_(plane), window_(window), panel_(panel_of(window)) {
-    if (plane.scaling() == nullptr) {
-      const PlanarReduction forth = reduction::by_steps(plane.field());
-      ways_ = {{plane, forth}, {plane.reversed(), forth.reversed()}};
-      return;
-    }
+      : plane_(plane), window_(window), panel_(panel_of(window)) {}
+  PlanarTracer(const PlanarTracer&) = delete;
+  PlanarTracer& operator=(const PlanarTracer&) = delete;
+  virtual ~PlanarTracer() = default;
+
+  /// Returns the parts in the window of the orbit through a point, or of its part after the point.
+  std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
+    return parts_of(line(x, from_here), window_, [this](const Vector2d& at) { return time_left(at); });
+  }
+
+  /// Returns the number of the sector that contains a point, 0 without sectors; empty if the field has no value.
+  virtual std::optional<std::size_t> sector(const Vector2d& x) const = 0;
+
+  /// Returns the lines of equal time left, and the finite times left on the border of the window, increasing.
+  virtual std::vector<Isochrone> isochrones(const std::vector<double>&) const { return {}; }
+  virtual std::vector<double> times_at_border() const { return {}; }
+
+ protected:
+  virtual Polyline line(const Vector2d& x, bool from_here) const = 0;
+  virtual double time_left(const Vector2d&) const { return infinity; }
+
+  const PlanarReduction& plane_;
+  Window window_;
+  Panel panel_;
+};
+
+/// Traces orbits along the directions q of a scaling: each orbit is a scaled copy of the curve of its sector.
+class ScaledTracer final : public PlanarTracer {
+ public:
+  ScaledTracer(const PlanarReduction& plane, const Window& window) : PlanarTracer(plane, window) {
     constexpr int pieces = 100;
     for (int i = 0; i < 4 * pieces; ++i) {
       const double s = static_cast<double>(i % pieces) / pieces;
@@ -95,18 +120,8 @@ class PlanarTracer {
     if (plane.turn() != nullptr) read_turn();
   }
 
-  /// Returns the parts in the window of the orbit through a point, or of its part after the point.
-  std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
-    if (plane_.scaling() && x == plane_.centre()) return {};
-    return parts_of(plane_.scaling() ? line(x, from_here) : motion(x, from_here), window_,
-                    [this](const Vector2d& at) { return time_left(at); });
-  }
-
-  /// Returns the number of the sector that contains a point, 0 without sectors; empty if the field has no value.
-  std::optional<std::size_t> sector(const Vector2d& x) const {
-    if (!has_value(x)) return std::nullopt;
-    if (!plane_.scaling()) return 0;
-    if (x == plane_.centre()) return std::nullopt;
+  std::optional<std::size_t> sector(const Vector2d& x) const override {
+    if (!has_value(x) || x == plane_.centre()) return std::nullopt;
     const double q = plane_.canonical(x).q;
     const std::vector<PlanarSector>& sectors = plane_.sectors();
     for (std::size_t i = 0; i < sectors.size(); ++i) {
@@ -117,8 +132,7 @@ class PlanarTracer {
     return std::nullopt;
   }
 
-  /// Returns the lines of equal time left.
-  std::vector<Isochrone> isochrones(const std::vector<double>& times) const {
+  std::vector<Isochrone> isochrones(const std::vector<double>& times) const override {
     const double c = plane_.scaling()->time;
     std::vector<Isochrone> result;
     if (c == 0 || times.empty()) return result;
@@ -152,31 +166,7 @@ class PlanarTracer {
     return result;
   }
 
-  /// Returns the orbits that leave or enter the saddles, from points just beside the saddles.
-  std::vector<PortraitOrbit> separatrices(const reduction::Equilibria& equilibria) const {
-    std::vector<PortraitOrbit> all;
-    for (const reduction::Equilibrium& saddle : equilibria.points) {
-      // A saddle with an eigenvalue 0 has separatrices, too, but not all are tangent to eigenvectors that are known.
-      if (saddle.kind != "saddle" || !saddle.eigenvalues) continue;
-      const auto [stable, unstable] = *saddle.eigenvalues;
-      if (stable == 0. || unstable == 0.) continue;
-      for (const double value : {stable.real(), unstable.real()}) {
-        const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
-        Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
-                                                                 : Vector2d(-rest(1, 1), rest(1, 0));
-        constexpr double beside = 1e-6;
-        along *= beside / along.cwiseQuotient(window_.sides()).norm();
-        for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
-          if (!sector(x)) continue;
-          std::ranges::move(orbit(x), std::back_inserter(all));
-        }
-      }
-    }
-    return all;
-  }
-
-  /// Returns the finite times left on the border of the window, increasing.
-  std::vector<double> times_at_border() const {
+  std::vector<double> times_at_border() const override {
     std::vector<double> times;
     for (const Vector2d& x : border_) {
       if (has_value(x) && std::isfinite(time_left(x))) times.push_back(time_left(x));
@@ -192,15 +182,13 @@ class PlanarTracer {
   }
   bool has_value(const Vector2d& x) const {
     try {
-      if (!plane_.scaling()) return plane_.field()(x).allFinite();
       plane_.end_time(x);
       return true;
     } catch (const std::exception&) {
       return false;
     }
   }
-  double time_left(const Vector2d& x) const {
-    if (!plane_.scaling()) return infinity;
+  double time_left(const Vector2d& x) const override {
     try {
       // A picture shows one kind of times: to the centre, or to infinity if motions become slower with distance.
       const reduction::PlanarOrbit orbit = plane_.orbit(x);
@@ -220,7 +208,8 @@ class PlanarTracer {
     sense_ = plane_.field()(here).dot(next - here) > 0 ? 1 : -1;
   }
 
-  Polyline line(const Vector2d& x, bool from_here) const {
+  Polyline line(const Vector2d& x, bool from_here) const override {
+    if (x == plane_.centre()) return {};
     const auto [q, p, slope] = plane_.canonical(x);
     double integral = 0;
     try {
@@ -273,41 +262,21 @@ class PlanarTracer {
     return line;
   }
 
-  /// A system and its orbits by steps in time.
-  struct Way {
-    PlanarReduction plane, by_steps;
-  };
-
-  /// Returns the whole orbit through a point, or its part after the point, by steps in time.
-  Polyline motion(const Vector2d& x, bool from_here) const {
-    Polyline line;
-    if (!from_here) line = follow(ways_[1], x);
-    std::ranges::reverse(line);
-    line.push_back({x[0], x[1]});
-    std::ranges::copy(follow(ways_[0], x), std::back_inserter(line));
-    return line;
-  }
-  Polyline follow(const Way& way, const Vector2d& x) const;
-
   template <class OnOrbit>
   void follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const;
 
   Polyline spiral(double q, double p, double integral, bool from_here) const;
 
-  const PlanarReduction& plane_;
-  Window window_;
-  Panel panel_;
   std::vector<Vector2d> border_;
   double highest_ = -infinity, lowest_ = infinity;  ///< visible range of p
   std::vector<Course> courses_;
-  double growth_ = 0;      ///< change of p in a counter-clockwise turn
-  double sense_ = 1;       ///< 1: motions turn counter-clockwise, and q grows in time; -1: clockwise
-  std::vector<Way> ways_;  ///< forwards and backwards in time; only without a scaling
+  double growth_ = 0;  ///< change of p in a counter-clockwise turn
+  double sense_ = 1;   ///< 1: motions turn counter-clockwise, and q grows in time; -1: clockwise
 };
 
 /// Appends the orbit between two values of its parameter, such as x of Course, with visibly close points.
 template <class OnOrbit>
-void PlanarTracer::follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
+void ScaledTracer::follow(Polyline& line, const OnOrbit& on_orbit, double from, double to) const {
   const auto at = [&](double x) {
     const auto [q, p] = on_orbit(x);
     return point(q, std::clamp(p, lowest_ - 1, highest_ + 1));
@@ -329,7 +298,7 @@ void PlanarTracer::follow(Polyline& line, const OnOrbit& on_orbit, double from, 
   line.back() = at(to);
 }
 
-Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_here) const {
+Polyline ScaledTracer::spiral(double q, double p, double integral, bool from_here) const {
   if (q < 0) q += 2 * pi;
   // Returns q and p at an angle that continues over the turns.
   const auto on_orbit = [&](double angle) {
@@ -351,8 +320,43 @@ Polyline PlanarTracer::spiral(double q, double p, double integral, bool from_her
   return line;
 }
 
+/// Traces orbits forwards and backwards in time.
+class TimedTracer final : public PlanarTracer {
+ public:
+  TimedTracer(const PlanarReduction& plane, const Window& window)
+      : PlanarTracer(plane, window),
+        forth_{plane, reduction::by_steps(plane.field())},
+        back_{plane.reversed(), forth_.by_steps.reversed()} {}
+
+  std::optional<std::size_t> sector(const Vector2d& x) const override {
+    try {
+      if (plane_.field()(x).allFinite()) return 0;
+    } catch (const std::exception&) {
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// A system and its orbits by steps in time.
+  struct Way {
+    PlanarReduction plane, by_steps;
+  };
+
+  Polyline line(const Vector2d& x, bool from_here) const override {
+    Polyline line;
+    if (!from_here) line = follow(back_, x);
+    std::ranges::reverse(line);
+    line.push_back({x[0], x[1]});
+    std::ranges::copy(follow(forth_, x), std::back_inserter(line));
+    return line;
+  }
+  Polyline follow(const Way& way, const Vector2d& x) const;
+
+  Way forth_, back_;
+};
+
 /// Follows a motion until it is some window sides beyond the window, because it may return from nearer places.
-Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
+Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
   const Vector2d f = way.plane.field()(x);
   const Vector2d sides = window_.sides();
   const double speed = f.cwiseQuotient(sides).norm();
@@ -414,6 +418,30 @@ Polyline PlanarTracer::follow(const Way& way, const Vector2d& x) const {
     if (moved < rest && step * speed > 1e3) break;  // the motion tends to an equilibrium
   }
   return line;
+}
+
+/// Returns the orbits that leave or enter the saddles, from points just beside the saddles.
+std::vector<PortraitOrbit> separatrices(const PlanarTracer& tracer, const reduction::Equilibria& equilibria,
+                                        const Window& window) {
+  std::vector<PortraitOrbit> all;
+  for (const reduction::Equilibrium& saddle : equilibria.points) {
+    // A saddle with an eigenvalue 0 has separatrices, too, but not all are tangent to eigenvectors that are known.
+    if (saddle.kind != "saddle" || !saddle.eigenvalues) continue;
+    const auto [stable, unstable] = *saddle.eigenvalues;
+    if (stable == 0. || unstable == 0.) continue;
+    for (const double value : {stable.real(), unstable.real()}) {
+      const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
+      Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
+                                                               : Vector2d(-rest(1, 1), rest(1, 0));
+      constexpr double beside = 1e-6;
+      along *= beside / along.cwiseQuotient(window.sides()).norm();
+      for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
+        if (!tracer.sector(x)) continue;
+        std::ranges::move(tracer.orbit(x), std::back_inserter(all));
+      }
+    }
+  }
+  return all;
 }
 
 /// Returns orbits that fill the window. Each goes through the middle of the widest gap. If the mirror images of an
@@ -498,7 +526,13 @@ Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
 PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
   const Window window = window_of(plane, request);
   PlanarPortrait portrait{{window, {}, {}, 0, {}, {}, request.through}, std::move(name), plane};
-  const PlanarTracer tracer(portrait.plane, window);
+  std::unique_ptr<const PlanarTracer> traced;
+  if (plane.scaling() != nullptr) {
+    traced = std::make_unique<const ScaledTracer>(portrait.plane, window);
+  } else {
+    traced = std::make_unique<const TimedTracer>(portrait.plane, window);
+  }
+  const PlanarTracer& tracer = *traced;
   portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits);
   const auto asked = [&](const State& x, bool from_here) {
     plane.end(vector_of(x));  // throws for a point without a value
@@ -509,13 +543,12 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
   compare_kinds(portrait.equilibria, plane);
   if (plane.scaling() == nullptr) {
-    portrait.separatrices = tracer.separatrices(portrait.equilibria);
+    portrait.separatrices = separatrices(tracer, portrait.equilibria, window);
     for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
       for (const Polyline& line : zero_lines(piece, window.sides())) {
         portrait.invariant.push_back(columns(line, infinity));
       }
     }
-    return portrait;
   }
   const std::vector<double> times = tracer.times_at_border();
   if (!times.empty()) {
