@@ -10,7 +10,7 @@
 
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
-#include "data/regularised_time.hpp"
+#include "data/tracing.hpp"
 
 namespace contensou::portraits {
 

@@ -1,4 +1,4 @@
-#include "contensou/portraits/reduced_orbits.hpp"
+#include "contensou/portraits/reduction_figure.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "data/tracing.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -35,6 +37,22 @@ PortraitOrbit columns(const Polyline& line, double tau_left) {
   // A Point is two doubles in memory, so the line is a matrix of 2 rows.
   const Eigen::Map<const Eigen::Array2Xd> rows(&line.front().x, 2, static_cast<Eigen::Index>(line.size()));
   return {.u = rows.row(0), .v = rows.row(1), .tau_left = Eigen::ArrayXd::Constant(rows.cols(), tau_left)};
+}
+
+bool is_one_orbit(const reduction::Flow& flow, const PortraitOrbit& motion) {
+  constexpr double same = 1e-9;
+  const double stop = flow.orbit({motion.u[0], motion.v[0]}).stop_time();
+  return std::abs(motion.tau_left[0] - stop) <= same * stop;
+}
+
+Eigen::ArrayXd regularised_times(const reduction::Flow& flow, const PortraitOrbit& motion) {
+  if (!is_one_orbit(flow, motion)) return {};
+  const reduction::Orbit orbit = flow.orbit({motion.u[0], motion.v[0]});
+  Eigen::ArrayXd betas(motion.rows());
+  for (Eigen::Index row = 0; row < motion.rows(); ++row) {
+    betas[row] = row == 0 ? 0 : orbit.at_time_left(std::min(motion.tau_left[row], orbit.stop_time())).beta;
+  }
+  return betas;
 }
 
 }  // namespace contensou::portraits

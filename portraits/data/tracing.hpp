@@ -1,9 +1,10 @@
-// Helpers of the functions that compute portraits.
 #pragma once
 
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
@@ -42,5 +43,13 @@ void refine(std::vector<Place>& track, double from, const std::vector<double>& p
     open.pop_back();
   }
 }
+
+/// Returns true if a motion is one orbit of a flow and therefore has a regularised time. A ball that, under
+/// rolling friction, turns during only a part of its motion has several orbits.
+bool is_one_orbit(const reduction::Flow& flow, const PortraitOrbit& motion);
+
+/// Returns the regularised time beta (reduction::ReducedSystem) since the first state, for each state of an orbit, in
+/// the inverse of the unit of speed; infinity at the stop. Empty for a motion that is not one orbit.
+Eigen::ArrayXd regularised_times(const reduction::Flow& flow, const PortraitOrbit& motion);
 
 }  // namespace contensou::portraits

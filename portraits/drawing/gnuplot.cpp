@@ -1,6 +1,6 @@
 // All use of gnuplot. gnuplot-iostream writes the data of the script. It is not used to start gnuplot, because it does
 // not report that gnuplot is missing, fails or hangs.
-#include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/render.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,6 @@
 #include <nlohmann/json.hpp>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/portraits/pgfplots.hpp"
 #include "drawing/characters.hpp"
 #include "process/run_program.hpp"
 

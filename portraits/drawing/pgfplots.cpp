@@ -1,4 +1,4 @@
-#include "contensou/portraits/pgfplots.hpp"
+#include "contensou/portraits/render.hpp"
 
 #include <algorithm>
 #include <array>

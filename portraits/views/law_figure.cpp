@@ -1,4 +1,4 @@
-#include "contensou/portraits/law_figure.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "contensou/portraits/paper_figures.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 
 #include <cmath>
 #include <numbers>

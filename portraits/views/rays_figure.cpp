@@ -1,4 +1,4 @@
-#include "contensou/portraits/rays_figure.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 
 #include <algorithm>
 #include <cmath>

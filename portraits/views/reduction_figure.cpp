@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/portraits/reduced_orbits.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "views/palette.hpp"
 

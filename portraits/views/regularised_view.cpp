@@ -7,7 +7,7 @@
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "data/regularised_time.hpp"
+#include "data/tracing.hpp"
 #include "views/portrait_views.hpp"
 
 namespace contensou::portraits {

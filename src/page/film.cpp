@@ -5,7 +5,7 @@
 
 #include <emscripten/bind.h>
 
-#include "answers/figures/fit_figure.hpp"
+#include "answers/figures/figures.hpp"
 #include "answers/input/csv.hpp"
 #include "answers/input/track_file.hpp"
 #include "answers/verbs/fit_answer.hpp"

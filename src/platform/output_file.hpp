@@ -1,11 +1,35 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace contensou::platform {
+
+/// Convert a path from UTF-8 and to UTF-8. In Windows, std::filesystem expects another encoding in a plain string.
+inline std::filesystem::path path_of(const std::string& text) { return std::u8string(text.begin(), text.end()); }
+
+inline std::string text_of(const std::filesystem::path& path) {
+  const std::u8string text = path.u8string();
+  return {text.begin(), text.end()};
+}
+
+/// Creates and opens the unfinished file, which no other user can read. At most one such file exists at a time.
+///
+/// @param folder  folder of the file
+/// @param target  path of the finished file, as the user wrote it
+/// @param path    receives the path of the unfinished file
+/// @return  descriptor of the unfinished file, or -1 with errno
+int open_unfinished(const std::string& folder, const std::string& target, std::string& path);
+
+/// Must be called when the unfinished file is renamed or removed.
+void forget_unfinished();
+
+/// Removes the unfinished file. Async-signal-safe.
+/// @return  message about the file; null if there is none
+const char* remove_unfinished();
 
 /// Thrown if a file cannot be read or written, or gnuplot is missing or fails. The message contains name and reason.
 struct FileFailure : std::runtime_error {

@@ -4,9 +4,9 @@
 #include <variant>
 
 #include "answers/asked/portrait_spec.hpp"
-#include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
+#include "contensou/portraits/render.hpp"
 #include "contensou/si/scaling.hpp"
 #include "planar.hpp"
 

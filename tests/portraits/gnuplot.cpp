@@ -1,4 +1,4 @@
-#include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/render.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "contensou/portraits/paper_figures.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/portraits/gnuplot.hpp"
-#include "contensou/portraits/law_figure.hpp"
 #include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/render.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "../octic_law.hpp"
 #include "contensou/portraits/layout.hpp"
-#include "contensou/portraits/pgfplots.hpp"
+#include "contensou/portraits/render.hpp"
 #include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"

@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/render.hpp"
 #include "figures.hpp"
 
 using namespace contensou::portraits;

@@ -9,8 +9,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "contensou/portraits/gnuplot.hpp"
 #include "contensou/portraits/layout.hpp"
+#include "contensou/portraits/render.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
 

@@ -1,4 +1,4 @@
-#include "answers/figures/aim_figure.hpp"
+#include "answers/figures/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "answers/figures/fit_figure.hpp"
+#include "answers/figures/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

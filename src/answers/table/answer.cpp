@@ -10,7 +10,7 @@
 
 #include "answers/table/text_table.hpp"
 #include "contensou/portraits/json.hpp"
-#include "contensou/portraits/pgfplots.hpp"
+#include "contensou/portraits/render.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::answers {

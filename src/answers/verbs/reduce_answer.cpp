@@ -15,7 +15,7 @@
 #include "answers/asked/planar_system.hpp"
 #include "answers/input/message.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
-#include "contensou/portraits/reduced_orbits.hpp"
+#include "contensou/portraits/reduction_figure.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"

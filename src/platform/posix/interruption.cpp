@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include "platform/unfinished_file.hpp"
+#include "platform/output_file.hpp"
 
 namespace contensou::platform {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "answers/table/answer.hpp"
-#include "contensou/portraits/gnuplot.hpp"
+#include "contensou/portraits/render.hpp"
 #include "options/argument.hpp"
 
 namespace contensou::program {

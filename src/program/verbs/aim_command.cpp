@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "answers/figures/aim_figure.hpp"
+#include "answers/figures/figures.hpp"
 #include "answers/verbs/aim_answer.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"

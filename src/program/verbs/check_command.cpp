@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "answers/figures/check_figure.hpp"
+#include "answers/figures/figures.hpp"
 #include "answers/verbs/check_answer.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/verification.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "answers/asked/formula_law.hpp"
-#include "answers/figures/fit_figure.hpp"
+#include "answers/figures/figures.hpp"
 #include "answers/input/track_file.hpp"
 #include "answers/verbs/fit_answer.hpp"
 #include "contensou/fit/fit.hpp"

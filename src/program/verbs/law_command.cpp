@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "answers/input/csv.hpp"
-#include "contensou/portraits/law_figure.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/body.hpp"
 #include "options/figure_options.hpp"

@@ -10,17 +10,15 @@
 #include <fmt/format.h>
 
 #include "answers/table/text_table.hpp"
-#include "contensou/portraits/law_figure.hpp"
-#include "contensou/portraits/paper_figures.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "options/figure_options.hpp"
 #include "options/output_options.hpp"
 #include "paper/statements.hpp"
 #include "platform/interruption.hpp"
 #include "platform/output_file.hpp"
-#include "platform/path_text.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {

@@ -1,7 +1,7 @@
 #include <optional>
 
 #include "answers/verbs/phase_plane_answer.hpp"
-#include "contensou/portraits/rays_figure.hpp"
+#include "contensou/portraits/theory_figures.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/start_options.hpp"

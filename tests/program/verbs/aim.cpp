@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "answers/figures/aim_figure.hpp"
+#include "answers/figures/figures.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"

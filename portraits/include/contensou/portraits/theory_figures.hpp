@@ -1,11 +1,25 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/reduction/friction_law.hpp"
 
 namespace contensou::portraits {
+
+/// Draws Fig. 1 of V. F. Zhuravlev, 1998 (Zh98): the contact patch, the centre of velocity C outside it at the distance
+/// h = v/omega, and the polar coordinates (r, theta) about C of the paper's friction integral (1.2).
+Figure patch_drawing(const AskedSize& size = {});
+
+/// Draws Fig. 3 of the same paper: the ball on the plane, its axes and its contact patch.
+Figure ball_drawing(const AskedSize& size = {});
+
+/// Draws friction force Phi and moment Psi against k from 0 to 4, a line style per law (V. F. Zhuravlev, 1998, Fig. 2).
+Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
+
+/// Draws the limit surfaces of laws (force and moment at which a patch slips), and the ellipse (F/F0)^2 + (M/M0)^2 = 1.
+Figure limit_surface_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
 /// Draws, for a law (force Phi, moment Psi) and all r = gamma mu^2/chi, the limits of k = v/(mu |u|) in three panels:
 ///

@@ -10,7 +10,7 @@
 
 namespace contensou::portraits {
 
-/// File formats of a figure. gp is a gnuplot script with its data, tex is LaTeX (pgfplots.hpp), gif is a moving
+/// File formats of a figure. gp is a gnuplot script with its data, tex is LaTeX (function pgfplots), gif is a moving
 /// picture. gnuplot draws svg, pdf, png, eps and gif.
 enum class PictureFormat { svg, pdf, png, eps, gp, tex, gif };
 
@@ -49,5 +49,18 @@ std::string substitute_of(const std::string& font);
 /// Returns a moving picture as a GIF that repeats for ever, with 4 pixels per millimetre. Throws as render.
 /// @param frames  figures of one size, 25 for each second
 std::string render_film(const std::vector<Figure>& frames);
+
+/// Returns the figure as a LaTeX document for pdflatex, with its data inside.
+///
+/// The document needs the packages pgfplots and amsmath (Debian: texlive-pictures). A paper that loads both can take
+/// its tikzpicture. Coordinates have the units of the panel's axes; on a logarithmic axis they are powers of ten. If a
+/// side is outside the range of TeX's fixed point (0.2 to 500), the unit is multiplied by a power of ten. A comment
+/// beside the coordinates states the unit.
+/// @throws std::domain_error  for a panel with a ColourMap, which exceeds TeX's memory; as tex_text
+std::string pgfplots(const Figure& figure);
+
+/// Returns a text as TeX. Italics and indices become mathematics.
+/// @throws std::domain_error  for a character that is neither a Latin nor a Greek letter nor a known sign
+std::string tex_text(const Text& text);
 
 }  // namespace contensou::portraits
