@@ -1,72 +1,72 @@
-/** u = R omega_z is the speed of pivoting, v that of sliding, in any one unit; tau = (3 pi/2) f g t has that unit, too. */
+/** u = R omega_z: pivoting speed; v: sliding speed, both in any one unit. tau = (3 pi/2) f g t has this unit, too. */
 export interface State { u: number; v: number }
 
-/** What decides the plane of a body. */
+/** The numbers that determine the equations of motion. */
 export interface System {
-  /** Radius of the contact patch over that of the body, at most 1 for a ball; known of disc, puck and ring. */
+  /** Radius of the contact patch divided by that of the body, at most 1 for a ball; default 1 for disc, puck and ring. */
   mu?: number;
-  /** One of `laws`, with its number behind a colon where it has one, or formulas, as `phi = k/(1 + k); psi = 0.5/(1 + k)`. */
+  /** Name of one of `laws`, with a colon and a number for a law with a letter; or formulas, such as `phi = k/(1 + k); psi = 0.5/(1 + k)`. */
   law?: string;
-  /** One of `bodies`; default ball. */
+  /** Name of one of `bodies`; default ball. */
   body?: string;
-  /** 1 + m R^2/J and m R^2/J_z, in place of the body's. */
+  /** 1 + m R^2/J and m R^2/J_z, instead of those of the body. */
   chi?: number;
   gamma?: number;
-  /** A constant force along the slip, over f N. */
+  /** Constant force along the slip, divided by f N. */
   drive?: number;
 }
 
-/** One number, or an array of one number for each start. Anything else is a TypeError, such as "1" or a BigInt64Array. */
+/** One number, or an array with one number for each start. Other values, such as "1" or a BigInt64Array, throw a TypeError. */
 export type Numbers = number | ArrayLike<number>;
 
 export class Flow {
-  /** @throws Error in the library's words, also for an unknown option, with the nearest one */
+  /** @throws Error with the message of the library; for an unknown option, with the nearest one */
   constructor(system: System);
-  /** What k = v/(mu |u|) tends to. */
+  /** Limit of k = v/(mu |u|) at the stop. */
   readonly terminalRatio: number;
-  /** What that says of the end. */
+  /** Meaning of this limit in words. */
   readonly meaning: string;
-  /** tau until slip and spin have ended. */
+  /** Returns the time tau until slip and spin end. */
   stopTime(start: State): number;
-  /** The same for each of many starts; NaN where there is no start. A number belongs to each start. */
+  /** Returns the stop times of many starts; NaN for values that are no start. A single number applies to all starts. */
   stopTimes(starts: { u: Numbers; v: Numbers }): Float64Array;
-  /** From the start to the stop, columns. */
+  /** Returns the motion from the start to the stop as columns. */
   motion(start: State): { tau: Float64Array; u: Float64Array; v: Float64Array; lnV: Float64Array; k: Float64Array };
-  /** After tau; `force` is the friction against the slip, over f N. */
+  /** Returns the state after the time tau; `force` is the friction against the slip, divided by f N. */
   at(start: State, tau: number): State & { tau: number; k: number; force: number };
-  /** Every statement of the theory about this motion, as a number that must be small. */
+  /** Returns each statement of the theory about this motion as a number that must be small. */
   check(start: State): { name: string; measured: number; allowed: number; passed: boolean }[];
 }
 
 export function stopTime(start: System & State): number;
-/** mu may be an array, too. Each of its values costs 3 ms, all of its starts 3 us each. */
+/** mu may be an array, too. Each of its values costs 3 ms, each of its starts 3 us. */
 export function stopTimes(starts: Omit<System, "mu"> & { mu?: Numbers; u: Numbers; v: Numbers }): Float64Array;
 
-/** SI units. One of patch_radius, spin_deceleration and both moduli tells the patch; neither does, of what lies flat. */
+/** Fields of a ball in SI units. patch_radius, spin_deceleration or both moduli give the patch; a disc or ring needs none of them. */
 export interface BallFields {
   body?: string; law?: string; radius?: number; mass?: number; friction?: number; gravity?: number;
   patch_radius?: number; spin_deceleration?: number; youngs_modulus?: [number, number]; poisson_ratio?: [number, number];
   slip?: number; spin?: number;
 }
 
-/** m/s, rad/s; x along the slip, z up. */
+/** A start in m/s and rad/s; x along the slip, z up. */
 export interface Start { slip?: number; spin?: number; velocity?: [number, number]; angularVelocity?: [number, number, number] }
 
 export interface Roll {
-  /** s, until the slip is below rollingBelow; of what lies flat, until it rests. */
+  /** Time until the slip is below rollingBelow, or until a disc or ring rests, s. */
   slidesUntil: number;
-  /** m, of the centre until then. */
+  /** Path of the centre until then, m. */
   path: number;
-  /** Degrees by which the path has turned until then. */
+  /** Change of the direction of the path until then, degrees. */
   turned: number;
-  /** s, until slip and spin have ended. */
+  /** Time until slip and spin end, s. */
   stopTime: number;
-  /** Columns in SI units, dense at the beginning; with rolling friction where it rests. */
+  /** Returns columns in SI units, dense at the beginning; with rolling friction also time and place of rest. */
   motion(until?: number): Record<"t" | "x" | "y" | "vx" | "vy" | "wx" | "wy" | "wz" | "slip" | "energy", Float64Array> & { rest?: { t: number; x: number; y: number } };
 }
 
 export class Ball {
-  /** @throws Error in the library's words */
+  /** @throws Error with the message of the library */
   constructor(ball: string | BallFields, changes?: BallFields);
   readonly law: string;
   readonly mu: number;
@@ -79,5 +79,5 @@ export class Ball {
 
 export const laws: { name: string; meaning: string; letter?: string; example?: number }[];
 export const bodies: { name: string; chi: number; gamma: number; mu?: number }[];
-/** The built-in balls by their names; `patch` is what `patchBy` says. */
+/** The built-in balls by their names. `patchBy` is the name of the field that `patch` contains. */
 export const balls: Record<string, Required<Pick<BallFields, "body" | "law" | "radius" | "mass" | "friction" | "gravity" | "slip" | "spin">> & { title: string; sources: string; patchBy: string; patch: number }>;

@@ -1,4 +1,4 @@
-// The C++ library, compiled to WebAssembly. README.md says what there is, index.d.ts what each thing is.
+// The C++ library, compiled to WebAssembly. README.md lists the functions, index.d.ts describes each.
 import loadContensou from "./contensou.mjs";
 
 const wasm = new URL("contensou.wasm", import.meta.url);
@@ -14,7 +14,7 @@ const lawOfBody = { disc: "uniform", puck: "uniform", ring: "ring" };
 
 const ofStart = ["u", "v"];
 
-/** The error for a name that is none of the allowed ones. */
+/** Returns the error for an unknown name. */
 const noSuch = (kind, kinds, typed, names) =>
   new Error(`no such ${kind} '${typed}'${library.suggestion(String(typed), names)}; ${kinds}: ${names.join(", ")}`);
 

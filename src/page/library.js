@@ -1,4 +1,4 @@
-// The C++ library, compiled to WebAssembly; bindings.cpp says what each function answers, and throws what it rejects.
+// The C++ library, compiled to WebAssembly. The file bindings.cpp describes the result and the errors of each function.
 import loadContensou from "contensou";
 import { described } from "./plane/views.js";
 

@@ -1,4 +1,4 @@
-// The page: what the reader does changes the state, and the state is drawn.
+// The page. Actions of the reader change the state, and the page draws the state.
 import { Address } from "./state/address.js";
 import { makeBounce } from "./cards/bounce.js";
 import { makeCue } from "./cards/cue.js";
@@ -47,7 +47,7 @@ function start(library) {
     const { theme, embed, lab } = state;
     Object.assign(state, fromFragment(fragment, library), { theme, embed, lab });
   }, done);
-  // The question again, and the game.
+  // Buttons for the question and for the game.
   const toRound = (index) => go(rounds[index % rounds.length], () => {
     player.toggle(false);
     $("lanes").focus();
@@ -88,7 +88,7 @@ function start(library) {
     if (!player.playing || !moment) address.rememberSoon();
   };
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => store.ask(() => {}));
-  // Paper is light, and has the end.
+  // A printed page is light and shows the end of the motion.
   let screen;
   addEventListener("beforeprint", () => {
     const { theme, fraction } = store.state;
@@ -100,7 +100,7 @@ function start(library) {
   $("app").hidden = false;
   $("first-picture").remove();
   store.ask(() => {}, undefined, problems);
-  // Who opens the page is asked; a link to a moment shows that moment, other links play.
+  // Without a link, the page asks the question. A link to a moment shows this moment; other links play.
   if (store.moves && opens && !store.state.embed) hero.ask();
   else if (store.state.fraction === 0) player.begin();
   return { store, player, hero, plane, library, get state() { return store.state; } };

@@ -1,6 +1,6 @@
 // Numbers as people type and read them.
 
-/** The number that a text is. @throws {Error} with a sentence that says why it is none */
+/** Reads a number. @throws {Error} with the reason, if the text is no number */
 export function parseNumber(text) {
   const trimmed = text.trim().replace("−", "-");
   if (trimmed === "") throw new Error("a number is needed");
@@ -40,7 +40,7 @@ export function roundDown(x) {
   return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
 }
 
-/** An axis of powers of ten, in decades; where it has few, also of 2 and 5 times each. */
+/** Returns an axis of powers of ten, in decades. If they are few, 2 and 5 times each are added. */
 export function decades(low, high) {
   const few = high - low < 2.5;
   const step = Math.ceil((high - low) / 5);

@@ -6,7 +6,7 @@ const digitOf = (/** @type {number} */ code) => code - 33 - left.filter((other) 
 const digits = Uint8Array.from({ length: 127 }, (_, code) => Math.max(0, digitOf(code)));
 const letters = Array.from({ length: 127 }, (_, code) => code).filter((code) => code > 32 && !left.includes(code)).map((code) => String.fromCharCode(code));
 
-/** Their number, a space, and the bytes. */
+/** Returns the number of bytes, a space, and the bytes as text. */
 export function packed(/** @type {Uint8Array} */ bytes) {
   let [text, held, bits] = [`${bytes.length} `, 0, 0];
   const put = () => (text += letters[(held & 8191) % 91] + letters[Math.floor((held & 8191) / 91)]);

@@ -1,4 +1,4 @@
-// What the page's file begins with: it unpacks the other modules and the library, which are a third of their size in it.
+// The first script of the page. It unpacks the other modules and the library, which are compressed to a third of their size.
 import { $ } from "./dom.js";
 import { unpacked } from "./packing.js";
 import modules from "page.js.gz.txt";

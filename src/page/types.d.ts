@@ -1,4 +1,4 @@
-// What the modules hand to each other; the functions of the library are those of bindings.cpp.
+// Types of the values that modules exchange. The file bindings.cpp defines the functions of the library.
 
 type Store = import("./state/store.js").Store;
 type Player = import("./state/player.js").Player;
@@ -10,11 +10,11 @@ type Frame = import("./drawing/frame.js").Frame;
 type Controls = ReturnType<typeof import("./controls/fields.js").makeControls>;
 
 interface Speeds { u: number; v: number }
-/** A motion's. along, across: the velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it;
- *  heading: degrees to the left, in which it is seen to be thrown. */
+/** The start of a motion. along, across: velocity of a real ball's centre, m/s, in the direction of the slip and to the left of it;
+ *  heading: direction of the throw on the screen, degrees to the left. */
 interface Start extends Speeds { along: number; across: number; heading: number }
 
-/** page_state.js says what each means. */
+/** The state; page_state.js describes each member. */
 interface State {
   law: string; body: string; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
@@ -33,7 +33,7 @@ interface Body { name: string; chi: number; gamma: number; mu?: number }
 interface View { name: string; title: string; hint: string; layered: boolean }
 interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
 
-/** What one portrait is asked for by: portrait_request.js. */
+/** The request for a portrait, made by portrait_request.js. */
 interface PortraitRequest extends Pick<State, "law" | "mu" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
   chi: number; gamma: number; screen: boolean; linear: boolean; drive: number; orbits: Speeds[]; ball: object & Ball & { velocity: number[]; angular_velocity: number[] } | null;
 }
@@ -42,11 +42,11 @@ interface PortraitRequest extends Pick<State, "law" | "mu" | "chosen" | "view" |
 interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
 interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
 interface Instant extends Speeds { tau: number; k: number; force: number; places: Float64Array }
-/** SI: when it has ended, the path of the centre until then, and by how many degrees it has turned; when slip and spin have ended. */
+/** SI units. end: time when sliding ends; path: path of the centre until then; turned: change of its direction, degrees; stop: time when slip and spin end. */
 interface Slide { end: number; path: number; turned: number; stop: number }
-/** SI: normal speeds, and speeds along the floor. */
+/** SI units. down, up: normal speeds; before, after: speeds along the floor. */
 interface Rebound { down: number; up: number; before: number; after: number }
-/** Columns, SI. */
+/** Columns in SI units. */
 interface Ride {
   t: Float64Array; x: Float64Array; y: Float64Array; vx: Float64Array; vy: Float64Array; wx: Float64Array; wy: Float64Array; wz: Float64Array;
   slip: Float64Array; energy: Float64Array; rest?: { t: number; x: number; y: number };
@@ -67,7 +67,7 @@ interface Figure {
   title: Words; panels: Panel[]; ground: string; ink: string; faint: string; line: number; columns: number;
   colourBar?: { name: Words; colours: string[]; ticks: Tick[] };
 }
-/** In pixels; colours from the bottom up. */
+/** The layout in pixels. colours: boxes from the bottom up. */
 interface Layout {
   texts: { x: number; y: number; text: Words; size: number; align: string; turned: boolean; bold: boolean }[];
   panels: { box: Box; x: Tick[]; y: Tick[] }[];
@@ -87,10 +87,10 @@ interface Library {
   layOut(figure: Figure, width: number, height: number, letter: number): Layout;
   rowsOf(figure: { panels: unknown[]; columns: number; narrowest: number }, width: number): number;
 }
-/** The name of the ball, and columns in SI units: t, of each observable of the film what was measured and, with _fitted, what was found. */
+/** Columns in SI units: t, the measured values of each observable of a film and, with _fitted, the fitted values. */
 type Columns = Record<string, Float64Array>;
 interface Measured { ball: string; columns: Columns }
-/** SI: slip, spin, and the velocity of the centre along the slip and to the left of it. */
+/** SI units. slip, spin; along, across: velocity of the centre along the slip and to the left of it. */
 interface BallStart { slip: number; spin: number; along: number; across: number }
 interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; start: BallStart; figure: Figure }
 interface LibraryPlane {
@@ -109,7 +109,7 @@ interface LibraryPlane {
   isochrone(tau: number): Float64Array[];
 }
 
-/** An element of the page, of whatever kind: with what fields, lists, forms, details, tables, links and canvases have. */
+/** An element of the page, with the members of fields, lists, forms, details, tables, links and canvases. */
 interface PageElement extends HTMLElement {
   href: string; width: number; height: number; toBlob: HTMLCanvasElement["toBlob"];
   get value(): string; set value(value: string | number);

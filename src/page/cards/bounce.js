@@ -10,14 +10,14 @@ import { shotOf } from "../plane/portrait_request.js";
 import { tour } from "../state/presets.js";
 
 const highest = 1;      // m
-const haste = 3;        // times as soon as the motion on the table this one ends
-const mostTurned = 60;  // rad, by which the ball is seen to turn
+const haste = 3;        // the motion on the table lasts this many times as long as this one
+const mostTurned = 60;  // rad, largest angle by which the drawn ball turns
 
 const angleOf = ({ after, up }) => (Math.atan2(after, up) * 180) / Math.PI;
 
-/** @param {Store} store @param {Controls} controls @returns what draws it */
+/** @param {Store} store @param {Controls} controls @returns a function that draws the card */
 export function makeBounce(store, controls) {
-  /** The rebounds without spin and with it; else a message, which is empty while the card is not shown. @returns {Rebound[] | string} */
+  /** The rebounds without spin and with spin; or a message, which is empty while the card is hidden. @returns {Rebound[] | string} */
   const rebounds = () => {
     const { library, orbit, roller: ball, state: { law, drop, restitution, step } } = store;
     if (tour[step].shows !== "bounce") return "";

@@ -1,4 +1,4 @@
-// A cue. The dot on the ball, where its tip hits, follows from the start, and the reader who drags it makes another start.
+// A cue. The dot on the ball shows where the tip hits; it follows from the start. If the reader drags the dot, the start changes.
 import { $, write } from "../dom.js";
 import { listen } from "../drawing/gestures.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
@@ -12,10 +12,10 @@ const steepest = 80;  // degrees
 const degree = Math.PI / 180;
 
 /**
- * The stroke that gives a start to a ball at rest, as si::struck has it: speed in m/s, right and above in radii, elevation in degrees.
+ * Returns the stroke that gives a ball at rest a start, as si::struck: speed in m/s, right and above in radii, elevation in degrees.
  *
  * @param {Start} start
- * @param ball  gamma; masses: of the ball divided by that of the cue; elevation: without side spin any will do; offset: most of the tip, in radii
+ * @param ball  gamma; masses: mass of the ball divided by that of the cue; elevation: used if the start has no side spin; offset: largest offset of the tip, in radii
  * @returns null if no cue gives this start
  */
 export function strikeOf({ u, v, along, across }, { gamma, masses, elevation, offset }) {
@@ -37,7 +37,7 @@ function onBall(tip, offset) {
   return over > 1 ? tip.map((part) => ((1 - 1e-12) * part) / over) : tip;
 }
 
-/** @param {Store} store @param {Controls} controls @param {Player} player @returns picture: of the cue; start(): what the stroke gives */
+/** @param {Store} store @param {Controls} controls @param {Player} player @returns picture: picture of the cue; start(): start after the stroke */
 export function makeCue(store, controls, player) {
   let stroke = { speed: 2, right: 0, above: 0, elevation: 0 };
   let [isStruck, face, read] = [false, { x: 0, y: 0, radius: 1 }, /** @type {unknown} */ (null)];

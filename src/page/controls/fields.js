@@ -4,13 +4,13 @@ import { parseNumber } from "../numbers.js";
 import { allowed } from "../state/page_state.js";
 
 /**
- * A number field with its label, in `parent`. What is wrong with a number is said beside it.
+ * Makes a number field with its label in `parent`. A message beside the field tells why a number is wrong.
  *
- * @param use  called with a number that was typed; throws an Error whose message says why it will not do
+ * @param use  called with a typed number; throws an Error with the reason if the number is not allowed
  * @returns a function that shows a value from elsewhere, unless the reader is typing; undefined hides the field
  */
 export function numberField(parent, { key, label, use }) {
-  // Each key would be announced.
+  // A screen reader would read the output after each key.
   const output = make("output", { className: "error", id: `${key}-error`, ariaLive: "off" });
   const input = make("input", { className: "number", inputMode: "decimal", autocomplete: "off", name: key });
   const wrapper = make("label", {}, label, input, output);
@@ -29,7 +29,7 @@ export function numberField(parent, { key, label, use }) {
       say(error.message);
     }
   });
-  // What cannot be used does not stay.
+  // Replace a number that is not allowed by the last allowed one.
   input.addEventListener("change", () => {
     if (output.textContent === "") return;
     input.value = last;
@@ -45,7 +45,7 @@ export function numberField(parent, { key, label, use }) {
   };
 }
 
-/** Choices side by side, of which one is chosen. @param titles  of their names @returns shows the chosen one */
+/** Makes choices side by side. @param titles  titles by names @returns a function that shows the chosen one */
 export function choiceButtons(parent, titles, choose) {
   const inputs = Object.entries(titles).map(([name, title]) => {
     const input = make("input", { type: "radio", name: parent.id, value: name, onchange: () => choose(name) });
@@ -55,7 +55,7 @@ export function choiceButtons(parent, titles, choose) {
   return (name) => inputs.forEach((input) => (input.checked = input.value === name));
 }
 
-/** A finger that goes on to scroll has touched a slider by chance: that is taken back. */
+/** Restores a slider if a finger touched it only to scroll the page. */
 export function forgiveTouches(input) {
   let before = "";
   input.addEventListener("pointerdown", () => (before = input.value));
@@ -65,22 +65,22 @@ export function forgiveTouches(input) {
   });
 }
 
-/** @param titles  of the names of what can be chosen */
+/** Fills a list of choices. @param titles  titles by names */
 export function fillSelect(select, titles) {
   select.replaceChildren(...Object.entries(titles).map(([name, title]) => new Option(title, name)));
 }
 
-/** Controls of the state: each shows a value of it, and changes it. @param {Store} store */
+/** Makes controls, each of which shows and changes a value of the state. @param {Store} store */
 export function makeControls(store) {
   return {
-    /** A list of choices. @param of  (state): the name of the one that is chosen @param edit  (state, name) */
+    /** A list of choices. @param of  (state): name of the chosen one @param edit  (state, name) */
     choose(id, titles, of, edit) {
       fillSelect($(id), titles);
       $(id).addEventListener("change", () => store.ask((state) => edit(state, $(id).value)));
       store.shows.push((state) => ($(id).value = of(state)));
     },
 
-    /** A number with its label, in `parent`. @param of  (store): its value; hidden where it has none @param edit  (state, value) */
+    /** A number with its label, in `parent`. @param of  (store): its value, or undefined to hide the field @param edit  (state, value) */
     number(parent, key, label, of, edit) {
       const show = numberField(parent, { key, label, use: (value) => store.change((state) => edit(state, allowed(key, value))) });
       store.shows.push(() => show(of(store)));
@@ -89,9 +89,9 @@ export function makeControls(store) {
     /**
      * A slider.
      *
-     * @param of  (store): {share of its length, text, perhaps spoken and disabled}; hidden where there is none
+     * @param of  (store): {share of its length, text, perhaps spoken and disabled}, or nothing to hide the slider
      * @param edit  (state, share)
-     * @param parent  of the element around it
+     * @param parent  parent of the slider's element
      */
     slider(name, label, of, edit, parent = $("sliders")) {
       const input = make("input", { type: "range", min: 0, max: 1000, id: `${name}-slider` });

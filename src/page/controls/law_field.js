@@ -1,31 +1,31 @@
-// A choice among the laws, with a field for the number of a law that has one; and the reader's own pressure.
+// A list of the laws, with a field for the number of a law; the reader's own pressure is a law, too.
 import { $ } from "../dom.js";
 import { numberField, fillSelect } from "./fields.js";
 
-const table = "table:";  // what the name of a law begins with that is the reader's own; its CSV follows
-const longest = 6000;   // letters of it, which go with the link
+const table = "table:";  // prefix of the name of the reader's own law; its CSV follows
+const longest = 6000;   // letters of this CSV, which is part of the link
 
-/** Whether a law is formulas. */
+/** Returns true for a law of formulas. */
 const isFormula = (law) => law?.includes("=");
 
-/** What a law is called: a table by the file that the program would read. */
+/** Returns the name of a law; for a table, the file that the program would read. */
 export const lawTitle = (law) => (law?.startsWith(table) ? "pressure.csv" : law);
 
-/** The name of the law of a CSV with columns rho and pressure. @throws {Error} if it is too long */
+/** Returns the name of the law of a CSV with columns rho and pressure. @throws {Error} if the CSV is too long */
 export function lawOfTable(text) {
   if (text.length <= longest) return `${table}${text.replace(/^\ufeff/, "").trim()}`;
   throw new Error(`This page takes tables of at most ${longest} letters, because its link contains them. The program takes longer ones: --law FILE.csv.`);
 }
 
-/** The table of a law of lawOfTable, as the file that the program reads; null of any other. */
+/** Returns the table of a law made by lawOfTable, as the file that the program reads; null for another law. */
 export const tableOfLaw = (law) => (law.startsWith(table) ? `${law.slice(table.length)}\n` : null);
 
 /**
- * @param {string} id  of the list, and with -exponent of where the number's field goes
+ * @param {string} id  id of the list; with -exponent, id of the parent of the number's field
  * @param {Store} store
  * @param {{key: string, none?: string, use: (name: string | null) => void}} how
- *   none: the title of no law at all, if that is a choice;
- *   use: called with what a law is called, or null for none; throws an Error whose message says why it will not do
+ *   none: title of the choice of no law, if there is this choice;
+ *   use: called with the name of a law, or null for none; throws an Error with the reason if the law is not allowed
  */
 export function lawField(id, store, { key, none, use }) {
   const { laws } = store.library;

@@ -17,14 +17,14 @@ export function makeOrbits(store, plane) {
     discard.addEventListener("click", () => {
       const removed = index();
       plane.removeOrbit(removed);
-      // The focus stays near the one that is gone.
+      // The focus stays near the removed orbit.
       const next = list.children[Math.min(removed, list.children.length - 1)];
       /** @type {HTMLElement} */ (next?.querySelector(".remove") ?? form.elements.u).focus();
     });
     return entry;
   }
 
-  /** Of a real ball the spin is asked for, else the reduced speeds. */
+  /** Shows fields for slip and spin of a real ball, else for the reduced speeds. */
   const titles = () => (store.state.ball ? { u: "spin (rad/s)", v: "slip (m/s)" } : { u: "u₀", v: "v₀" });
   form.addEventListener("submit", (event) => {
     event.preventDefault();

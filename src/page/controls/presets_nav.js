@@ -1,9 +1,9 @@
-// The links to motions worth seeing; what is to be seen in one stands below them.
+// Links to motions worth seeing, with a sentence about the chosen one below them.
 import { $, make, write } from "../dom.js";
 import { fromFragment, toFragment } from "../state/page_state.js";
 import { presets } from "../state/presets.js";
 
-/** What a link says of the motion alone. */
+/** Returns the part of a link that describes the motion. */
 const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, lab: false });
 
 /** @param {Store} store @param go  called with the fragment of a preset */

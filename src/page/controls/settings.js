@@ -1,4 +1,4 @@
-// What moves, and on what: ball, body and law, what the plane shows, the sliders, and the card of a real ball.
+// Controls for ball, body and law, for the contents of the plane, the sliders, and the card of a real ball.
 import { $, isStill, make, write } from "../dom.js";
 import { choiceButtons } from "./fields.js";
 import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
@@ -101,7 +101,7 @@ function makeChoices(controls, store, plane) {
 
 /** @param {Controls} controls @param {Store} store @param {Plane} plane */
 function makeSliders(controls, store, plane) {
-  /** What the sliders of slip and spin go to: they do not move under the reader's hand. */
+  /** Returns the upper ends of the sliders of slip and spin. These ends stay constant while the reader holds a slider. */
   const most = ({ ball }) => {
     const built = store.library.balls.find(({ name }) => name === ball?.name);
     return built ? { slip: Math.max(2, 2 * built.slip), spin: 500 } : { slip: 5, spin: 5 };

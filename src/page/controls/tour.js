@@ -1,4 +1,4 @@
-// The tour: steps side by side that scroll by; the one that has come to rest is what the page shows.
+// The tour: steps side by side that scroll. The page shows the step at which scrolling ends.
 import { $, isStill, make } from "../dom.js";
 import { tour } from "../state/presets.js";
 
@@ -23,7 +23,7 @@ export function makeTour(store, go) {
   store.shows.push(({ step }) => {
     back.disabled = step === 0;
     on.disabled = step >= tour.length - 1;
-    // At once: a slow machine would pause on the way, and show the step that it has reached.
+    // Scroll at once: a slow machine would pause on the way and show another step.
     if (step !== at) to(at = step, "instant");
   });
 }

@@ -1,38 +1,38 @@
-// Figures: of the library (portraits/figure.hpp), laid out by it, or of the page with the same fields. And the portrait, with
-// what the page draws itself in it: the reader's own orbits in colours of their own, the moving point, the isochrone that
-// is dragged.
+// Figures of the library (portraits/figure.hpp), and figures of the page with the same fields. The library computes the layout.
+// The page itself draws parts of the portrait: the reader's own orbits in colours of their own, the moving point, and the
+// isochrone that is dragged.
 import { Frame } from "./frame.js";
 import { plain } from "./runs.js";
 import { borderOf, widthOf } from "./surface.js";
 
 const lineWidth = 0.9;  // pixels of a line of width 1
 const dash = [5, 4];
-const tickSize = 0.9;      // of the letters
-const leastWidth = 15.5;  // of a panel with its numbers, in letters
+const tickSize = 0.9;      // size of ticks' texts, in letters
+const leastWidth = 15.5;  // width of a panel with its numbers, in letters
 
-/** A panel of the page's own. @param {object} x {low, high} and perhaps {name, ticks} @param {object} y as x @returns {Panel} */
+/** Makes a panel of the page. @param {object} x {low, high} and perhaps {name, ticks} @param {object} y as x @returns {Panel} */
 export const panelOf = (title, x, y, lines = /** @type {Partial<Lines>[]} */ ([]), marks = /** @type {Partial<Marks>[]} */ ([])) => ({
   title, x: { name: "", ticks: [], ...x }, y: { name: "", ticks: [], ...y }, arrows: [], regions: [], labels: [], bare: false, toScale: false,
   lines: lines.map((line) => /** @type {Lines} */ ({ width: 1.5, dashed: false, legend: "", ...line })),
   marks: marks.map((mark) => /** @type {Marks} */ ({ size: 1, shape: "dot", legend: "", ...mark })),
 });
 
-/** A figure of the page's own. @param shape  columns, the most, and narrowest, the pixels that a panel needs beside others @param {Panel[]} panels @returns {Figure} */
+/** Makes a figure of the page. @param shape  columns: largest number; narrowest: least width of a panel beside others, pixels @param {Panel[]} panels @returns {Figure} */
 export const figureOf = (theme, shape, panels) => ({ title: "", ...shape, panels, ground: theme.card, ink: theme.ink, faint: theme.soft, line: 1 });
 
 /**
- * @param {unknown[]} keys      what the figure depends on
+ * @param {unknown[]} keys      values on which the figure depends
  * @param {() => Figure} make
  * @param {Store} store
- * @param covered   something that moves is drawn over it
- * @param labelled  else what lies over its lines is drawn later
- * @returns {Frame[]} of the panels
+ * @param covered   true: moving parts are drawn over the figure
+ * @param labelled  false: the caller draws marks and labels later, over further lines
+ * @returns {Frame[]} frames of the panels
  */
 export function drawFigure(surface, keys, make, store, { covered = true, labelled = true } = {}) {
   const { library, theme } = store;
   return surface.still([...keys, theme], theme.card, () => {
     const figure = make();
-    // Where panels are narrow, letters are small.
+    // Narrow panels have small letters.
     const letter = Math.min(theme.textSize, (surface.width * library.rowsOf(figure, surface.width)) / figure.panels.length / leastWidth);
     const layout = library.layOut(figure, surface.width, surface.height, letter);
     const style = { colour: figure.ink, baseline: "middle" };
@@ -43,7 +43,7 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
       if (!panel.bare) drawAxes(surface, frame, layout.panels[i], figure.faint, tickSize * letter);
       if (labelled) drawLabels(surface, figure, panel, frame);
     });
-    // From the bottom up.
+    // The boxes stand from the bottom up.
     layout.colours.forEach((box, i) => surface.shape([borderOf(box)], { fill: figure.colourBar?.colours[i] }));
     for (const { legend, x, y, width } of layout.legend) {
       const named = ({ legend: other }) => plain(other) === plain(legend);
@@ -65,7 +65,7 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
  * @typedef {OwnOrbit & {index: number, chosen: boolean, start: Float64Array}} Drawn  start: x and y in each panel
  * @param {{figure: Figure, own: Drawn[], isochrone: Float64Array[] | null, marker: {places: Float64Array, index: number} | null,
  *   cross: {panel: number, x: number, y: number} | null, ghosts: OwnOrbit[]}} scene  ghosts: of a pull
- * @returns {Frame[]} of the panels
+ * @returns {Frame[]} frames of the panels
  */
 export function drawPortrait(surface, scene, store) {
   const { figure, isochrone, marker, cross, ghosts } = scene;
@@ -91,7 +91,7 @@ export function drawPortrait(surface, scene, store) {
   return frames;
 }
 
-/** Points and words, which lie over lines. */
+/** Draws marks and labels, which lie over lines. */
 function drawLabels(surface, figure, { marks, labels }, frame) {
   for (const layer of marks) drawMarks(surface, figure, layer, frame.lines(layer.points).flat());
   for (const { x, y, text, colour, align } of labels) {
@@ -122,7 +122,7 @@ function drawLayers(surface, figure, panel, frame) {
   for (const { arrows, colour } of panel.arrows) surface.shape(headsOf(frame, arrows, 7.5), { fill: colour });
 }
 
-/** The heads of arrows, x and y of the tip and of the direction in turn. */
+/** Returns the heads of arrows. @param arrows  x and y of the tip and of the direction in turn */
 function headsOf(frame, arrows, length) {
   const heads = [];
   for (let i = 0; i < arrows.length; i += 4) {

@@ -2,7 +2,7 @@
 
 /** @typedef {{low: number, high: number}} Range */
 export class Frame {
-  /** @param {Box} place @param {Range} x @param {Range} y @param letter  the size of words in it */
+  /** @param {Box} place @param {Range} x @param {Range} y @param letter  size of its letters, pixels */
   constructor(place, x, y, letter = 0) {
     this.left = place.left;
     this.top = place.top;
@@ -21,18 +21,18 @@ export class Frame {
     return this.top + ((this.y.high - value) / (this.y.high - this.y.low)) * this.height;
   }
 
-  /** Where a point of a flat column is. */
+  /** Returns the pixel of a point of a flat column. */
   pixel(/** @type {ArrayLike<number>} */ points, at = 0) {
     return [this.px(points[at]), this.py(points[at + 1])];
   }
 
-  /** Whether a pixel is in the frame, its border included. */
+  /** Returns true if a pixel lies in the frame or on its border. */
   contains(pixelX, pixelY) {
     const near = (value, from, size) => value >= from - 1 && value <= from + size + 1;
     return near(pixelX, this.left, this.width) && near(pixelY, this.top, this.height);
   }
 
-  /** The numbers at a pixel, kept inside the frame. */
+  /** Returns the numbers at a pixel, or at the nearest pixel of the frame. */
   at(pixelX, pixelY) {
     const within = (fraction) => Math.min(1, Math.max(0, fraction));
     return {
@@ -41,7 +41,7 @@ export class Frame {
     };
   }
 
-  /** The lines through a flat column of points x0, y0, x1, y1, ..., in pixels; what is not finite lies between two lines. */
+  /** The lines through a flat column of points x0, y0, x1, y1, ..., in pixels; NaN separates two lines. */
   lines(/** @type {ArrayLike<number>} */ points) {
     /** @type {number[]} */
     let line = [];

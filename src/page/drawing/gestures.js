@@ -1,13 +1,13 @@
-// What fingers, mouse and keys do on a canvas, in its pixels.
+// Actions of fingers, mouse and keys on a canvas, in its pixels.
 
 const slack = 6;    // pixels that a finger may move and still tap
-const notch = 800;  // pixels that the wheel turns by for a radian
+const notch = 800;  // pixels of the wheel for one radian
 
 /**
- * @param on  hold(x, y, kind): what lies there and can be pulled, or null; pull(x, y, held, from), release(), cancel(), turn(radians, held) of
- *            what is held, or lies under the wheel, to the left; tap(x, y, kind), drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(),
- *            isochrone(), clear(), remove(), zoom(factor); kind is "mouse" or "touch", and move has steps of 1. All but hold
- *            may be missing
+ * @param on  functions that are called. hold(x, y, kind) returns the object there that can be pulled, or null. turn(radians, held) turns this
+ *            object, or the one under the wheel, to the left. The others are pull(x, y, held, from), release(), cancel(), tap(x, y, kind),
+ *            drag(x, y), point(x, y), leave(), move(dx, dy), panel(), enter(), isochrone(), clear(), remove(), zoom(factor). kind is
+ *            "mouse" or "touch"; move has steps of 1. All except hold may be missing
  */
 export function listen(canvas, on) {
   const fingers = new Map();
@@ -19,7 +19,7 @@ export function listen(canvas, on) {
     const [[ax, ay], [bx, by]] = [...fingers.values()];
     return [Math.hypot(ax - bx, ay - by), Math.atan2(ay - by, bx - ax)];
   };
-  /** Whether what is held can be turned. */
+  /** Returns true if the held object can be turned. */
   const turns = () => on.turn && start !== null && start.held !== null;
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
@@ -31,7 +31,7 @@ export function listen(canvas, on) {
   });
   canvas.addEventListener("pointermove", (event) => {
     const [x, y] = place(event);
-    // A button that was released where no page hears of it.
+    // The button was released outside the page, which gets no event there.
     if (event.buttons === 0) lose(event);
     if (fingers.has(event.pointerId)) fingers.set(event.pointerId, [x, y]);
     if (fingers.size === 2) {
@@ -53,7 +53,7 @@ export function listen(canvas, on) {
   });
   const lift = (event, use = (/** @type {typeof start} */ _) => {}) => {
     fingers.delete(event.pointerId);
-    // A second finger that is lifted lets nothing go.
+    // Lifting a second finger does not release the object.
     if (turns() && start.id !== event.pointerId) return;
     use(start);
     start = null;

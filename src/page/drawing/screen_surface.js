@@ -1,4 +1,4 @@
-// A canvas of the page: of the size that the layout gives it, sharp, and drawn where it is seen.
+// A canvas of the page. It has the size of its place in the layout and the pixels of the screen, and is drawn only in sight.
 import { borderOf, CanvasSurface } from "./surface.js";
 
 const smallestWidth = 120;  // pixels; a hidden or minimised page has none
@@ -6,7 +6,7 @@ const smallestWidth = 120;  // pixels; a hidden or minimised page has none
 /** A canvas of the page. */
 export class ScreenSurface extends CanvasSurface {
   inSight = true;
-  late = false;  // what is there now has still to be drawn
+  late = false;  // true: it must be drawn when it comes into sight
   /** @type {{key: unknown[], value?: unknown, picture?: HTMLCanvasElement}[]} pictures of `still`, each with the next in it */
   kept = [];
   depth = 0;
@@ -26,7 +26,7 @@ export class ScreenSurface extends CanvasSurface {
     }, { rootMargin: "100px" }).observe(canvas);
   }
 
-  /** Asks the page for the size, which lays the page out. */
+  /** Reads the size. The browser then computes the layout of the page. */
   measure() {
     this.width = this.canvas.clientWidth;
     this.height = this.canvas.clientHeight;
@@ -47,22 +47,22 @@ export class ScreenSurface extends CanvasSurface {
     if (this.width >= smallestWidth) this.picture(this);
   }
 
-  /** Draws; where the reader has scrolled away from it, when he comes back. */
+  /** Draws now, or, if the canvas is out of sight, when it comes into sight. */
   drawInSight() {
     if (this.inSight) this.draw();
     else this.late = true;
   }
 
   /**
-   * Begins a picture with its ground and what stays while only the moment moves: a copy, unless something in `keys` has
-   * changed. In `draw` another may begin, which stays for longer.
+   * Draws the ground and the parts of a picture that do not move. If no value of `keys` has changed, a copy is drawn. The
+   * function `draw` may call `still` for parts that change less often.
    *
    * @template Value
    * @param {unknown[]} keys
    * @param {string} ground
    * @param {() => Value} draw
-   * @param {boolean} covered  something that moves is drawn over it
-   * @returns {Value} what `draw` has returned
+   * @param {boolean} covered  true: moving parts are drawn over it
+   * @returns {Value} result of `draw`
    */
   still(keys, ground, draw, covered = true) {
     const { canvas, context } = this;
@@ -84,7 +84,7 @@ export class ScreenSurface extends CanvasSurface {
         this.depth -= 1;
       }
     }
-    // What changes at each drawing is not worth a copy.
+    // A picture that changes at each drawing needs no copy.
     if (again && !kept.picture) {
       kept.picture = Object.assign(document.createElement("canvas"), size);
       kept.picture.getContext("2d")?.drawImage(canvas, 0, 0);

@@ -1,6 +1,6 @@
-// What figures are drawn on: a canvas, or the text of an SVG file. Both take pixels, x to the right and y down.
+// Surfaces for figures: a canvas, or the text of an SVG file. Both take pixels, x to the right and y down.
 //
-// A line is a flat array x0, y0, x1, y1, ...; a text is as runs.js says.
+// A line is a flat array x0, y0, x1, y1, ...; the type of a text is in runs.js.
 import { runsOf } from "./runs.js";
 
 const fonts = 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
@@ -12,7 +12,7 @@ const scriptShift = { 1: -0.38, 0: 0, "-1": 0.24 };  // of an index or a power, 
 let measuring;
 const known = new Map();  // texts that were measured
 
-/** How wide a text is, and its runs with their fonts and places from the text's left end. */
+/** Returns the width of a text, and its runs with fonts and places from the text's left end. */
 function setText(text, /** @type {{size: number, bold?: boolean}} */ { size, bold = false }) {
   const key = JSON.stringify([size, bold, text]);
   if (known.size > 2000) known.clear();
@@ -30,7 +30,7 @@ function setText(text, /** @type {{size: number, bold?: boolean}} */ { size, bol
   return set;
 }
 
-/** How wide a text is, in pixels. */
+/** Returns the width of a text in pixels. */
 export const widthOf = (text, style) => setText(text, style).width;
 
 /** The border of a box, or of a whole surface. */
@@ -48,7 +48,7 @@ class Surface {
     this.height = height;
   }
 
-  /** Begins a picture with its ground and what stays while only the moment moves. @returns what `draw` has returned */
+  /** Draws the ground and the parts of a picture that do not move. @returns the result of `draw` */
   still(_keys, ground, draw) {
     this.shape([borderOf(this)], { fill: ground });
     return draw();
@@ -58,7 +58,7 @@ class Surface {
   shape(_lines, _style) {}
 }
 
-/** A canvas of so many pixels for a picture of that width and height. */
+/** A canvas of given pixels for a picture of a width and height. */
 export class CanvasSurface extends Surface {
   constructor(canvas, { width = 0, height = 0 } = {}) {
     super(width, height);

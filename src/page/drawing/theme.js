@@ -1,6 +1,6 @@
-// Colours: of the page from its style sheet, and of the reader's own orbits. Those of portraits are the library's.
+// Colours of the page, from its style sheet, and of the reader's own orbits. The library chooses the colours of portraits.
 
-/** Okabe and Ito's colours for the reader's own orbits; grey is the ball without spin. */
+/** Okabe and Ito's colours for the reader's own orbits. The ball without spin is grey. */
 const swatches = {
   light: ["#c22f5a", "#0072b2", "#b45f06", "#007a59", "#8a4fa3", "#7a6a00"],
   dark: ["#ff7aa2", "#56b4e9", "#f0a830", "#35c79b", "#d49be6", "#dede6a"],
@@ -17,7 +17,7 @@ globalThis.addEventListener?.("resize", () => (known = null));
 /** @typedef {Record<"ink" | "soft" | "line" | "card" | "paper" | "kind", string> & {textSize: number, swatch: (index: number) => string}} Theme */
 
 /**
- * The same object until dark, light or the size of the window changes: reading the style sheet lays the page out.
+ * Returns the same object until dark, light or the size of the window changes, because reading the style sheet takes long.
  *
  * @param choice  "auto", "light" or "dark"
  * @returns {Theme}

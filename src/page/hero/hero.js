@@ -8,24 +8,24 @@ import { borderOf, widthOf } from "../drawing/surface.js";
 import { ghostsOf, reach, rightOf } from "./tries.js";
 import { product, rideOn, rotation } from "./turning.js";
 
-const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // of a picture 640 pixels wide: sizes of words, height of the head, its rim
+const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // pixels in a picture 640 pixels wide: sizes of words, height of the head, rim
 const turning = 20;      // s that the body turns in place while the reader is asked
 
 export class Hero {
-  /** What is said. */
+  /** Facts about the motion. */
   facts = /** @type {Facts} */ ({});
-  /** What moves, the body without spin first. */
+  /** The two bodies, the one without spin first. */
   bodies = /** @type {ReturnType<Hero["bodiesOf"]>} */ ([]);
   /** @type {{x: number, y: number, radius: number}[]} where the bodies are, in pixels */
   places = [];
-  /** @type {{from: number[], to: number[], words: string} | null} of a throw */
+  /** @type {{from: number[], to: number[], words: string} | null} arrow of a throw */
   aim = null;
-  /** @type {{share: number, words: string} | null} around the body that spins */
+  /** @type {{share: number, words: string} | null} ring around the body that spins */
   ring = null;
   /** @type {{key: string, guess: string, ended: boolean, turn: number} | null} the question, while its motion is shown */
   asked = null;
 
-  /** @param player  whose `seconds` are what the motion lasts on the screen */
+  /** @param player  its `seconds` are the duration of the motion on the screen */
   constructor(store, player) {
     this.store = store;
     this.player = player;
@@ -35,13 +35,13 @@ export class Hero {
     $("answers").append(...Object.values(answers).map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
   }
 
-  /** The motion that is shown. */
+  /** Key of the shown motion. */
   get key() {
     const { ball, orbits, chosen, line } = this.store.state;
     return JSON.stringify([ball, orbits, chosen, line]);
   }
 
-  /** What the page does with the reader: it asks, shows the first round, has judged his answer, or plays for a line. */
+  /** The mode: asking the question, watching its motion, judged after the answer, game, or "" for none of these. */
   get mode() {
     const { asked, store: { state, ride } } = this;
     return !ride ? "" : asked ? (asked.ended ? "judged" : asked.guess ? "watching" : "asking") : state.line ? "game" : "";
@@ -80,7 +80,7 @@ export class Hero {
     else store.move({ fraction: 1 });
   }
 
-  /** Everything but the moment. */
+  /** Shows all parts that do not depend on the moment. */
   show() {
     const { store, store: { ride } } = this;
     if (this.asked && this.asked.key !== this.key) this.asked = null;
@@ -110,7 +110,7 @@ export class Hero {
     const { mode, said: { headline, pieces } } = this;
     write($("headline"), headline);
     this.tell(pieces);
-    // A screen reader hears what came of it.
+    // A screen reader reads the result.
     write($("heard"), mode === "judged" || (mode === "game" && this.tryNow.ended) ? headline : "");
     const hit = mode === "game" && this.tryNow.ended && this.tryNow.hit;
     $("send").hidden = $("film-line").hidden = $("next-line").hidden = !hit;
@@ -126,7 +126,7 @@ export class Hero {
     return { line, passage, far, slip: facts.slip, spin: facts.spin, tries: chosen, ended: fraction >= 1 && chosen > 0, hit };
   }
 
-  /** Both bodies: how they move, and when and where each ceases to slide. */
+  /** Returns both bodies: their motions, and time and place at which each ceases to slide. */
   bodiesOf({ courses, plain, own, end }) {
     const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
     const lasts = end * timeFactor;
@@ -139,7 +139,7 @@ export class Hero {
     });
   }
 
-  /** Words in the colours of the bodies. */
+  /** Writes the story in the colours of the bodies. */
   tell(pieces) {
     const { store: { state: { chosen }, theme } } = this;
     const colours = { plain: theme.soft, own: theme.swatch(chosen) };
@@ -153,7 +153,7 @@ export class Hero {
     }));
   }
 
-  /** Says what the reader does on the table. */
+  /** Writes a message about an action of the reader. */
   say(text) {
     write($("told"), text);
   }
@@ -192,7 +192,7 @@ export class Hero {
     const title = { colour: theme.ink, bold: true, size: film.title };
     surface.text(film.rim, 28, headline, { ...title, size: film.title * Math.min(1, (width - 2 * film.rim) / widthOf(headline, title)) });
     const small = { colour: theme.soft, size: film.text };
-    // A film that is sent on says where it comes from.
+    // The address shows the source of a film that is sent on.
     surface.text(film.rim, 50, /^http/.test(location.protocol) ? `${location.host}${location.pathname}` : "contensou", small);
     surface.text(width - film.rim, 50, [player.timeText(store.now.tau), $("pace").textContent].filter(Boolean).join(", "), { ...small, align: "right" });
     context.save();
@@ -212,7 +212,7 @@ export class Hero {
     if (mode === "asking" && asked) places[1] = { ...places[1], turn: product(rotation([0, 0, asked.turn]), places[1].turn) };
     const has = bodies.map((body) => time >= (1 - 1e-12) * body.end);
     const word = ({ rest }) => (!ride.rolls ? "stopped" : time < (rest?.t ?? Infinity) ? "rolls" : "rests");
-    // A ruler lies between them where both go straight.
+    // If both move straight, a ruler shows the distance between them.
     const [plain, own] = bodies;
     const straight = bodies.every(({ stop: { x, y, path } }) => Math.abs(Math.hypot(x, y) - path) < 1e-3 * path);
     const [to, path] = has[1] ? [own.stop, own.far] : [places[1], places[1].path];

@@ -19,7 +19,7 @@ const spots = [[0, 0], ...rings, [Math.PI, 0]].map(([tilt, fifths]) => {
   return [[0, 0, 1], ...circle].map((point) => turnedBy(tilted, point));
 });
 
-/** What rolls is seen from above and before it: its spots go over the top and down, where one that slides shows the same ones. */
+/** Direction of view for a ball that rolls, from above and in front: spots move over the top, and those of a sliding ball stay. */
 const seen = rotation([-0.7, 0, 0]);
 
 /** A ball with spots, turned by a matrix; a flat body has one mark on its face, seen from above. */
@@ -83,7 +83,7 @@ export function drawLanes(surface, scene, theme) {
   return { places: line?.stone ? [...places, { x, y, radius: pixels }] : places };
 }
 
-/** The line to reach, as wide as a hit may miss it. */
+/** Draws the line to reach; its width is the allowed miss. */
 function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme) {
   const [[left], [x], [right]] = [at - reach, at, at + reach].map((far) => pixel({ x: far, y: 0 }, 1));
   const top = cells[1].top + 1.3 * theme.textSize;
@@ -92,7 +92,7 @@ function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme
   surface.text(x, cells[1].top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
-/** A stone, and the mark behind it, as wide as a hit may miss it. */
+/** Draws a stone and the mark behind it; the width of the mark is the allowed miss. */
 function drawStone(surface, { pixel, pixels, scale }, { at, reach, words, stone }, theme) {
   const [x, y] = pixel({ x: at, y: 0 }, 0);
   const mark = reach * scale;
@@ -104,7 +104,7 @@ function drawStone(surface, { pixel, pixels, scale }, { at, reach, words, stone 
   surface.shape([pixel(stone, 0)], { radius: pixels, fill: theme.soft, stroke: theme.ink, width: 1.5 });
 }
 
-/** The ring that is pulled to spin a body; an arrow along it shows the spin. */
+/** Draws the ring that the reader pulls to spin a body; an arrow along it shows the spin. */
 function drawRing(surface, { x, y, radius }, { share, words }, theme) {
   const out = radius + ringWidth;
   const sweep = 1.8 * Math.PI * share;
@@ -121,7 +121,7 @@ function drawRing(surface, { x, y, radius }, { share, words }, theme) {
   surface.text(right ? x + out + 8 : x - out - 8, y, words, { colour: theme.ink, size: theme.textSize, bold: true, align: right ? "left" : "right", baseline: "middle", halo: theme.card });
 }
 
-/** The arrow of a throw, with what it says. */
+/** Draws the arrow of a throw and its words. */
 function drawAim(surface, { from: [x, y], to, words }, theme) {
   const [dx, dy] = [to[0] - x, to[1] - y];
   const far = Math.hypot(dx, dy) || 1;
@@ -134,7 +134,7 @@ function drawAim(surface, { from: [x, y], to, words }, theme) {
   surface.text(within(to[0], half, surface.width), within(to[1] + beyond * theme.textSize, theme.textSize, surface.height), words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
-/** A ruler between two places, beside the bodies, with its words on it or, where there is no room, beside it. */
+/** Draws a ruler between two places. Its words stand on it or, without room, beside it. */
 function drawRuler(surface, { pixel, pixels }, i, { from, to }, words, theme) {
   const [[ax, ay], [bx, by]] = [pixel(from, i), pixel(to, i)];
   const far = Math.hypot(bx - ax, by - ay);
@@ -150,7 +150,7 @@ function drawRuler(surface, { pixel, pixels }, i, { from, to }, words, theme) {
   surface.text(steep || gap < 0.5 ? x : right + half < surface.width ? right : Math.min(ax, bx) - half, y, words, style);
 }
 
-/** The table with its scale; returns where the bodies go. */
+/** Draws the table with its scale; returns the places of the lanes. */
 function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   const size = theme.textSize;
   // A ball that curls around a stone may leave the table.

@@ -1,21 +1,21 @@
-// What is said of a motion: facts in SI units (without units, in those of v), and sentences that rest on them.
+// Facts about a motion, in SI units or, without units, in those of v; and sentences made from them.
 import { duration, length, shown } from "../numbers.js";
 
 const hardly = 1e-3;  // m, a path too short to be seen
-const bent = 3;       // degrees, of a path that is seen to curve
-const much = 1.5;     // times as far
+const bent = 3;       // degrees, least curvature of a path that is called curved
+const much = 1.5;     // ratio of distances from which the headline has this ratio
 const some = 1.05;
 
 /**
- * slide: {end, path, turned} of plane.slide, of this body and of one that does not spin.
+ * The facts. own, plain: results of plane.slide for this body and for one that does not spin.
  *
  * @typedef {{
  *   name: string, real: boolean, rolls: boolean, slip: number, spin: number, along: number, across: number, least: number, own: Slide, plain: Slide,
  *   stop: number, rest?: {t: number, x: number, y: number} | null,
- * }} Facts  spin: without units u; least: the slip from which on a ball rolls; stop: when all has ended
+ * }} Facts  spin: without units u; least: slip below which a ball rolls; stop: time when slip and spin end
  */
 
-/** What the library knows of the chosen motion. @returns {Facts} */
+/** Returns the facts about the chosen motion. @returns {Facts} */
 export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, least }, orbit: { u, v, along, across } }) {
   return {
     name: ball ? ball.title.replace(/ (on|of) .*/, "") : rolls ? "ball" : "puck", real: Boolean(ball), rolls, spin: u / (ball?.radius ?? 1), slip: v,
@@ -23,7 +23,7 @@ export function factsOf({ state: { ball }, ride: { own, plain, rest, rolls, leas
   };
 }
 
-/** What there is to see. @returns {keyof typeof sentences} */
+/** Returns the kind of the motion. @returns {keyof typeof sentences} */
 export function regimeOf(/** @type {Facts} */ { real, rolls, slip, spin, along, across, least, own, plain }) {
   if (slip <= least || (real && rolls && own.path < hardly)) {
     return rolls && Math.hypot(along, across) > least ? "rolls" : spin === 0 ? "rests" : "spins";
@@ -81,7 +81,7 @@ const sentences = {
 
 const piecesOf = (sentence) => sentence.split(/\[(.*?)\]/).map((piece, i) => (i % 2 ? piece.split("|") : ["", piece]));
 
-/** {headline, story} of a motion, and the story's pieces: [what it names, or nothing; words]. */
+/** Returns {headline, story} of a motion, and the pieces of the story: [name of a body or "", words]. */
 export function say(/** @type {Facts} */ facts) {
   const [headline, sentence] = sentences[regimeOf(facts)](wordsOf(facts));
   const { rest } = facts;
@@ -90,12 +90,12 @@ export function say(/** @type {Facts} */ facts) {
   return { headline, pieces, story: pieces.map(([, words]) => words).join("") };
 }
 
-/** Said if there is no motion. */
+/** Headline and story if there is no motion. */
 export const nothing = { headline: "Click the plane: a motion starts there", pieces: [["", "Up: faster sliding. To the side: faster spin."]] };
 
 export const answers = { spins: "the one that spins", plain: "the one without spin", equal: "equally far" };
 
-/** Asked before anything is told; with the reader's guess, until the motion has ended. */
+/** The question at the beginning; with the reader's guess, until the motion has ended. */
 export const question = (guess = "") => ({
   headline: "One puck spins. Which slides farther?",
   pieces: [["", guess ? `You said: ${guess}.` : "Two equal pucks leave side by side at the same speed. One spins, the other does not. Your guess?"]],
@@ -113,7 +113,7 @@ export function judged(guess, /** @type {Facts} */ { own, plain }) {
 
 const inTries = (tries) => `in ${tries} ${tries === 1 ? "try" : "tries"}`;
 
-/** The game of the stone: what is asked for, and what came of a try. */
+/** Returns task and result of a try in the game of the stone. */
 const around = ({ passage: { until, off }, tries, ended, hit }) => ({
   headline: !ended ? "Strike the ball around the stone and over the mark."
     : until < 1 ? `Try ${tries} touches the stone`
@@ -123,7 +123,7 @@ const around = ({ passage: { until, off }, tries, ended, hit }) => ({
     "Dot, speed and butt of the cue are yours to set: a raised butt and a tip off the centre bend the path."]],
 });
 
-/** The game of the line, or of the stone: what is asked for, and what came of a try. */
+/** Returns task and result of a try in the game of the line or of the stone. */
 export function goal({ passage, line, far, slip, spin, tries, ended, hit }) {
   if (passage) return around({ passage, tries, ended, hit });
   const off = length(Math.abs(far - line), "m");

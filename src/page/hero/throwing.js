@@ -1,27 +1,27 @@
-// Bodies are thrown: pressed, dragged and let go. The way of the hand is the speed, its direction the direction. The ring around
-// the body that spins is pulled to spin it; a second finger, the wheel and keys do the same.
+// Throws of bodies. The reader presses, drags and releases a body; speed and direction are those of the drag. The reader pulls the
+// ring around the body to spin it; a second finger, the wheel and keys do the same.
 import { $, write } from "../dom.js";
 import { listen } from "../drawing/gestures.js";
 import { ringWidth } from "./hero_figure.js";
 import { shown } from "../numbers.js";
 
-const reach = { touch: 16, mouse: 4 };  // pixels beside a body or its ring from which it is taken hold of
-const widest = 0.55;   // of the picture's width: a throw of the full speed
+const reach = { touch: 16, mouse: 4 };  // pixels around a body or its ring that belong to it
+const widest = 0.55;   // length of a throw of the full speed, divided by the width of the picture
 const full = { real: { slip: 2, spin: 500 }, free: { slip: 5, spin: 5 } };  // m/s and rad/s; without units
-const shortest = 12;   // pixels of a throw
-const arrow = 90;      // pixels of the arrow at first, by which a stroke is aimed
+const shortest = 12;   // shortest throw, pixels
+const arrow = 90;      // length in pixels of the first arrow by which a stroke is aimed
 const level = 5;       // degrees to either side that count as straight to the right
-const turns = 2;       // of the hand, for the full spin
-const keySteps = 40;   // to the full speed, and to the full spin
+const turns = 2;       // turns of the hand for the full spin
+const keySteps = 40;   // number of key presses to the full speed or the full spin
 
 const round = (value) => Number(value.toPrecision(3));
 
-/** @param {Store} store @param {Hero} hero @param {Player} player @param {Plane} plane @param startByCue  the start of a stroke */
+/** @param {Store} store @param {Hero} hero @param {Player} player @param {Plane} plane @param startByCue  returns the start of a stroke */
 export function makeThrowing(store, hero, player, plane, startByCue) {
   const canvas = $("lanes");
   /** @type {{slip: number, spin: number, heading: number, from: number[], pushed: boolean} | null} */
   let aim = null;
-  let angle = 0;  // of the hand on the ring
+  let angle = 0;  // angle of the hand on the ring
   const most = () => full[store.contact ? "real" : "free"];
   const radiusOf = () => store.state.ball?.radius ?? 1;
   const pixelsPerSpeed = () => (widest * hero.lanes.width) / most().slip;
@@ -29,7 +29,7 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
 
   /** The place of the body that is thrown. */
   const ownPlace = () => hero.places.slice(-1)[0];
-  /** Shows the ring; without an aim, with the spin that the body has. */
+  /** Shows the ring with a spin, by default that of the body. */
   const showRing = (spin = store.orbit.u / radiusOf()) => {
     hero.ring = { share: spin / most().spin, words: `${shown(spin, 3)}${store.contact ? " rad/s" : ""}` };
   };
@@ -64,7 +64,7 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
     plane.startOrbit({ ...(hero.stone ? startByCue() : thrownBy()), heading });
     player.begin();
   };
-  /** More spin, or the other way. */
+  /** Returns the spin after a change by a share of the full spin. */
   const spun = (by) => {
     const { spin } = most();
     const now = aim?.spin ?? store.orbit.u / radiusOf();
@@ -72,7 +72,7 @@ export function makeThrowing(store, hero, player, plane, startByCue) {
   };
 
   const handAngle = (x, y) => Math.atan2(ownPlace().y - y, x - ownPlace().x);
-  /** What lies at a pixel: a body, or the ring of the one that spins. */
+  /** Returns the object at a pixel: a body, or the ring of the one that spins. */
   const partAt = (x, y, kind) => {
     if (!store.ride || hero.mode === "asking" || hero.places.length === 0) return null;
     const beside = hero.places.map((place) => Math.hypot(place.x - x, place.y - y) - place.radius);

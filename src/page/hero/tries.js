@@ -1,23 +1,23 @@
-// Verdicts on tries, and the places at which earlier tries ended. In the last round a stone stands half way to a mark, and a
-// ball that rolls is to curl around it.
+// Verdicts on tries, and the places at which earlier tries ended. In the last round a stone stands half way to a mark, and the
+// ball must curl around it.
 import { length, shown } from "../numbers.js";
 import { rideOn } from "./turning.js";
 
 export const reach = 0.02;  // m by which a throw may miss the line, and a ball the mark
 const kept = { game: 8, "": 3 };  // earlier throws that stay on the table
-const samples = 1000;  // of the time
+const samples = 1000;  // instants at which the distance is computed
 
-/** The stone that the ball is to curl around, as large as the ball; null if there is none. */
+/** Returns the stone around which the ball must curl, as large as the ball; null if there is none. */
 export const stoneOf = ({ line, ball }, rolls) =>
   (line && rolls ? { x: line / 2, y: 0, radius: ball.radius, mark: line } : null);
 
 /**
- * Finds how a ball goes by a stone and the mark behind it.
+ * Finds how a ball passes a stone and the mark behind it.
  *
- * @param ride   of turning.js
- * @param stone  of stoneOf
- * @returns until: the share of the time at which it touches the stone, or 1; place: where it is then, or nearest to the
- *   mark; off: how far it is from the mark there, in m; hit: whether this is near enough
+ * @param ride   result of rideOn
+ * @param stone  result of stoneOf
+ * @returns until: share of the time at which the ball touches the stone, or 1; place: its place then, or nearest to the
+ *   mark; off: its distance from the mark there, m; hit: true if this distance is small enough
  */
 export function passageOf(ride, { x, y, radius, mark }) {
   let nearest = { place: ride.at(0), off: Infinity };
@@ -34,12 +34,12 @@ export function passageOf(ride, { x, y, radius, mark }) {
 export function rightOf(/** @type {Start} */ { along, across, heading }, { x, y }, stone) {
   const thrown = (heading * Math.PI) / 180;
   if (stone) return Math.atan2(across, along) - thrown;
-  // A path that curves is seen from where it leads to the right, or where it was thrown to.
+  // The view is turned so that the end of a curved path lies to the right, or in the direction of the throw.
   const [endX, endY] = [x, y].map((column) => column.at(-1));
   return (Math.abs(endY) > 1e-12 * Math.abs(endX) ? Math.atan2(endY, endX) : 0) - thrown;
 }
 
-/** Places at which earlier straight throws ended; or at which tries touched the stone, or were nearest to the mark behind it. */
+/** Returns the places at which earlier straight throws ended, or at which tries touched the stone or were nearest to the mark. */
 export function ghostsOf(store, mode) {
   const { state: { orbits, chosen, ball, law, mu, body, part, fraction }, theme } = store;
   const stone = store.ride?.stone;

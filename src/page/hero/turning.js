@@ -1,4 +1,4 @@
-// How a ball turns: rotations as matrices [row, row, row], in axes with z up.
+// Rotations of a ball as matrices [row, row, row], in axes with z up.
 
 export const product = (a, b) => a.map((row) => [0, 1, 2].map((j) => row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j]));
 
@@ -14,10 +14,10 @@ export function rotation(w) {
 export const turnedBy = (matrix, /** @type {number[]} */ [x, y, z]) => matrix.map((row) => row[0] * x + row[1] * y + row[2] * z);
 
 /**
- * What is seen of a ride of the library: {xs, ys, at(share)}, at with the place, the path and the rotation at a share of the time.
+ * Returns a ride of the library in the axes of the picture: {xs, ys, at(share)}. at returns place, path and rotation at a share of the time.
  *
- * @param heading    the direction that is to the right
- * @param spinShown  the share of the spin that is drawn
+ * @param heading    direction that points to the right in the picture
+ * @param spinShown  share of the spin that is drawn
  */
 export function rideOn({ t, x, y, wx, wy, wz, rest }, heading, spinShown) {
   const back = rotation([0, 0, -heading]);
@@ -26,10 +26,10 @@ export function rideOn({ t, x, y, wx, wy, wz, rest }, heading, spinShown) {
   let run = 0;
   const path = xs.map((x, i) => (run += i ? Math.hypot(x - xs[i - 1], ys[i] - ys[i - 1]) : 0));
   const drawn = [wx, wy, wz.map((w) => spinShown * w)];
-  /** How it turns in a part of a step. */
+  /** Returns the rotation in a part of a step. */
   const turn = (i, part) => rotation(turnedBy(back, drawn.map((w) => (part * (t[i + 1] - t[i]) * (w[i] + w[i + 1])) / 2)));
-  const turned = [rotation([0, 0, 0])];  // before each step, as far as was asked for
-  /** In which step a share of the time lies, and what part of it has passed; times grow as squares. @returns {[number, number]} */
+  const turned = [rotation([0, 0, 0])];  // rotation before each step, for all steps requested so far
+  /** Returns the step of a share of the time, and the part of the step that has passed. Times grow as squares. @returns {[number, number]} */
   const rowAt = (share) => {
     const i = Math.min(t.length - 2, Math.floor(Math.sqrt(Math.min(1, share)) * (t.length - 1)));
     return [i, (Math.min(1, share) * t.at(-1) - t[i]) / (t[i + 1] - t[i])];

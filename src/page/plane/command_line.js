@@ -1,16 +1,16 @@
-// The command line of the program that draws what the page shows.
+// The command line by which the program draws the same picture.
 import { lawTitle } from "../controls/law_field.js";
 import { shotOf } from "./portrait_request.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
 
 /**
- * {portrait, roll}: the latter of a real ball that moves.
+ * Returns the command lines {portrait, roll}; roll is null unless a real ball moves.
  *
  * @param request  of portrait_request.js
- * @param through  points that the orbits of the others pass
- * @param body     with its mu if it decides it
- * @param builtIn  the state's ball as the program knows it, if there is one
+ * @param through  points on the other orbits
+ * @param body     has mu if the kind of body determines mu
+ * @param builtIn  built-in ball with the name of the state's ball, if there is one
  */
 export function commandLine(state, request, through, body, builtIn) {
   const { ball } = request;
@@ -49,7 +49,7 @@ export function commandLine(state, request, through, body, builtIn) {
   return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
 }
 
-/** The start of a roll, and what slows it down: slip along x at v, spin u/R, and what the reader says of the centre. */
+/** Returns options for start and rolling friction: slip v along x, spin u/R, or the velocities that the reader gave. */
 function motionOf(ball, start) {
   const { velocity, angular_velocity: spin } = shotOf(ball, start);
   const rolling = ball.rollingFriction > 0 ? ["--rolling-friction", ball.rollingFriction] : [];

@@ -1,15 +1,15 @@
-// A start that is pulled: along its ray it runs through its copies, c times as large; across, it changes curve. And the slider of
-// the size: all starts and the window grow together, so that the numbers change and the curves do not.
+// A start that the reader pulls. Along its ray it becomes a copy, c times as large; across the ray it moves to another curve.
+// The slider of the size scales all starts and the window: the numbers change, and the curves do not.
 import { $ } from "../dom.js";
 import { forgiveTouches } from "../controls/fields.js";
 import { shown } from "../numbers.js";
 
-const narrow = 8;    // degrees beside the ray, with both speeds in units of the start's
+const narrow = 8;    // degrees beside the ray that count as on it, with both speeds divided by those of the start
 const most = 12;     // starts of one pull whose curves stay
-const apart = 0.12;  // of the start: how far they are from each other
-const decades = 1.5;  // to either end of the slider; no body is faster, or slower
+const apart = 0.12;  // least distance between two of them, divided by the start
+const decades = 1.5;  // from the middle of the slider to each end
 
-/** How many times as large a start is as another, and whether it is a copy of it: both speeds by one factor. */
+/** Returns c, the size of a start divided by that of another, and along: true for a copy, with both speeds times c. */
 export function sizeOf({ u, v }, base) {
   const [x, y] = [u / base.u, v / base.v];
   if (base.u === 0 || base.v === 0) return { c: base.u === 0 ? y : x, along: base.u === 0 ? u === 0 : v === 0 };
@@ -19,14 +19,14 @@ export function sizeOf({ u, v }, base) {
 
 export class Copies {
   /**
-   * The pull, and where the start is now.
+   * The pull, with the place of the start now.
    *
    * @type {{from: unknown, index: number, base: Speeds, at: Speeds, window: [number, number], stop: number, keys: string[]} | null}
    */
   pull = null;
-  /** @type {(OwnOrbit & {start: Speeds})[]} where it has been */
+  /** @type {(OwnOrbit & {start: Speeds})[]} orbits from earlier places of the start */
   ghosts = [];
-  /** @type {{orbits: Start[], window: number[], now: Start[]} | null} what the slider began with, and what it has made of the starts */
+  /** @type {{orbits: Start[], window: number[], now: Start[]} | null} starts and window before the slider moved, and the starts now */
   size = null;
 
   /** @param {Store} store */
@@ -38,7 +38,7 @@ export class Copies {
     forgiveTouches(this.slider);
   }
 
-  /** Where the slider is. */
+  /** Shows the slider. */
   show() {
     this.slider.disabled = !this.store.orbit;
     if (this.isSized) return;
@@ -46,13 +46,13 @@ export class Copies {
     this.slider.value = 0;
   }
 
-  /** What the curves depend on but for their starts; and where they lie in the panels. */
+  /** Keys of the curves except their starts, and of their places in the panels. */
   get keys() {
     const { law, mu, chi, gamma, view, window } = this.store.request;
     return [[law, mu, chi, gamma], [view, window ?? this.store.portrait.window]].map((key) => JSON.stringify(key));
   }
 
-  /** The pull of a start: a new one, unless one that is from the same goes on. @param sizes  of copies that are seen from the beginning */
+  /** Returns the pull of a start: the present one if `from` is the same, else a new one. @param sizes  sizes of copies that are shown at once */
   begin(index, from, sizes = /** @type {number[]} */ ([])) {
     const { store: { state, portrait: { window }, library: { plane } } } = this;
     if (this.now && this.now.from === from) return this.now;
@@ -61,7 +61,7 @@ export class Copies {
     return (this.pull = { from, index, base: { u, v }, at: { u, v }, window, stop: plane.stop(u, v), keys: this.keys });
   }
 
-  /** Where the start goes that is pulled to a place: on its ray, if that is near. @param from  the same during one pull */
+  /** Returns the start for a place to which it is pulled: on its ray if this is near. @param from  the same during one pull */
   to(at, index, from) {
     const pull = this.begin(index, from, [1, 1 / 2, 1 / 4, 1 / 8]);
     const { c, along } = sizeOf(at, pull.base);
@@ -69,12 +69,12 @@ export class Copies {
     return (pull.at = along ? { u: times * pull.base.u, v: times * pull.base.v } : at);
   }
 
-  /** Whether the starts are as the slider has made them. */
+  /** True if the starts are those that the slider set. */
   get isSized() {
     return this.size !== null && JSON.stringify(this.size.now) === JSON.stringify(this.store.state.orbits);
   }
 
-  /** All starts and the window, c times as large. */
+  /** Makes all starts and the window c times as large. */
   resize(c) {
     const { store } = this;
     const { orbits, window } = this.size && this.isSized ? this.size : { orbits: store.state.orbits, window: store.portrait.window };
@@ -86,7 +86,7 @@ export class Copies {
     }, () => this.announce(`Both speeds × ${shown(c, 3)}: the same curves, ${shown(c, 3)} × the time: ${store.stopText(store.motion.stop)}.`));
   }
 
-  /** Remembers where the start is now. */
+  /** Keeps the present orbit as an earlier one. */
   note() {
     const { pull, ghosts, store: { orbit } } = this;
     if (!pull) return;
@@ -100,7 +100,7 @@ export class Copies {
     return { start: { u, v }, ...plane.own({ ...request, window, orbits: [{ u, v }], chosen: 0, ball: null })[0] };
   }
 
-  /** The pull, while the start is where it was pulled to. */
+  /** The pull; null if the start has moved in another way. */
   get now() {
     const { pull, keys: [system, place], store: { state, orbit } } = this;
     const stays = pull && orbit && pull.index === state.chosen && pull.keys[0] === system && pull.at.u === orbit.u && pull.at.v === orbit.v;
@@ -110,7 +110,7 @@ export class Copies {
     return this.pull;
   }
 
-  /** What is said of the start: how large it is, and when it stops. */
+  /** A sentence about the start: its size and its stop time. */
   get words() {
     const { pull, store: { orbit, motion, contact, timeFactor } } = this;
     if (!pull) return "";

@@ -1,19 +1,19 @@
-// Curves divided by their starts, which is one line for all that are copies; the strip (ln k, ln v), in which a copy is
-// the curve moved up or down; and the times until the stop over the sizes.
+// Curves divided by their starts, which are one line for all copies; the strip (ln k, ln v), in which a copy is the curve
+// moved up or down; and stop times against sizes.
 import { sizeOf } from "./copies.js";
 import { drawFigure, figureOf, panelOf } from "../drawing/figure.js";
 import { decades } from "../numbers.js";
 import { italic } from "../drawing/runs.js";
 
-const fewest = 1.3;  // decades that are seen to either side of the size 1
+const fewest = 1.3;  // decades shown on each side of the size 1, at least
 const deep = 1.3;    // decades of v that the strip shows below the starts, at least
 const shape = { columns: 2, narrowest: 150 };
 
-/** @param surface  what it is drawn on @param {Store} store @param {{copies: Copies}} plane */
+/** @param surface  surface for the figure @param {Store} store @param {{copies: Copies}} plane */
 export function drawCopies(surface, store, { copies }) {
   const { theme, orbit, motion, state: { orbits, chosen }, motions } = store;
   const pull = copies.now;
-  // What sizes are compared with.
+  // Sizes are relative to this start.
   const first = pull ?? (orbit ? { base: orbit, stop: motion.stop } : null);
   const curves = () => [
     ...motions.map((own, index) => ({ ...own, start: orbits[index], colour: theme.swatch(index), width: 1.5 })),

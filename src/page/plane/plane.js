@@ -16,7 +16,7 @@ export class Plane {
   /** @type {Frame[]} */
   frames = [];
   planeScene = /** @type {ReturnType<Plane["scene"]>} */ ({});
-  /** @type {{of: Figure, figure: Figure} | null} what the first floor shows of a figure */
+  /** @type {{of: Figure, figure: Figure} | null} the figure, and its form outside the Lab */
   bare = null;
   /** @type {{panel: number, x: number, y: number} | null} */
   cross = null;
@@ -63,7 +63,7 @@ export class Plane {
     store.shows.push(() => this.label());
   }
 
-  /** The portrait's figure; on the first floor without title, legend and symbols. */
+  /** The portrait's figure; outside the Lab without title, legend and symbols. */
   get figure() {
     const { state: { lab, ball }, portrait: { figure }, view } = this.store;
     if (lab || view.name !== "uv") return figure;
@@ -95,7 +95,7 @@ export class Plane {
     $("clear-isochrone").hidden = !this.store.state.isochrone;
   }
 
-  /** What a screen reader says of the plane; nothing that changes with the moment. */
+  /** Sets the label of the plane for screen readers, without values that change with the moment. */
   label() {
     const { portrait, state, motion } = this.store;
     this.copies.show();
@@ -167,7 +167,7 @@ export class Plane {
     });
   }
 
-  /** @param start  with heading of a throw, and along and across of a stroke @param ask  as store.ask, unless what is rejected is to be thrown */
+  /** @param start  speeds, heading of a throw, and along and across of a stroke @param ask  store.ask, or a function that throws the reason of a rejection */
   startOrbit({ u, v, along = v, across = 0, heading = 0 }, ask = (edit, done) => this.store.ask(edit, done)) {
     const { store } = this;
     ask((state) => {
@@ -178,7 +178,7 @@ export class Plane {
       `Orbit from u = ${shown(u, 4)}, v = ${shown(v, 4)}: it stops at ${store.stopText(store.motion.stop)}.`));
   }
 
-  /** @param from  the same during one pull @param held  all that stop at one time with it are shown */
+  /** @param from  the same during one pull @param held  true: shows its isochrone, too */
   moveStart(at, index, from, held = false) {
     if (!at) return;
     const { u, v } = this.copies.to(rounded(at, this.store.portrait), index, from);
@@ -233,7 +233,7 @@ export class Plane {
   }
 }
 
-/** A start as people would write it: no more digits than a pixel is worth. */
+/** Returns a start rounded to the digits that a pixel resolves. */
 function rounded({ u, v }, { window: [U, V] }) {
   const to = (value, side) => {
     const digits = Math.max(3, 4 - Math.floor(Math.log10(side / Math.max(Math.abs(value), 1e-300))));

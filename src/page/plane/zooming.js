@@ -1,4 +1,4 @@
-// The window of the plane: as the library chooses it for the orbits, or as the reader has zoomed.
+// The window of the plane: chosen by the library for the orbits, or zoomed by the reader.
 
 export class Zooming {
   /** @type {number[] | null | undefined} the window before the reader zoomed */
@@ -9,7 +9,7 @@ export class Zooming {
     this.store = store;
   }
 
-  /** Keeps the window as it is, in this view; unless a start lies beyond it, which is to be seen. */
+  /** Keeps the present window in this view, unless a new start lies outside it. */
   freeze(state, { u, v } = { u: 0, v: 0 }) {
     const [U, V] = this.store.portrait.window;
     if (this.before === undefined) this.before = state.window;
@@ -24,13 +24,13 @@ export class Zooming {
     });
   }
 
-  /** The library's choice again. */
+  /** Returns to the window that the library chooses. */
   fit() {
     this.before = undefined;
     this.store.ask((state) => (state.window = null));
   }
 
-  /** Another view, in a window of its own. */
+  /** Changes to another view, with a window of its own. */
   view(name) {
     this.store.ask((state) => {
       if (this.before !== undefined) state.window = this.before;

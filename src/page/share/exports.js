@@ -11,7 +11,7 @@ export function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/** A figure as PNG of so many pixels across. @param draw  draws it on a surface @param size  that it is drawn for */
+/** Returns a figure as PNG with a width in pixels. @param draw  draws it on a surface @param size  size of this surface */
 export async function pngOf(draw, size, width) {
   const canvas = make("canvas", { width, height: Math.round((size.height * width) / size.width) });
   draw(new CanvasSurface(canvas, size));
@@ -20,7 +20,7 @@ export async function pngOf(draw, size, width) {
   return blob;
 }
 
-/** What was seen at an address, and the article that the equations are of, in BibTeX. */
+/** Returns the page with its address, and the article with the equations, in BibTeX. */
 export const citation = (link, version) => `@misc{contensou,
   title = {contensou ${version}: how a ball slides and spins, exactly},
   howpublished = {\\url{${link.replaceAll("%", "\\%").replaceAll("#", "\\#")}}},
@@ -50,7 +50,7 @@ export function csvOfOrbits(motions) {
 /** The motion of a real ball in SI units, with the columns of `contensou roll`. */
 export const csvOfRide = ({ t, x, y, vx, vy, wx, wy, wz, slip, energy }) => csv({ t, x, y, vx, vy, wx, wy, wz, slip, energy });
 
-/** What a film has measured, what was found, and what is left; an angle is known up to whole turns. */
+/** Returns measured and fitted values of a film, and their differences. An angle is known up to whole turns. */
 export function csvOfFilm(/** @type {Columns} */ { t, ...columns }) {
   const whole = 2 * Math.PI;
   const parts = Object.keys(columns).filter((name) => columns[`${name}_fitted`]).flatMap((name) => {

@@ -1,4 +1,4 @@
-// A film of a ball that the reader gives to the page: the library finds its friction and its patch, and the ball takes them.
+// A film of a ball. The library finds friction and patch, and the ball of the page gets these values.
 import { $ } from "../dom.js";
 import { csvOfFilm, save } from "./exports.js";
 import { lawTitle } from "../controls/law_field.js";
@@ -9,7 +9,7 @@ import { ScreenSurface } from "../drawing/screen_surface.js";
 
 /** @param {Store} store @param {Player} player @returns draw(surface) */
 export function makeFilm(store, player) {
-  /** @type {Figure | null} the data with the fitted motion, and what is left */
+  /** @type {Figure | null} the data with the fitted motion and the residuals */
   let figure = null;
   const draw = (surface) => {
     const fitted = figure;
@@ -22,7 +22,7 @@ export function makeFilm(store, player) {
     draw(surface);
   });
 
-  /** What the library finds, in words and as a figure; the ball is then as it was found. */
+  /** Shows the result of the library in words and as a figure, and gives the ball the fitted values. */
   const fit = (name, text) => {
     const { library, request, state } = store;
     if (!state.ball) throw new Error("Choose a real ball above first: the fit needs its radius.");
@@ -55,7 +55,7 @@ export function makeFilm(store, player) {
     try {
       say(`Fitting ${file.name}...`);
       const text = await file.text();
-      // What is said is seen before the work begins.
+      // The browser shows the message before the work begins.
       await new Promise((seen) => setTimeout(seen, 50));
       const found = fit(file.name, text);
       say(`${file.name} is fitted. The ball above now has the fitted friction, patch, slip and spin.`, "", found);

@@ -21,7 +21,7 @@ export function drawPanes(surface, store) {
   }));
 }
 
-/** What a film of this ball has measured, as points t0, v0, t1, v1, ...; {v, u}. */
+/** Returns the measured values {v, u} of a film of this ball, each as points t0, v0, t1, v1, ... */
 function pointsOf({ measured, end, timeFactor, state: { ball } }) {
   if (!measured || measured.ball !== ball?.name) return {};
   const { t, slip = [], spin = [] } = measured.columns;

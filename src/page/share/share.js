@@ -1,4 +1,4 @@
-// What the reader takes along: a link, a command line, files.
+// Buttons for a link, a command line and files.
 import { commandLine } from "../plane/command_line.js";
 import { $, write } from "../dom.js";
 import { citation, csvOfOrbits, csvOfRide, pngOf, save } from "./exports.js";
@@ -31,7 +31,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     write($("copied"), text);
     hero.say(text);
   };
-  /** What a button does, and where it cannot, why. */
+  /** Connects a button to an action. If the action fails, the page shows the reason. */
   const on = (id, action) => $(id).addEventListener("click", async () => {
     try {
       await action();
@@ -96,7 +96,7 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
-    // A film that was not fitted is no picture.
+    // Without a fit, a film has no picture.
     const { options } = $("picture");
     options[options.length - 1].hidden = $("film-fit").hidden;
   });

@@ -5,7 +5,7 @@ import { ArrayBufferTarget, Muxer } from "./mp4-muxer.js";
 
 const size = { width: 1280, height: 720 };
 const rate = 60;  // pictures a second
-const rests = 2;  // s that the end stays, so that it can be read
+const rests = 2;  // s that the last picture stays, so that it can be read
 /** Codecs by their names in the file. H.264 plays everywhere; some builds of Chromium and Firefox cannot write it. */
 const codecs = { avc: "avc1.640028", vp9: "vp09.00.40.08", av1: "av01.0.08M.08" };
 
@@ -22,9 +22,9 @@ async function encodingOf() {
 /**
  * A film as MP4.
  *
- * @param seconds  that the motion lasts
- * @param draw     draws the motion on a surface, as it is after a share of the time
- * @param tell     is told after each second of the film how much of it is made, from 0 to 1
+ * @param seconds  duration of the motion
+ * @param draw     draws on a surface the motion at a share of the time
+ * @param tell     called after each second of the film with its finished share, from 0 to 1
  * @throws {Error}  if the browser's encoder fails, or returns fewer pictures than it was given
  */
 export async function filmOf(seconds, draw, tell) {

@@ -8,12 +8,12 @@ export class Address {
   /** @param {Store} store */
   constructor(store) {
     this.store = store;
-    // While the reader holds something, what he makes of it is one change.
+    // All changes while the reader holds something are one step of the history.
     addEventListener("pointerdown", () => {
       store.held = true;
       clearTimeout(this.timer);
     }, true);
-    // The last shows that it was released where no page hears of it.
+    // The event pointermove without a button shows that the button was released outside the page.
     for (const end of /** @type {const} */ (["pointerup", "pointercancel", "pointermove"])) {
       addEventListener(end, ({ buttons }) => {
         if (!store.held || buttons !== 0) return;
@@ -39,7 +39,7 @@ export class Address {
     clearTimeout(this.timer);
     const fragment = toFragment(this.store.state);
     const before = location.hash.slice(1);
-    // The history of a page around this one is not ours.
+    // Inside another page, the history belongs to that page.
     const change = this.settled && top === window && steps(before) !== steps(fragment) ? "pushState" : "replaceState";
     this.settled = true;
     try {

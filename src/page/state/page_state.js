@@ -1,9 +1,9 @@
-// Everything that a link has to reproduce, and its text after the # of the address.
+// The state that a link restores, and its text after the # of the address.
 import { parseNumber, shown } from "../numbers.js";
 import { tour } from "./presets.js";
 
 /**
- * chi and gamma of the state's body, and mu where the body decides it.
+ * Returns chi and gamma of the state's body, and mu if the body determines it.
  * @returns {{chi: number, gamma: number, mu: number | undefined}}
  */
 export const bodyOf = ({ body }, { bodies }) => bodies.find(({ name }) => name === body);
@@ -12,14 +12,14 @@ export const ballKeys = ["radius", "mass", "friction", "gravity", "patch", "roll
 
 const startKeys = ["u", "v", "along", "across", "heading"];
 
-/** What a number may be, from 1e-9 to 1e9 if nothing else is said: beyond, what follows from it may be no number. */
+/** Allowed ranges of numbers. The default is 1e-9 to 1e9; beyond it, results may overflow. */
 const ranges = {
   rollingFriction: [0, 1e3], slope: [-89, 89], along: [-1e9, 1e9], across: [-1e9, 1e9], mu: [1e-6, 1],
   U: [Number.MIN_VALUE, Infinity], V: [Number.MIN_VALUE, Infinity], u: [-Infinity, Infinity], v: [0, Infinity], heading: [-360, 360],
   chosen: [0, Infinity], at: [0, 1], restitution: [0, 1], isochrone: [Number.MIN_VALUE, Infinity],
 };
 
-/** The value. @throws {Error} if a number of that name may not have it */
+/** Returns the value. @throws {Error} if the value is outside the range of its name */
 export function allowed(key, value) {
   const [low, high] = ranges[key] ?? [1e-9, 1e9];
   if (low > 0 && !(value > 0)) throw new Error("a positive number is needed");
@@ -27,14 +27,14 @@ export function allowed(key, value) {
   return value;
 }
 
-/** A motion from u and v; types.d.ts says what else it has. @returns {Start} */
+/** Returns a start with u and v; types.d.ts describes the other members. @returns {Start} */
 export const startOf = (u, v, along = v, across = 0, heading = 0) => ({ u, v, along, across, heading });
 
 /** The start of a ball that the library gives in SI units. */
 export const startFrom = ({ slip, spin, along, across }, { radius }, digits = 17) =>
   startOf(...[spin * radius, slip, along, across].map((speed) => Number(speed.toPrecision(digits))));
 
-/** The same of what does not turn forward: what cannot roll, and what has no size. */
+/** Returns the start without rolling, for a body that cannot roll or has no size. */
 export const unrolled = ({ u, v, heading }) => startOf(u, v, v, 0, heading);
 
 /** The start with other speeds; the ball turns forward as before. */
@@ -49,7 +49,7 @@ export function takeBall(state, ball) {
   return state.ball;
 }
 
-// What is read in a link; each throws where it can not.
+// Readers of the parts of a link. Each throws if it cannot read its text.
 const numberOf = (key, text) => allowed(key, parseNumber(text));
 const numbersOf = (keys, text) => keys.map((key, i) => numberOf(key, text.split(",")[i] ?? ""));
 const startIn = (text) => {
@@ -79,7 +79,7 @@ function readable(problems, key, text, read, ...from) {
   }
 }
 
-/** A part of a link that is one value of the state; nothing is said of its first one. */
+/** A part of a link that is one value of the state. A link leaves out the initial value. */
 const value = (name, first, read) => ({
   first: { [name]: first },
   write: (state) => (state[name] === first ? null : state[name]),
@@ -94,8 +94,8 @@ const ofBall = (key, read) => ({
 });
 
 /**
- * The state and what a link says of it, by the names in the link and in the order in which they are read: what a part of
- * the state is first; its text, or null for none; and what of the state a text decides.
+ * The parts of the state by their names in a link, in the order of reading. first: initial values; write: returns the text
+ * of the part, or null for none; read: returns the members of the state that a text sets.
  *
  * @type {Record<string, {first?: Partial<State>, write: (state: State) => unknown,
  *   read: (text: string, known: Library, state: State, problems: string[]) => object | void | null}>}
@@ -105,7 +105,7 @@ const parts = {
     ...value("body", "ball", (text, { bodies }) => oneOf(namesOf(bodies), text)),
     write: ({ ball, body }) => (ball || body === "ball" ? null : body),
   },
-  // A link without a ball says so by its mu.
+  // In a link without a ball, mu shows that there is none.
   mu: { ...value("mu", 0.3, (text) => numberOf("mu", text)), write: ({ ball, mu }) => (ball ? null : mu) },
   ball: {
     first: { ball: null },  // SI values of a real ball; then speeds are m/s
@@ -123,9 +123,9 @@ const parts = {
   view: value("view", "uv", (text, { views }) => oneOf(namesOf(views), text)),
   // [U, V]: |u| <= U, v <= V are shown; null: the library's choice for the orbits.
   window: value("window", null, (text) => numbersOf(["U", "V"], text)),
-  field: value("field", "none", (text) => oneOf(["none", "motion"], text)),  // of directions
-  isochrones: value("isochrones", 7, (text) => Number(oneOf(["0", "7"], text))),  // of the stop time, about so many
-  // Of the motion: "whole", or "sliding", as that of a ball is first.
+  field: value("field", "none", (text) => oneOf(["none", "motion"], text)),  // field of directions
+  isochrones: value("isochrones", 7, (text) => Number(oneOf(["0", "7"], text))),  // approximate number of lines of equal stop time
+  // The shown part of the motion: "whole", or "sliding", the initial value for a ball.
   part: {
     ...value("part", "whole", (text) => oneOf(["whole", "sliding"], text)),
     write: ({ ball, part }) => (part === (ball ? "sliding" : "whole") ? null : part),
@@ -142,26 +142,26 @@ const parts = {
   // The fall of a ball that bounces: its height in m, and its coefficient of restitution.
   drop: value("drop", 0.1, (text) => numberOf("drop", text)),
   restitution: value("restitution", 0.8, (text) => numberOf("restitution", text)),
-  step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // of the tour
-  // Of the stop time, or of the part that is shown, that the moving point has reached.
+  step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // step of the tour
+  // Place of the moving point, as a share of the stop time or of the shown part.
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },
-  // The stop time of that which the reader has drawn; 0 for none.
+  // Stop time of the isochrone that the reader has drawn; 0 for none.
   isochrone: value("isochrone", 0, (text) => numberOf("isochrone", text)),
   theme: value("theme", "auto", (text) => oneOf(["auto", "light", "dark"], text)),
   // Only the balls are shown, for a page around this one.
   embed: { ...value("embed", false, () => true), write: ({ embed }) => (embed ? 1 : null) },
-  // All is shown, not the first floor alone. A link of what only the Lab shows opens it.
+  // The Lab is open. A link with values that only the Lab shows opens it.
   lab: {
     ...value("lab", false, (text) => text === "1"),
     write: (state) => (state.lab === labParts.some((key) => parts[key].write(state) != null) ? null : Number(state.lab)),
   },
 };
 
-/** Of what a link speaks that only the Lab shows, and that is more than how the page looks. */
+/** Parts of a link that only the Lab shows, except those of the look of the page. */
 const labParts = ["law", "body", "mu", "view", "window", "against", "field", "isochrones"];
 const motionParts = [...labParts, "ball", "orbits", "part", "isochrone", "line"];
 
-/** What a link opens that speaks of no motion: a puck whose spin lets it slide four times as far. */
+/** Replacement for a link without a motion: a puck whose spin lets it slide four times as far. */
 const opening = "ball=puck&orbits=2.286,0.5";
 
 /** @returns {State} */
@@ -175,20 +175,20 @@ export function toFragment(/** @type {State} */ state) {
 
 const queryOf = (fragment) => new URLSearchParams(fragment.replace(/^#/, ""));
 
-/** The name of a ball in a link that the library does not have. */
+/** Returns the name of a ball in a link if the library does not contain this ball. */
 function strangeBall(fragment, { balls }) {
   const name = queryOf(fragment).get("ball");
   return name === null || namesOf(balls).includes(name) ? "" : name || "no name";
 }
 
-/** Whether a link speaks of no motion, such as that of the page alone, or of a ball that nobody knows. */
+/** Returns true for a link without a motion, such as the plain address, and for a link with an unknown ball. */
 export const speaksOfNothing = (fragment, known) => !motionParts.some((key) => queryOf(fragment).has(key)) || strangeBall(fragment, known) !== "";
 
 /**
- * The state of a fragment; what cannot be read in it keeps its first value.
+ * Returns the state of a fragment. Parts that cannot be read keep their initial values.
  *
- * @param known  of library.js
- * @param {string[]} problems  gets sentences on what cannot be read
+ * @param known  the library
+ * @param {string[]} problems  gets a sentence for each part that cannot be read
  * @returns {State}
  */
 export function fromFragment(fragment, known, problems = []) {
@@ -206,7 +206,7 @@ export function fromFragment(fragment, known, problems = []) {
   state.mu = mu ?? state.mu;
   // Lines are reached in metres.
   if (!state.ball) state.line = 0;
-  // What cannot roll does not turn forward.
+  // A body that cannot roll starts without rolling.
   if (!state.ball || chi === 1) state.orbits = state.orbits.map(unrolled);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));
   return state;

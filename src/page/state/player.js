@@ -1,11 +1,11 @@
-// Time: play, pause, scrub; how fast the clock of the page goes.
+// Time: play, pause, scrub, and the speed of the page's clock.
 import { $, write } from "../dom.js";
 import { choiceButtons, forgiveTouches } from "../controls/fields.js";
 import { shown } from "../numbers.js";
 
 const shortest = 7;  // seconds on the screen
 const longest = 12;
-const fastest = { flat: 60, round: 30 };  // rad/s on the screen, of marks that are seen to turn one way
+const fastest = { flat: 60, round: 30 };  // rad/s on the screen; faster marks would seem to turn back
 
 export class Player {
   /** @param {Store} store */
@@ -18,13 +18,13 @@ export class Player {
     $("time").addEventListener("input", () => store.move({ fraction: Number($("time").value) / 1000 }));
   }
 
-  /** What the motion lasts on the screen: its own time, if that is neither too short to see nor too long to wait for. */
+  /** Duration of the motion on the screen: its own time between the limits `shortest` and `longest`. */
   get seconds() {
     const { contact, end, timeFactor } = this.store;
     return contact ? Math.min(longest, Math.max(shortest, end * timeFactor)) : shortest;
   }
 
-  /** The share of the spin that is drawn: of a faster one the marks would seem to turn back. */
+  /** Share of the spin that is drawn, so that the marks do not seem to turn back. */
   get spinShown() {
     const { orbit, end, timeFactor, ride } = this.store;
     return orbit && ride ? Math.min(1, (fastest[ride.rolls ? "round" : "flat"] * this.seconds * ride.radius) / (Math.abs(orbit.u) * end * timeFactor) || 1) : 1;
@@ -66,7 +66,7 @@ export class Player {
       const passed = last === null ? 0 : Math.max(0, time - last);
       last = time;
       this.store.move({ fraction: Math.min(1, state.fraction + passed / 1000 / this.seconds) });
-      // A round is one; the reader begins another.
+      // The motion is played once; the reader starts it again.
       if (this.store.state.fraction >= 1) this.toggle(false);
     };
     requestAnimationFrame(step);

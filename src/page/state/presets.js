@@ -19,7 +19,7 @@ export const tour = [
 
 const stepThatShows = (card) => tour.findIndex(({ shows }) => shows === card);
 
-/** The rounds of the game: lines to reach by spin alone, then a mark behind a stone. */
+/** Rounds of the game: lines that a throw must reach by spin alone, then a mark behind a stone. */
 export const rounds = [
   ...[1, 2, 3].map((line) => `ball=puck&orbits=2.286,0.5&line=${line}`), `${stroke}&line=0.6&step=${stepThatShows("cue")}`,
 ];

@@ -1,4 +1,4 @@
-// The state of the page, and all that follows from it: each value is computed once for what it depends on.
+// The state of the page and all values that follow from it. Each value is computed again only if its inputs have changed.
 import { bodyOf, fromFragment, initialState, startOf, takeBall, toFragment } from "./page_state.js";
 import { portraitRequest, shotOf } from "../plane/portrait_request.js";
 import { passageOf, rightOf, stoneOf } from "../hero/tries.js";
@@ -6,24 +6,24 @@ import { rideOn } from "../hero/turning.js";
 import { shown } from "../numbers.js";
 import { isDark, themeOf } from "../drawing/theme.js";
 
-const longest = 10;    // s that a ball is let roll
-const slow = 1 / 500;  // of the fastest slip in the patch at first: without units, what slips no faster counts as rolling
+const longest = 10;    // s, longest rolling that is shown
+const slow = 1 / 500;  // slip below which a body without units rolls, divided by the largest slip in the patch at the start
 
-/** What moves where there are no units: of any size, and a second is a unit of tau. */
+/** Returns a body for a motion without units: its radius is free, and one second is one unit of tau. */
 const ballOf = (radius) =>
   ({ mass: 1, radius, friction: 2 / (3 * Math.PI), gravity: 1, patchBy: "patch_radius", patch: radius, body: "ball", rollingFriction: 0, slope: 0 });
 
 export class Store {
-  /** Called after each change; with true where only the moment or the isochrone has changed. */
+  /** Called after each change; with true if only the moment or the isochrone has changed. */
   changed = (/** @type {boolean} */ _moment) => {};
-  /** @type {((state: State) => void)[]} what each part of the page shows of the state, but for the moment */
+  /** @type {((state: State) => void)[]} functions by which each part of the page shows the state, except the moment */
   shows = [];
-  /** Tells the reader what the library rejects, or "". */
+  /** Shows the reader the reason why the library rejects something; "" removes it. */
   tell = (/** @type {string} */ _problem) => {};
   moves = true;    // motions play by themselves; else the end is shown
   kept = new Map();
   settled = false;
-  held = false;    // something by the reader, whose changes are one until he lets go
+  held = false;    // true: the reader holds something; all changes until the release are one
   /** @type {Contact | null} */
   contact = null;
   view = /** @type {View} */ ({});
@@ -34,14 +34,14 @@ export class Store {
   body = { chi: 1, gamma: 1, mu: /** @type {number | undefined} */ (undefined) };
   /** @type {OwnOrbit[]} */
   motions = [];
-  /** @type {number[] | null} when they stop by the law compared with, in tau */
+  /** @type {number[] | null} their stop times under the law of comparison, in tau */
   others = null;
   /** @type {Measured | null} the last film */
   measured = null;
-  /** The chosen one; none where there is no orbit. */
+  /** The chosen motion; undefined without an orbit. */
   motion = /** @type {OwnOrbit} */ (/** @type {unknown} */ (undefined));
-  timeFactor = 1;  // of tau, to the time that is told
-  end = 1;         // of the time slider, in tau
+  timeFactor = 1;  // shown time divided by tau
+  end = 1;         // end of the time slider, in tau
 
   /** @param {Library} library @param {State} state */
   constructor(library, state) {
@@ -53,7 +53,7 @@ export class Store {
     for (const show of this.shows) show(this.state);
   }
 
-  /** Runs what may be rejected, and tells the reader; besides, it tells the sentences `remarks`. */
+  /** Runs an action that may throw, and shows the reader the reason together with `remarks`. */
   attempt(action, remarks = []) {
     try {
       action();
@@ -93,8 +93,8 @@ export class Store {
   }
 
   /**
-   * Opens what a link asked for and the library rejects: the motion alone, in a plain plane; or the body with its own
-   * start; or what the page opens with.
+   * Opens a state instead of a link that the library rejects. The first possible one is taken: the motion in a plain plane,
+   * the body with its own start, or the initial state.
    */
   openWithout(/** @type {State} */ asked) {
     const { lab, theme, embed, body, law, mu } = asked;
@@ -114,7 +114,7 @@ export class Store {
     }
   }
 
-  /** The reader has let go: what lies behind his orbits makes room for them. */
+  /** Ends holding: the library draws the portrait again, with space for the reader's orbits. */
   release() {
     const { portrait } = this;
     this.held = false;
@@ -122,13 +122,13 @@ export class Store {
     if (this.portrait !== portrait) this.move({});
   }
 
-  /** Changes the moment or the isochrone, from which nothing else follows. */
+  /** Changes the moment or the isochrone, on which no other value depends. */
   move(values) {
     Object.assign(this.state, values);
     this.changed(true);
   }
 
-  /** The value of that name: computed again only where what it depends on, the key, has changed. */
+  /** Returns the value with a name. It is computed again only if its key has changed. */
   keep(name, key, make) {
     const text = JSON.stringify(key);
     if (this.kept.get(name)?.text !== text) {
@@ -145,7 +145,7 @@ export class Store {
     this.body = bodyOf(state, library);
     this.view = /** @type {View} */ (library.views.find(({ name }) => name === state.view));
     const { chi, gamma } = this.body;
-    // A slope and rolling friction drive what slides, the way it slides.
+    // Under a slope or rolling friction, the drive depends on the direction of sliding.
     const rolling = chi === 1 ? 0 : state.ball?.rollingFriction ?? 0;
     const slides = state.ball?.slope || rolling ? orbit : undefined;
     const contactBy = (law) => library.contact(law, shotOf(state.ball, slides ?? startOf(0, 0), slides ? rolling : 0));
@@ -156,7 +156,7 @@ export class Store {
     this.system = [state.law, state.mu, chi, gamma, drive];
     this.facts = this.keep("facts", this.system, () => plane.choose(...this.system));
     this.request = portraitRequest(state, { chi, gamma, drive, resistance: this.contact?.without ? 0 : rolling }, isDark(state.theme));
-    // While the reader holds something, what lies behind his orbits stays where its window does.
+    // While the reader holds something and the window stays, the portrait behind his orbits stays, too.
     const stays = this.held && state.window !== null;
     const behind = stays ? { ...this.request, orbits: [], chosen: 0, ball: null } : this.request;
     this.portrait = this.keep("portrait", behind, () => plane.portrait(this.request));
@@ -171,7 +171,7 @@ export class Store {
     this.end = this.ride?.end ?? 1;
   }
 
-  /** How the body of an orbit slides over the table, and beside it one that does not spin: SI units, but `end` in tau. */
+  /** Returns the ride of an orbit's body over the table, and that of a body without spin: SI units, `end` in tau. */
   rideOf(state, index) {
     const { library, library: { plane }, body: { chi }, timeFactor } = this;
     const orbit = state.orbits[index];
@@ -183,7 +183,7 @@ export class Store {
     const least = state.ball ? library.rollingSlip : slow * (v + state.mu * Math.abs(orbit.u));
     const resistance = rolls ? ball.rollingFriction : 0;
     const starts = { plain: { ...orbit, u: 0 }, own: orbit };
-    // A ball that spins and is held by rolling friction creeps as long as it spins: when it ceases to slide is told without.
+    // A ball that is held by rolling friction creeps as long as it spins. The end of sliding is therefore computed without it.
     const slide = (name) => {
       if (v === 0 && starts[name].u === 0) return { end: 0, path: 0, turned: 0, stop: 0 };
       const shot = shotOf(ball, starts[name]);
@@ -198,23 +198,23 @@ export class Store {
     };
     const rest = rolls && (resistance > 0 || ball.slope) ? ride("own", 0, "rest").rest : null;
     const stop = own.stop / timeFactor;
-    // A ball that soon rolls is seen to roll, and one that curls around a stone, to pass the mark behind it.
+    // Show also the rolling of a ball that rolls soon, and the passage of the mark behind a stone.
     const speed = state.ball && rolls ? Math.hypot(orbit.along - v / chi, orbit.across) : 0;
     const rolling = speed > 0 ? Math.min(longest, Math.max(6 * radius, 2 * state.line) / speed) / timeFactor : 0;
     const whole = state.part === "whole" || v <= least;
-    // At rest time passes all the same.
+    // At rest the time slider has a length, too.
     const lasts = Math.max(rolling, whole ? Math.max(stop, (rest?.t ?? 0) / timeFactor) : Math.min(stop, (1.3 * own.end) / timeFactor)) || 1;
     const stone = stoneOf(state, rolls);
     const passage = stone && ofSystem("passage", [shotOf(ball, orbit), orbit.heading, stone, lasts], () => {
       const course = ride("own", lasts);
       return passageOf(rideOn(course, rightOf(orbit, course, stone), 1), stone);
     });
-    // A ball that touches the stone is shown until then.
+    // The motion of a ball that touches the stone ends there.
     const end = lasts * (passage?.until || 1);
     return { own, plain, least, end, rolls, rest, radius, stone, passage, courses: [ride("plain", end), ride("own", end)] };
   }
 
-  /** A time until a stop, as it is told. */
+  /** Returns a stop time as text. */
   stopText(tau) {
     const inTau = `τ* = ${shown(tau, 7)}${this.contact ? " m/s" : ""}`;
     return this.contact ? `${shown(tau * this.timeFactor, 6)} s  (${inTau})` : inTau;
@@ -233,7 +233,7 @@ export class Store {
     return this.state.orbits[this.state.chosen];
   }
 
-  /** All states that stop after the time that the reader has asked for. */
+  /** States with the stop time that the reader chose. */
   get isochrone() {
     const { state: { isochrone }, request, library } = this;
     return isochrone ? this.keep("isochrone", [isochrone, request], () => library.plane.isochrone(isochrone)) : null;
