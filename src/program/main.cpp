@@ -146,14 +146,6 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();
     throw BadInput("{} needs a value", message.substr(0, message.find(':')));
-  } catch (const CLI::ExcludesError& error) {
-    std::string message = error.what();
-    message.replace(message.find(" excludes "), 10, " and ");
-    throw BadInput(message + " exclude each other: give one of them");
-  } catch (const CLI::RequiresError& error) {
-    std::string message = error.what();
-    message.replace(message.find(" requires "), 10, " needs ");
-    throw BadInput(message);
   }
 }
 

@@ -14,13 +14,29 @@ namespace contensou::program {
 
 CLI::Option* Argument::add(CLI::App& app, const std::string& names, const std::string& value_name,
                            const std::string& help, Take take, bool repeatable) {
-  name_ = names.substr(0, names.find(','));
   const auto accepted = [this, &app, take = std::move(take), repeatable](const CLI::results_t& values) {
     accept(app, values, take, repeatable);
     return true;
   };
-  option_ = app.add_option(names, accepted, help);
+  keep(names, app.add_option(names, accepted, help));
   return option_->type_name(value_name)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+CLI::Option* Argument::keep(const std::string& names, CLI::Option* option) {
+  name_ = names.substr(0, names.find(','));
+  return option_ = option;
+}
+
+void Argument::require_rules(const CLI::App& app) const {
+  if (app.get_help_ptr()->count() > 0) return;
+  for (const auto& [others, reason] : exclusions_) {
+    if (const std::string names = names_given(others); !names.empty())
+      throw BadInput("{} and {} exclude each other: {}", name_, names, reason);
+  }
+  for (const auto& [other, reason] : needs_) {
+    if (!other->given())
+      throw BadInput("{} {}: add {} {}", name_, reason, other->name_, other->option_->get_type_name());
+  }
 }
 
 void Argument::accept(const CLI::App& app, const std::vector<std::string>& values, const Take& take,
@@ -43,6 +59,7 @@ void Argument::accept(const CLI::App& app, const std::vector<std::string>& value
       throw BadInput("{}: {}", name_, error.what());
     }
   }
+  require_rules(app);
 }
 
 void Argument::reject(const std::string& message) const { throw BadInput("{}: {}", typed(), message); }
@@ -52,7 +69,7 @@ std::string Argument::typed(const std::string& value) const {
   return fmt::format("{} {}", name_, quoted.substr(1, quoted.size() - 2));
 }
 
-std::string names_given(const std::vector<const Argument*>& arguments) {
+std::string names_given(const Arguments& arguments) {
   std::vector<std::string> names;
   for (const Argument* argument : arguments) {
     if (argument->given()) names.push_back(argument->name());
@@ -60,8 +77,10 @@ std::string names_given(const std::vector<const Argument*>& arguments) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string with_name(const std::string& names, const std::string& more) {
-  return names.empty() ? more : more.empty() ? names : names + ", " + more;
+Arguments united(std::initializer_list<Arguments> lists) {
+  Arguments all;
+  for (const Arguments& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
 }
 
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings) {

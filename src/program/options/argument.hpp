@@ -19,6 +19,9 @@ struct NotAllowed : BadInput {
   using BadInput::BadInput;
 };
 
+class Argument;
+using Arguments = std::vector<const Argument*>;
+
 /// An option whose value is kept as the text that was typed.
 class Argument {
  public:
@@ -31,6 +34,14 @@ class Argument {
   /// @param repeatable  true if the option may be given more than once
   CLI::Option* add(CLI::App& app, const std::string& names, const std::string& value_name, const std::string& help,
                    Take take = {}, bool repeatable = false);
+
+  /// Forbids other arguments beside this one. The message is "THIS and OTHERS exclude each other: REASON".
+  void excludes(const Arguments& others, const std::string& reason = "give one of them") {
+    exclusions_.emplace_back(others, reason);
+  }
+
+  /// Requires another argument beside this one. The message is "THIS REASON: add OTHER".
+  void needs(const Argument& other, const std::string& reason) { needs_.emplace_back(&other, reason); }
 
   /// Returns true if the argument was given. Returns false also for a verb without this argument.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
@@ -46,12 +57,28 @@ class Argument {
   /// Throws BadInput with the option and its value before the message.
   [[noreturn]] void reject(const std::string& message) const;
 
+ protected:
+  CLI::Option* keep(const std::string& names, CLI::Option* option);
+  void require_rules(const CLI::App& app) const;
+
  private:
   void accept(const CLI::App& app, const std::vector<std::string>& values, const Take& take, bool repeatable) const;
   std::string typed(const std::string& value) const;
 
   CLI::Option* option_ = nullptr;
   std::string name_;
+  std::vector<std::pair<Arguments, std::string>> exclusions_;
+  std::vector<std::pair<const Argument*, std::string>> needs_;
+};
+
+/// An option without a value.
+class Flag : public Argument {
+ public:
+  CLI::Option* add(CLI::App& app, const std::string& name, const std::string& help) {
+    return keep(name, app.add_flag_callback(
+                          name, [this, &app] { require_rules(app); }, help));
+  }
+  operator bool() const { return given(); }
 };
 
 /// An option whose value is read when the command line is parsed, so that mistakes are found at once.
@@ -79,9 +106,9 @@ class ArgumentOf : public Argument {
 };
 
 /// Returns the names of those arguments that were given, joined for a message; empty if there are none.
-std::string names_given(const std::vector<const Argument*>& arguments);
-/// Joins two lists of names as names_given returns them; either may be empty.
-std::string with_name(const std::string& names, const std::string& more);
+std::string names_given(const Arguments& arguments);
+/// Returns the lists as one list.
+Arguments united(std::initializer_list<Arguments> lists);
 
 /// Returns true if a value is the path of a file: it contains a / or ends with one of these endings.
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings);

@@ -24,12 +24,6 @@ void BulkOptions::add(CLI::App& app) {
                     {{"auto", std::nullopt}, {"always", ShowProgress::always}, {"never", ShowProgress::never}}));
 }
 
-void BulkOptions::refuse(const std::string& reason) const {
-  if (const std::string given = names_given({&threads_, &progress_}); !given.empty()) {
-    throw BadInput(given + " is for " + reason);
-  }
-}
-
 int BulkOptions::threads() const {
   const long cores = std::thread::hardware_concurrency();
   return static_cast<int>(threads_.value_or(std::clamp(cores, 1L, max_threads)));

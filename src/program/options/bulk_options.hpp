@@ -18,9 +18,11 @@ class BulkOptions {
  public:
   void add(CLI::App& app);
 
-  /// Throws BadInput if one of these options was given to a verb that cannot use it.
-  /// @param reason  end of the message, after "--threads is for " or the like
-  void refuse(const std::string& reason) const;
+  Arguments all() const { return {&threads_, &progress_}; }
+  void need(const Argument& other, const std::string& reason) {
+    threads_.needs(other, reason);
+    progress_.needs(other, reason);
+  }
 
   /// Returns the number of threads: by default as many as the machine runs at once.
   int threads() const;

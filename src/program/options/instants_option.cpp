@@ -30,26 +30,23 @@ InstantsOption::Times InstantsOption::read_times(const std::string& typed, const
   return {Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())), in_seconds};
 }
 
-CLI::Option* InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit,
-                                 const std::string& extent) {
+void InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent) {
   constexpr long max_samples = 10'000'000;
   app.option_defaults()->group("Instants");
   const auto read = [=](const std::string& typed) { return read_times(typed, time, unit); };
-  CLI::Option* at =
-      at_.add(app, "--at", "T1,T2,...|FILE",
-              fmt::format("list of times {0} >= 0{1}, in any order. FILE has a column {0}, or one number a line", time,
-                          unit.empty() ? ", or with --ball in seconds, such as '1,2 s'"
-                                       : ", in " + std::string(si::find_dimension(unit)->words)),
-              read);
-  samples_
-      .add(app, "--samples", "N",
-           fmt::format("number of instants{}, 2 or more, instead of --at (default {}). Half of them lie in the time in "
-                       "which the body slides",
-                       extent, standard_samples),
-           whole_number(2, max_samples))
-      ->excludes(at);
-  app.add_flag("--equidistant", equidistant_, "equal time steps between the instants of --samples")->excludes(at);
-  return at;
+  at_.add(app, "--at", "T1,T2,...|FILE",
+          fmt::format("list of times {0} >= 0{1}, in any order. FILE has a column {0}, or one number a line", time,
+                      unit.empty() ? ", or with --ball in seconds, such as '1,2 s'"
+                                   : ", in " + std::string(si::find_dimension(unit)->words)),
+          read);
+  samples_.add(
+      app, "--samples", "N",
+      fmt::format("number of instants{}, 2 or more, instead of --at (default {}). Half of them lie in the time in "
+                  "which the body slides",
+                  extent, standard_samples),
+      whole_number(2, max_samples));
+  equidistant_.add(app, "--equidistant", "equal time steps between the instants of --samples");
+  at_.excludes({&samples_, &equidistant_});
 }
 
 }  // namespace contensou::program

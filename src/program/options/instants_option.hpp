@@ -19,8 +19,7 @@ class InstantsOption {
   /// @param time    name of the time, and of its column in a file that --at names
   /// @param unit    symbol of the unit of the time; empty for tau
   /// @param extent  time span of the instants of --samples: "" or " from WHERE to WHERE"
-  /// @return        the option --at
-  CLI::Option* add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
+  void add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
 
   /// Times >= 0, with their unit.
   struct Times {
@@ -32,10 +31,8 @@ class InstantsOption {
   /// @param unit  unit of the list, as in parse_quantity; if empty, the list has no unit, or is in seconds
   static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
 
-  bool given() const { return !names().empty(); }
-
-  /// Returns the names of those of the three options that were given, joined for a message.
-  std::string names() const { return with_name(names_given({&at_, &samples_}), equidistant_ ? "--equidistant" : ""); }
+  Arguments all() const { return {&at_, &samples_, &equidistant_}; }
+  bool given() const { return at_.given() || samples_.given() || equidistant_; }
 
   /// Returns the instants of --at, in the order given; null without --at.
   const Times* at() const { return at_.given() ? &*at_ : nullptr; }
@@ -57,7 +54,7 @@ class InstantsOption {
 
   ArgumentOf<Times> at_;
   ArgumentOf<long> samples_;
-  bool equidistant_ = false;
+  Flag equidistant_;
 };
 
 }  // namespace contensou::program

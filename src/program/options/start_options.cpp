@@ -104,6 +104,11 @@ void StartOptions::add(CLI::App& app) {
 void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer) {
   app.option_defaults()->group("Start");
   ball_.add(app, "--ball", "NAME|FILE.toml", help);
+  ball_.excludes({&mu(), &drive(), &u0_, &v0_},
+                 "with --ball, use --patch-radius, --spin and --slip, and for a drive --rolling-friction or --slope");
+  ball_.excludes({&body_argument()},
+                 "the body is part of --ball. A disc or ring in SI units is a run file with body = \"disc\" in [ball] "
+                 "('contensou balls puck' prints one); without --ball give --mu, --u0 and --v0");
   app.option_defaults()->group(ball_group());
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const si::Quantity& quantity = *si::quantities()[i];
@@ -131,50 +136,13 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
                    fmt::format("{}{}{}", quantity.meaning, dimension ? fmt::format(", in {}", dimension->words) : "",
                                may_be_table ? ". FILE.csv has columns t and load, for a load that changes" : ""),
                    read);
-  }
-}
-
-std::string StartOptions::override_names() const {
-  std::vector<const Argument*> arguments;
-  for (const Argument& argument : values_) arguments.push_back(&argument);
-  return names_given(arguments);
-}
-
-std::string StartOptions::start_names() const {
-  std::vector<const Argument*> arguments;
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    if (si::quantities()[i]->section == si::slip.section) arguments.push_back(&values_[i]);
-  }
-  return names_given(arguments);
-}
-
-std::string StartOptions::given_names() const { return with_name(names_of_one_start(), names_given({&drive()})); }
-
-std::string StartOptions::names_of_one_start() const {
-  return with_name(names_given({&mu(), &u0_, &v0_, &ball_}), override_names());
-}
-
-void StartOptions::require_one_kind() const {
-  const std::string reduced = names_given({&mu(), &drive(), &u0_, &v0_});
-  if (ball_.given() && !reduced.empty()) {
-    throw BadInput(
-        "{} and {} exclude each other: with --ball, use --patch-radius, --spin and --slip, and for a "
-        "drive --rolling-friction or --slope",
-        ball_.typed(), reduced);
-  }
-  if (ball_.given() && body_argument().given()) {
-    body_argument().reject(
-        "--ball says its body itself: a disc or ring in SI units is a run file with body = \"disc\" in [ball] "
-        "('contensou balls puck' prints one); without --ball give --mu, --u0 and --v0");
-  }
-  if (!ball_.given() && !override_names().empty()) {
-    throw BadInput("{} changes a ball, or a puck: add --ball NAME|FILE.toml ('contensou balls' lists them)",
-                   override_names());
+    of_ball_.push_back(&values_[i]);
+    if (quantity.section == si::slip.section) velocities_.push_back(&values_[i]);
+    if (!radius_is_ball_) values_[i].needs(ball_, "changes a ball or puck ('contensou balls' lists them)");
   }
 }
 
 GivenStart StartOptions::read(const reduction::Law& law) const {
-  require_one_kind();
   if (ball_.given()) {
     const si::Experiment experiment = read_ball(law);
     try {
@@ -215,16 +183,7 @@ std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) co
   return starts;
 }
 
-void StartOptions::require_point_or_none() const {
-  const std::string others = names_given({&mu(), &body_argument(), &drive(), &ball_});
-  if (!others.empty() || !override_names().empty()) {
-    throw BadInput("--system and {} exclude each other: its numbers are in the formulas, or --param",
-                   others.empty() ? override_names() : others);
-  }
-}
-
 Eigen::Vector2d StartOptions::read_point() const {
-  require_point_or_none();
   for (const Argument* argument : {&u0_, &v0_}) {
     if (!argument->given()) throw BadInput("{} missing: a start of --system is --u0 U --v0 V", argument->name());
   }
@@ -232,7 +191,6 @@ Eigen::Vector2d StartOptions::read_point() const {
 }
 
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
-  require_one_kind();
   if (ball_.given()) return read(law).system;
   return read_system(law, "--mu M, --ball NAME|FILE.toml");
 }
@@ -282,7 +240,6 @@ std::optional<si::LoadHistory> StartOptions::load_history() const {
 }
 
 si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Description& between) const {
-  if (ball_.given()) require_one_kind();
   const si::Description given = given_values();
   // A slip or a spin replaces all velocities of [start]. Every other option replaces its own number or vector.
   const bool slip_given = given.find(si::slip) != nullptr, spin_given = given.find(si::spin) != nullptr;
@@ -300,7 +257,8 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
     si::patch_radius_of(experiment, law);  // throws if the patch radius is impossible
     tell_new_patch(experiment, law);
     if (starts_anew && slip_given != spin_given) {
-      fmt::print(stderr, "note: {} replaces [start] of {}; the rest of the start is 0\n", start_names(), ball_.text());
+      fmt::print(stderr, "note: {} replaces [start] of {}; the rest of the start is 0\n", names_given(velocities_),
+                 ball_.text());
     }
     return experiment;
   } catch (const si::RunFileError&) {
@@ -311,7 +269,7 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
 }
 
 void StartOptions::reject_ball(const std::string& message) const {
-  const std::string others = override_names();
+  const std::string others = names_given(of_ball_);
   if (!ball_.given()) throw BadInput("{}: {}", others, message);
   ball_.reject((others.empty() ? "" : fmt::format("with {}: ", others)) + message);
 }

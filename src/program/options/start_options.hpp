@@ -71,15 +71,19 @@ class StartOptions : public BodyOptions {
   void add_ball(CLI::App& app, const std::string& help = "real body in SI units: built-in, or from a run file",
                 Offer offer = all);
 
-  /// Accepts --radius alone as a ball, for a verb that determines the other values.
+  /// Accepts --radius alone as a ball, for a verb that determines the other values. This must be called before
+  /// add_ball.
   void take_radius_for_ball() { radius_is_ball_ = true; }
 
   /// Returns true if any of these options was given, except --body.
-  bool given() const { return !given_names().empty(); }
-  std::string given_names() const;
+  bool given() const { return !names_given({&mu(), &drive(), &u0_, &v0_, &ball_}).empty(); }
 
-  /// Returns the names of the given options, except --body, and except --drive, which may apply to many starts.
-  std::string names_of_one_start() const;
+  /// Returns the arguments that one start has and a table of starts replaces: --mu, --u0, --v0, and velocities of a
+  /// ball.
+  Arguments of_start() const { return united({{&mu(), &u0_, &v0_}, velocities_}); }
+
+  /// Returns the arguments of a body: --mu, --body and --drive, and --ball with the options for its values.
+  Arguments of_body() const { return united({{&mu(), &body_argument(), &drive(), &ball_}, of_ball_}); }
 
   /// Returns the drive of a ball whose slip points along x. The drive does not depend on the speed. Throws as read.
   double drive_along_x(si::Experiment ball) const;
@@ -95,12 +99,10 @@ class StartOptions : public BodyOptions {
   GivenStart read(const reduction::Law& law) const;
 
   /// Reads --u0 and --v0, of either sign, as a point of a system other than (2.6).
-  /// @throws BadInput  if one is missing, or if an option of a ball or a body is given
+  /// @throws BadInput  if one is missing
   Eigen::Vector2d read_point() const;
 
-  /// Throws BadInput if an option of a ball or a body is given.
-  void require_point_or_none() const;
-
+  Argument& ball() { return ball_; }
   bool ball_given() const { return ball_.given(); }
 
   /// Also allows --load to name a table of the load against time. This must be called before add_ball.
@@ -111,10 +113,6 @@ class StartOptions : public BodyOptions {
 
   /// Returns the values that are given by single options, such as --slip.
   si::Description given_values() const;
-
-  /// Returns true if an option for the start of the ball was given, such as --slip.
-  bool overrides_start() const { return !start_names().empty(); }
-  std::string start_names() const;
 
   /// Returns the name of the law that belongs to the body or the ball. Throws as read.
   std::string standard_law() const;
@@ -156,9 +154,6 @@ class StartOptions : public BodyOptions {
   /// deceleration now gives another patch than before.
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
-  void require_one_kind() const;
-  std::string override_names() const;
-
   ArgumentOf<double> u0_, v0_;
   Argument ball_;
   const ArgumentOf<std::vector<double>>& value(const si::Quantity& quantity) const;
@@ -167,6 +162,7 @@ class StartOptions : public BodyOptions {
   mutable std::optional<si::LoadHistory> load_history_;  ///< empty until load_history() has read the table, once
   mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, because its file may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};
+  Arguments of_ball_, velocities_;  ///< options for values of the ball, and those of them for its start
 };
 
 /// Returns the name of the group of options that replace values of a ball.

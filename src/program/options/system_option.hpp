@@ -16,6 +16,7 @@ class SystemOption {
  public:
   void add(CLI::App& app);
   bool given() const { return system_.given(); }
+  Argument& argument() { return system_; }
   const std::string& text() const { return system_.text(); }
 
   /// @throws BadInput  as parse_planar_system

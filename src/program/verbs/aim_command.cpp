@@ -38,6 +38,13 @@ class AimCommand final : public Verb {
         at_least_0("m/s"));
     spin_.add(app, "--spin", "ROTATION",
               "spin about the vertical at the start, for --rolls-at, of either sign (default 0)", quantity("rad/s"));
+    const std::string alone =
+        "two of --distance, --turns and --time decide the start, or --rolls-at and --rolling-speed";
+    for (Argument* argument : {&rolls_at_, &rolling_speed_, &spin_})
+      argument->excludes({&distance_, &turns_, &time_}, alone);
+    rolls_at_.needs(rolling_speed_, "goes with --rolling-speed");
+    rolling_speed_.needs(rolls_at_, "goes with --rolls-at");
+    spin_.needs(rolls_at_, "goes with --rolls-at and --rolling-speed");
     start_.add_ball(app, "real body in SI units, built-in or from a run file; its start is not used",
                     StartOptions::no_start);
     law_.add(app);
@@ -50,16 +57,6 @@ class AimCommand final : public Verb {
     start_.tell_left_out();
     const Output output = output_.read();
     if (const std::string names = names_given({&rolls_at_, &rolling_speed_, &spin_}); !names.empty()) {
-      const std::string others = names_given({&distance_, &turns_, &time_});
-      if (!others.empty() && !rolls_at_.given() && !rolling_speed_.given()) {
-        throw BadInput(
-            "{} goes with --rolls-at and --rolling-speed; with {} leave it out, two of --distance, "
-            "--turns and --time decide the start",
-            names, others);
-      }
-      if (!others.empty()) throw BadInput("{} and {} exclude each other: leave one out", others, names);
-      if (!rolls_at_.given() || !rolling_speed_.given())
-        throw BadInput("{}: --rolls-at and --rolling-speed are needed together", names);
       if (output.picture) throw BadInput("{}: a picture needs two of --distance, --turns and --time", names);
       return output.write(aim_answer(ball, law, si::RollingGoal{*rolls_at_, *rolling_speed_, spin_.value_or(0)}));
     }

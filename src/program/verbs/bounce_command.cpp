@@ -21,14 +21,12 @@ class BounceCommand final : public Verb {
     app.option_defaults()->group("Impact");
     speed_.add(app, "--speed", "SPEED",
                "velocity of the centre along x, in metres per second (default: velocity of --ball)", quantity("m/s"));
-    CLI::Option* const normal =
-        normal_speed_.add(app, "--normal-speed", "SPEED", "speed towards the plane, in metres per second, above 0",
-                          checked(quantity("m/s"), is_positive, "a speed above 0 is needed"));
-    drop_
-        .add(app, "--drop", "LENGTH",
-             "height from which the ball is dropped, in metres, above 0; replaces --normal-speed",
-             checked(quantity("m"), is_positive, "a height above 0 is needed"))
-        ->excludes(normal);
+    normal_speed_.add(app, "--normal-speed", "SPEED", "speed towards the plane, in metres per second, above 0",
+                      checked(quantity("m/s"), is_positive, "a speed above 0 is needed"));
+    drop_.add(app, "--drop", "LENGTH",
+              "height from which the ball is dropped, in metres, above 0; replaces --normal-speed",
+              checked(quantity("m"), is_positive, "a height above 0 is needed"));
+    normal_speed_.excludes({&drop_});
     restitution_.add(app, "--restitution", "E",
                      "coefficient of restitution, 0 to 1: normal speed after the impact divided by normal speed before",
                      checked(

@@ -31,6 +31,7 @@ class CheckCommand final : public Verb {
                    fmt::format("largest difference that passes, divided by slip and spin at the start (default {})",
                                standard_tolerance),
                    checked(number, is_positive, "a share above 0 is needed"));
+    tolerance_.needs(against_, "is for a table");
     output_.add(app);
   }
 
@@ -39,7 +40,6 @@ class CheckCommand final : public Verb {
     if (against_.given()) return compare(output);
     if (output.picture && output.format != "tex")
       throw BadInput("a picture compares with a table: add --against FILE, or leave it out");
-    if (tolerance_.given()) throw BadInput("--tolerance is for a table: add --against FILE");
     const bool of_one_start = start_.given() || start_.body_argument().given();
     const bool one_law = law_.given() || start_.brings_law();
     std::vector<CheckedLaw> rows;

@@ -91,8 +91,8 @@ class FitCommand final : public Verb {
                    checked(quantity("s"), is_positive, "a time > 0 is needed, in s"));
     pixel_.add(app, "--pixel", "LENGTH", "length that one pixel shows, for columns such as 'x [px]'",
                checked(quantity("m"), is_positive, "a length > 0 is needed, in m"));
-    start_.add_ball(app, "real ball with the values that are not fitted; with --radius no ball is needed");
     start_.take_radius_for_ball();
+    start_.add_ball(app, "real ball with the values that are not fitted; with --radius no ball is needed");
     law_.add_several(
         app, "LAW,...",
         "law of friction, or several laws to compare (default exact); 'contensou help laws' lists all laws");
@@ -101,11 +101,12 @@ class FitCommand final : public Verb {
               "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has, "
               "except the patch of a disc or ring)",
               parse_free);
-    app.add_flag("--robust", robust_, "give outliers less weight, by Huber's loss");
-    app.add_flag("--plan", plan_,
-                 "predict the standard errors that a film with --fps and --noise would give; without FILE");
+    robust_.add(app, "--robust", "give outliers less weight, by Huber's loss");
+    plan_.add(app, "--plan", "predict the standard errors that a film with --fps and --noise would give; without FILE");
     fps_.add(app, "--fps", "N", "pictures per second of the film, for --plan and for a column frame",
              checked(number, is_positive, "pictures in a second > 0 are needed"));
+    plan_.excludes({&files_, &from_, &pixel_},
+                   "a planned film has no table yet, begins with the motion, and has its noise in SI units");
     output_.add(app);
   }
 
@@ -220,9 +221,6 @@ class FitCommand final : public Verb {
 
   /// Returns tracks with the times and the standard deviations of a planned film of the ball.
   std::vector<fit::Track> planned_tracks(const fit::FitRequest& request) const {
-    if (files_.given()) throw BadInput("--plan predicts a film that is not made yet: leave out FILE");
-    if (from_.given()) from_.reject("a film that is planned begins with the motion: leave it out");
-    if (pixel_.given()) pixel_.reject("--plan has its noise in SI units: leave it out");
     std::vector<std::string> missing;
     if (!fps_.given()) missing.emplace_back("--fps N");
     if (!noise_.given()) missing.emplace_back("--noise NAME=SD,... of what is seen");
@@ -252,7 +250,7 @@ class FitCommand final : public Verb {
   ArgumentOf<double> from_, until_, stop_time_, fps_, pixel_;
   ArgumentOf<NoiseByName> noise_;
   ArgumentOf<fit::Free> free_;
-  bool robust_ = false, plan_ = false;
+  Flag robust_, plan_;
   StartOptions start_;
   LawOption law_;
   PictureOptions output_{

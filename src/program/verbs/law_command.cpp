@@ -35,9 +35,10 @@ class LawCommand final : public Verb {
   void add_options(CLI::App& app) override {
     law_.add(app);
     app.option_defaults()->group("Ratios");
-    CLI::Option* k = k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
-    batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input")->excludes(k);
-    app.add_flag("--surface", surface_,
+    k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
+    batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input");
+    k_.excludes({&batch_});
+    surface_.add(app, "--surface",
                  "draw the limit surface, force against moment, of --law beside exact, pade, uniform and ring");
     output_.add(app);
   }
@@ -90,7 +91,7 @@ class LawCommand final : public Verb {
   LawOption law_;
   ArgumentOf<std::vector<double>> k_;
   Argument batch_;
-  bool surface_ = false;
+  Flag surface_;
   PictureOptions output_{{{"a law", with_pictures(answer_formats("csv"))}}};
 };
 

@@ -187,27 +187,27 @@ class OrbitCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app);
     route_.add(app);
-    CLI::Option* at = instants_.add(app, "tau", "", " from the start to the stop");
-    time_left_
-        .add(app, "--time-left", "T1,T2,...|FILE",
-             "times that are left until the stop, instead of --at; with --ball also in seconds, such as '1,2 s'. FILE "
-             "has a column tau_left. The output adds the column tau_left",
-             [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); })
-        ->excludes(at);
-    beta_
-        .add(app, "--beta", "B1,B2,...|FILE", "times beta >= 0, instead of --at. FILE has a column beta",
-             [](const std::string& typed) {
-               auto betas = InstantsOption::read_times(typed, "beta");
-               if (betas.in_seconds) throw NotAllowed("beta has no unit: plain numbers are needed");
-               return betas.values;
-             })
-        ->excludes(at);
-    app.add_flag("--estimate", estimate_,
-                 "add an approximate solution for small mu: columns u_estimate (relative error of order mu^4), "
-                 "v_estimate and ln_v_estimate (order mu^2)");
-    app.add_flag("--reduction", reduction_,
-                 "add the coordinates q = v/u and p = ln v in which the equations are solved, and integral, a constant "
-                 "of the motion");
+    instants_.add(app, "tau", "", " from the start to the stop");
+    time_left_.add(
+        app, "--time-left", "T1,T2,...|FILE",
+        "times that are left until the stop, instead of --at; with --ball also in seconds, such as '1,2 s'. FILE "
+        "has a column tau_left. The output adds the column tau_left",
+        [](const std::string& typed) { return InstantsOption::read_times(typed, "tau_left"); });
+    beta_.add(app, "--beta", "B1,B2,...|FILE", "times beta >= 0, instead of --at. FILE has a column beta",
+              [](const std::string& typed) {
+                auto betas = InstantsOption::read_times(typed, "beta");
+                if (betas.in_seconds) throw NotAllowed("beta has no unit: plain numbers are needed");
+                return betas.values;
+              });
+    time_left_.excludes(united({{&beta_}, instants_.all()}));
+    beta_.excludes(instants_.all());
+    estimate_.add(app, "--estimate",
+                  "add an approximate solution for small mu: columns u_estimate (relative error of order mu^4), "
+                  "v_estimate and ln_v_estimate (order mu^2)");
+    reduction_.add(
+        app, "--reduction",
+        "add the coordinates q = v/u and p = ln v in which the equations are solved, and integral, a constant "
+        "of the motion");
     output_.add(app);
   }
 
@@ -216,12 +216,6 @@ class OrbitCommand final : public Verb {
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const reduction::ReducedSystem& system = start.system;
     const Route route = route_.read(system);
-    for (const Argument* other : std::initializer_list<const Argument*>{&time_left_, &beta_}) {
-      if (!other->given() || !instants_.given()) continue;
-      throw BadInput("{} and --samples, --equidistant exclude each other: give one of them", other->name());
-    }
-    if (time_left_.given() && beta_.given())
-      throw BadInput("--time-left and --beta exclude each other: give one of them");
     const auto* at = instants_.at();
     const auto load = start_.load_history();
     if (load) {
@@ -329,8 +323,7 @@ class OrbitCommand final : public Verb {
   InstantsOption instants_;
   ArgumentOf<InstantsOption::Times> time_left_;
   ArgumentOf<Eigen::ArrayXd> beta_;
-  bool estimate_ = false;
-  bool reduction_ = false;
+  Flag estimate_, reduction_;
   OutputOptions output_{{{"an orbit", answer_formats("csv")}}};
 };
 

@@ -143,12 +143,22 @@ class PortraitCommand final : public Verb {
     add_looks(app);
     output_.add(app);
     app.option_defaults()->group("Output");
-    app.add_flag("--facts", facts_,
-                 "print a table instead of a picture: the limit of k at the stop, the singular points, and the "
-                 "directions in which orbits enter the origin");
+    facts_.add(app, "--facts",
+               "print a table instead of a picture: the limit of k at the stop, the singular points, and the "
+               "directions in which orbits enter the origin");
+    system_.argument().excludes(
+        {&law_.argument(), &against_.argument(), &route_.argument(), view_, scale_, &facts_},
+        "only (2.6) has these. The plane of u and v is drawn; 'contensou reduce --system' says which rays, kind and "
+        "times there are");
+    system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
+    facts_.excludes(united({looks_from(0), {&against_.argument()}}),
+                    "facts describe the whole plane, without a picture");
+    facts_.excludes({&route_.argument()}, "facts follow no orbit");
+    estimate_.excludes({&against_.argument()}, "both would be dashed");
   }
 
   ExitStatus run() override {
+    style_.estimate = estimate_;
     if (style_.estimate && request_.view != View::time) {
       throw BadInput("--estimate is drawn against time: add --view time, or leave it out");
     }
@@ -168,9 +178,6 @@ class PortraitCommand final : public Verb {
       return print_facts(starts.front().system);
     }
     const Output output = read_output();
-    if (style_.estimate && against_.given()) {
-      throw BadInput("--estimate and --against exclude each other: both would be dashed");
-    }
     require_half_plane();
     std::vector<PortraitSpec> questions;
     for (const GivenStart& start : starts) {
@@ -192,19 +199,10 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run_system() {
-    std::string others = names_given({&law_.argument(), &against_.argument(), &route_.argument(), view_, scale_});
-    if (facts_) others = with_name(others, "--facts");
-    if (!others.empty()) {
-      throw BadInput(
-          "--system and {} exclude each other, because only (2.6) has them. The plane of u and v is drawn; 'contensou "
-          "reduce --system' says which rays, kind and times there are",
-          others);
-    }
     const reduction::SmoothField field = system_.read(law_.parameters());
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
-    start_.require_point_or_none();
     // Sample the field about a point of the window, or, without a window, at the distance of the start from 0.
     Vector2d around = request_.window
                           ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
@@ -224,9 +222,7 @@ class PortraitCommand final : public Verb {
   /// Reads destination and format of the result. Throws for options that have no effect on this result.
   Output read_output() {
     Output output = output_.read();
-    std::string drawing = names_of_looks(first_of_drawing_);
-    if (style_.estimate) drawing = with_name(drawing, "--estimate");
-    require_picture(drawing, output);
+    require_picture(names_given(united({looks_from(first_of_drawing_), {&estimate_}})), output);
     style_.size = output_.size();
     return output;
   }
@@ -323,27 +319,21 @@ class PortraitCommand final : public Verb {
     add("--colour,--color", "BY",
         "colour of orbits: time (default; shows the time left until the stop) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
-    app.add_flag("--estimate", style_.estimate,
-                 "add the approximate solution for small mu as dashed lines, in --view time");
+    estimate_.add(app, "--estimate", "add the approximate solution for small mu as dashed lines, in --view time");
     against_.add_second(app, "--against", "LAW",
                         "second law of friction, whose orbits are drawn as dashed lines in the same figure");
     add("--style", "STYLE", "colours of the picture: print (default), or screen (light on dark, for a projector)",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
-  /// Returns the names of the given options in looks_ from place `first` on, joined for a message.
-  std::string names_of_looks(std::size_t first) const {
-    std::vector<const Argument*> arguments;
+  /// Returns the options in looks_ from place `first` on.
+  Arguments looks_from(std::size_t first) const {
+    Arguments arguments;
     for (; first < looks_.size(); ++first) arguments.push_back(&looks_[first]);
-    return names_given(arguments);
+    return arguments;
   }
 
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
-    if (std::string names = names_of_looks(0); against_.given() || !names.empty()) {
-      if (against_.given()) names = with_name(names, against_.argument().name());
-      throw BadInput("--facts and {} exclude each other: facts describe the whole plane, without a picture", names);
-    }
-    if (route_.given()) throw BadInput("--facts and --route exclude each other: facts follow no orbit");
     return output_.read(1).write(phase_plane_answer(system));
   }
 
@@ -357,7 +347,7 @@ class PortraitCommand final : public Verb {
   const Argument *window_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
   portraits::PortraitRequest request_;
   Style style_;
-  bool facts_ = false;
+  Flag facts_, estimate_;
   PictureOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "portrait.svg"},
                           {"a table of facts", answer_formats("text")}}};
 };

@@ -18,6 +18,8 @@ class ReduceCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app);
     output_.add(app);
+    system_.argument().excludes({&law_.argument()}, "friction is in the formulas");
+    system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
   }
 
   ExitStatus run() override {
@@ -30,7 +32,6 @@ class ReduceCommand final : public Verb {
 
  private:
   ExitStatus run_system(const Output& output) {
-    if (law_.given()) throw BadInput("--system and --law exclude each other: friction is in the formulas");
     const reduction::SmoothField field = system_.read(law_.parameters());
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));

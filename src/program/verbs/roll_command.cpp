@@ -117,30 +117,38 @@ class RollCommand final : public Verb {
                                    "also applies to the uncoupled model",
                                    si::rolling_slip),
                        checked(quantity("m/s"), is_not_negative, "0 or more is needed"));
-    app.add_flag("--gradient", gradient_,
-                 "also print the derivatives of each event with respect to each number of the ball and its start, by "
-                 "differences with an error of 1e-8");
+    gradient_.add(app, "--gradient",
+                  "also print the derivatives of each event with respect to each number of the ball and its start, by "
+                  "differences with an error of 1e-8");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
                      "standard deviations of input values, such as slip=1%,friction=5%, or fit: those in "
                      "a file of 'contensou fit'. Also prints the standard deviations of the events");
-    CLI::Option* at = instants_.add(app, "t", "s", "");
-    until_
-        .add(app, "--until", "TIME", "last instant, in seconds (default: 1.1 times the time of the last event)",
-             checked(quantity("s"), is_positive, "a time after the start is needed, in s"))
-        ->excludes(at);
+    instants_.add(app, "t", "s", "");
+    until_.add(app, "--until", "TIME", "last instant, in seconds (default: 1.1 times the time of the last event)",
+               checked(quantity("s"), is_positive, "a time after the start is needed, in s"));
+    until_.excludes({instants_.all().front()});
     app.option_defaults()->group("Many starts");
     batch_.add(app, "--batch", "FILE",
                "table with one start a row, - for standard input. Columns: slip,spin or vx,vy,wx,wy,wz in SI units. "
                "The output adds columns with the events");
-    app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its results empty");
+    keep_going_.add(app, "--keep-going", "continue after a bad row, and leave its results empty");
     bulk_.add(app);
+    batch_.excludes(
+        united({{&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_, &gradient_},
+                instants_.all(),
+                start_.of_start()}),
+        "the starts are in the file, and the results are events alone");
+    keep_going_.needs(batch_, "is for many starts");
+    bulk_.need(batch_, "is for many starts");
+    strike_.excludes(start_.of_start(), "the stroke sets the start");
+    tip_.needs(strike_, "belongs to a stroke");
+    elevation_.needs(strike_, "belongs to a stroke");
+    cue_mass_.needs(strike_, "belongs to a stroke");
     output_.add(app);
   }
 
   ExitStatus run() override {
     if (batch_.given()) return run_many();
-    if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
-    bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment experiment = read_shot(law);
@@ -159,8 +167,7 @@ class RollCommand final : public Verb {
       throw BadInput(
           "{} is of the events, and with {} the text is a table of instants: leave one out, or take "
           "--format csv or json, which have both",
-          gradient_ ? "--gradient" : "--uncertainty",
-          with_name(instants_.names(), until_.given() ? until_.name() : ""));
+          gradient_ ? "--gradient" : "--uncertainty", names_given(united({instants_.all(), {&until_}})));
     if (gradient_) roll.gradient = gradient_of(roll);
     if (output.picture) {
       if (roll.uncertainty) throw BadInput("--uncertainty: not in a picture; leave it out");
@@ -211,12 +218,6 @@ class RollCommand final : public Verb {
   }
 
   ExitStatus run_many() const {
-    std::string others = names_given({&strike_, &tip_, &elevation_, &cue_mass_, &integrated_, &until_, &uncertainty_});
-    for (const std::string& more :
-         {std::string(gradient_ ? "--gradient" : ""), instants_.names(), start_.start_names()})
-      others = with_name(others, more);
-    if (!others.empty())
-      throw BadInput("--batch has the starts in the file, and gives events alone: leave out " + others);
     const Output out = output_.read(1);
     const reduction::Law law = law_.read(start_.standard_law());
     const si::Experiment still = start_.read_ball(law, at_rest("--batch"));
@@ -287,14 +288,11 @@ class RollCommand final : public Verb {
   }
 
   si::Experiment read_shot(const reduction::Law& law) const {
-    const std::string of_stroke = names_given({&tip_, &elevation_, &cue_mass_});
     if (!strike_.given()) {
-      if (!of_stroke.empty()) throw BadInput("{} belongs to a stroke: add --strike SPEED", of_stroke);
       const si::Experiment experiment = start_.read_ball(law);
       require_rolling_options(experiment);
       return experiment;
     }
-    if (start_.overrides_start()) throw BadInput("--strike is a start of its own: leave out {}", start_.start_names());
     si::Experiment experiment = start_.read_rolling_ball(
         law, "leave out --strike: 'contensou roll' gives its motion from --slip and --spin", at_rest(strike_.name()));
     const Eigen::Vector2d tip = tip_.value_or(Eigen::Vector2d::Zero());
@@ -318,7 +316,7 @@ class RollCommand final : public Verb {
   ArgumentOf<double> until_, rolling_below_, strike_, elevation_, cue_mass_;
   ArgumentOf<Eigen::Vector2d> tip_;
   Argument batch_, uncertainty_;
-  bool keep_going_ = false, gradient_ = false;
+  Flag keep_going_, gradient_;
   BulkOptions bulk_;
   PictureOptions output_{
       {{"a motion", with_pictures(answer_formats("csv"), {"gif"})}, {"a table of motions", {"csv"}}}};

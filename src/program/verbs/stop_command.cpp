@@ -41,8 +41,8 @@ class StopCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app, ". With --batch also several names, between commas");
     route_.add(app);
-    app.add_flag("--estimate", estimate_, "also print estimates for small mu, with their errors");
-    app.add_flag("--gradient", gradient_, "also print the exact derivatives of the stop time (see gradient)");
+    estimate_.add(app, "--estimate", "also print estimates for small mu, with their errors");
+    gradient_.add(app, "--gradient", "also print the exact derivatives of the stop time (see gradient)");
     uncertainty_.add(app, "--uncertainty", "NAME=SPREAD,...",
                      "standard deviations of input values, such as slip=1%,friction=5%, or fit: those in "
                      "a file of 'contensou fit'. Also prints the standard deviation of the stop time");
@@ -50,15 +50,17 @@ class StopCommand final : public Verb {
     batch_.add(app, "--batch", "FILE",
                "table with one start a row, - for standard input. Columns: mu,u0,v0, or with --ball slip,spin (m/s, "
                "rad/s). The output adds the column tau_stop or t_stop");
-    app.add_flag("--keep-going", keep_going_, "continue after a bad row, and leave its result empty");
+    keep_going_.add(app, "--keep-going", "continue after a bad row, and leave its result empty");
     bulk_.add(app);
+    batch_.excludes(start_.of_start(), "the starts are in the file");
+    batch_.excludes({&estimate_, &uncertainty_, &gradient_}, "the results are stop times alone");
+    keep_going_.needs(batch_, "is for many starts");
+    bulk_.need(batch_, "is for many starts");
     output_.add(app);
   }
 
   ExitStatus run() override {
     if (batch_.given()) return run_many();
-    if (keep_going_) throw BadInput("--keep-going is for many starts: add --batch FILE");
-    bulk_.refuse("many starts: add --batch FILE");
     const Output output = output_.read();
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const auto load = start_.load_history();
@@ -87,11 +89,6 @@ class StopCommand final : public Verb {
 
   ExitStatus run_many() const {
     const bool has_ball = start_.ball_given();
-    if (const std::string own = has_ball ? start_.start_names() : start_.names_of_one_start(); !own.empty())
-      throw BadInput("--batch and " + own + " exclude each other: the starts are in the file");
-    if (estimate_) throw BadInput("--estimate is for one start: leave it or --batch out");
-    if (uncertainty_.given()) throw BadInput("--uncertainty is for one start: leave it or --batch out");
-    if (gradient_) throw BadInput("--gradient is for one start: leave it or --batch out");
     if (has_ball && start_.load_history()) throw BadInput("--batch needs a constant load: give --load a number");
     const Output out = output_.read(1);
     const std::vector<reduction::Law> laws = law_.read_several(start_.standard_law());
@@ -153,9 +150,7 @@ class StopCommand final : public Verb {
   LawOption law_;
   RouteOption route_;
   Argument batch_, uncertainty_;
-  bool estimate_ = false;
-  bool gradient_ = false;
-  bool keep_going_ = false;
+  Flag estimate_, gradient_, keep_going_;
   BulkOptions bulk_;
   OutputOptions output_{{{"a stop time", answer_formats("text")}, {"a table of stop times", {"csv"}}}};
 };

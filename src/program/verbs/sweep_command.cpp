@@ -270,7 +270,7 @@ class SweepCommand final : public Verb {
     mu_.add(app, "--mu", "M|MIN:MAX:N", "value of mu, 0 < M <= 1, or N values from MIN to MAX", read(""));
     u0_.add(app, "--u0", "MIN:MAX:N", "N values of u at the start, from MIN to MAX", read(""));
     v0_.add(app, "--v0", "MIN:MAX:N", "N values of v at the start, from MIN >= 0 to MAX", read(""));
-    app.add_flag("--log", log_, "neighbouring values have equal ratios, not equal steps (MIN must be above 0)");
+    log_.add(app, "--log", "neighbouring values have equal ratios, not equal steps (MIN must be above 0)");
     start_.add_body(app);
     start_.add_drive(app);
     start_.add_ball(
@@ -282,6 +282,9 @@ class SweepCommand final : public Verb {
     law_.add(app);
     bulk_.add(app);
     output_.add(app);
+    start_.ball().excludes({&mu_, &u0_, &v0_}, "with --ball, use --spin and --slip");
+    spin_.needs(start_.ball(), "is for a ball");
+    slip_.needs(start_.ball(), "is for a ball");
   }
 
   ExitStatus run() override {
@@ -291,7 +294,8 @@ class SweepCommand final : public Verb {
     const reduction::Inertia inertia = grid.ball ? grid.ball->ball.body.inertia : start_.body().inertia;
     const double drive = grid.ball ? start_.drive_along_x(*grid.ball) : start_.drive().value_or(0);
     if (out.picture) {
-      bulk_.refuse("npy and csv: a picture has few starts, leave it out");
+      if (const std::string names = names_given(bulk_.all()); !names.empty())
+        throw BadInput("{} is for npy and csv: a picture has few starts, leave it out", names);
       return output_.write({make_map(reduction::ReducedSystem(law, grid.mu.min, inertia, drive), grid)}, out);
     }
     OutputFile output(out.path);
@@ -330,19 +334,12 @@ class SweepCommand final : public Verb {
   }
 
   SweepGrid read_grid_of_ball(const reduction::Law& law) const {
-    if (const std::string others = names_given({&mu_, &u0_, &v0_, &start_.body_argument(), &start_.drive()});
-        !others.empty()) {
-      throw BadInput("--ball and {} exclude each other: with --ball, use --spin and --slip", others);
-    }
     const si::Experiment experiment = start_.read_ball(law, at_rest("--slip and --spin"));
     const double mu = si::patch_ratio(experiment, law);
     return {.mu = {mu, mu}, .mu_is_range = false, .u0 = range_of(spin_), .v0 = speeds_of(slip_), .ball = experiment};
   }
 
   SweepGrid read_grid(const Body& body) const {
-    if (!start_.names_of_one_start().empty() || spin_.given() || slip_.given()) {
-      throw BadInput("without --ball NAME|FILE.toml, its options and --spin and --slip mean nothing: add --ball");
-    }
     if (!mu_.given() && !body.patch_ratio) {
       throw BadInput("--mu missing: give --mu M or MIN:MAX:N, or a --body that lies flat, disc or ring");
     }
@@ -396,7 +393,7 @@ class SweepCommand final : public Verb {
 
   ArgumentOf<Range> mu_, u0_, v0_, spin_, slip_;
   StartOptions start_;
-  bool log_ = false;
+  Flag log_;
   LawOption law_;
   BulkOptions bulk_;
   PictureOptions output_{{{"a sweep", {"npy", "csv", "svg", "pdf", "png", "eps", "gp"}, "-", "csv"}}};

@@ -212,7 +212,7 @@ TEST_CASE("aim with rolling friction at the least time, and at far scales", "[cl
 }
 
 TEST_CASE("aim says what goes with what, and where nothing moves", "[cli]") {
-  check_rejected("aim --ball pool --spin 8 --distance 1", "--spin goes with --rolls-at");
+  check_rejected("aim --ball pool --spin 8 --distance 1", "--spin and --distance exclude each other");
   check_rejected("aim --ball pool --distance -20 --turns 1", "--distance -20: a value >= 0 is needed, in m");
   check_rejected("aim --ball pool --rolls-at -1 --rolling-speed 1", "--rolls-at -1: a value > 0 is needed");
   check_rejected("roll --ball puck --strike 2", "leave out --strike");

@@ -210,7 +210,7 @@ TEST_CASE("instants by the regularised time", "[cli]") {
   check_rejected(start + "--beta -1", "--beta -1: -1 is not allowed: beta >= 0 is required");
   check_rejected(start + "--beta 1s", "--beta 1s: beta has no unit: plain numbers are needed");
   check_rejected(start + "--beta 1 --at 1", "exclude each other");
-  check_rejected(start + "--beta 1 --samples 3", "--beta and --samples, --equidistant exclude each other");
+  check_rejected(start + "--beta 1 --samples 3", "--beta and --samples exclude each other");
   check_rejected(start + "--beta 1 --time-left 1", "--time-left and --beta exclude each other");
   check_rejected(start + "--beta 1 --route direct", "--beta needs --route closed or quadrature");
 }

@@ -57,7 +57,7 @@ TEST_CASE("a batch of a ball has SI columns", "[cli]") {
   CHECK_THAT(run_program("stop --ball pool --batch -", "slip,spin\n-1,1\n").err,
              Contains("<stdin>:2: slip: slip >= 0"));
   check_rejected("stop --ball pool --slip 1 --batch -", "--batch and --slip exclude each other: the starts are in");
-  check_rejected("stop --ball pool --mu 0.1 --batch -", "--ball pool and --mu exclude each other");
+  check_rejected("stop --ball pool --mu 0.1 --batch -", "--ball and --mu exclude each other");
 }
 
 TEST_CASE("a column that is a quantity and is not read is told", "[cli]") {
@@ -339,7 +339,7 @@ TEST_CASE("--threads is a whole number, and for many starts", "[cli]") {
     check_rejected("stop --law pade --batch - --threads " + threads,
                    "--threads: '" + threads + "' is not a whole number from 1 to 1024", "mu,u0,v0\n1,0,0\n");
   }
-  check_rejected("stop --ball pool --threads 2", "--threads is for many starts");
+  check_rejected("stop --ball pool --threads 2", "--threads is for many starts: add --batch FILE");
 }
 
 TEST_CASE("a batch is written to a file whole or not at all", "[cli]") {
