@@ -48,6 +48,8 @@ class Flow;
 ///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the time
 ///           left, stop_time() - tau. This difference loses digits; at_time_left() avoids the difference and keeps the
 ///           digits.
+///
+/// @throws std::domain_error  functions of a time tau, if tau is negative or not a number
 class Orbit {
  public:
   /// The speeds and the time left until the stop.
@@ -74,7 +76,6 @@ class Orbit {
   long evaluations() const;
 
   /// Returns the state at the time tau after the start; rest if tau is beyond the stop.
-  /// @throws std::domain_error  if tau is negative or not a number
   OrbitPoint at_time(double tau) const;
 
   /// Returns the state at the time time_left before the stop; rest for time_left = 0.
@@ -94,13 +95,10 @@ class Orbit {
   OrbitPoint at_log_ratio(double ln_k) const;
 
   /// Returns speeds, slip length and angle at the time tau, by one root. The call leaves out beta, the most costly part
-  /// of at_time.
-  /// Beyond the stop the speeds are 0.
-  /// @throws std::domain_error  as at_time
+  /// of at_time. Beyond the stop the speeds are 0.
   Instant instant(double tau) const;
 
   /// Returns the integral of v over the time from 0 to tau. It costs less than instant().
-  /// @throws std::domain_error  as at_time
   double slip_length(double tau) const;
 
   /// Returns the time tau from which on the sliding speed is at most v; 0 if the speed never exceeds v. Under a drive
@@ -113,7 +111,6 @@ class Orbit {
 
   /// Returns the integral of a function of v over the time from 0 to tau, or from 0 to the stop if the stop is earlier.
   /// @param edges  values of v at which the function is not smooth
-  /// @throws std::domain_error  as at_time
   ///
   /// Accuracy  1e-10 of the integral of the function's absolute value.
   double integral(const std::function<double(double v)>& of_v, double tau, const std::vector<double>& edges = {}) const;

@@ -25,9 +25,7 @@ Description parse_run_file(std::string_view text, std::string_view source,
 /// @throws std::system_error  if the file cannot be read
 std::string read_run_text(const std::string& path);
 
-/// Reads a file as a description.
-/// @throws RunFileError       as parse_run_file
-/// @throws std::system_error  if the file cannot be read
+/// Reads a file as a description. Throws as read_run_text and parse_run_file.
 Description read_run_file(const std::string& path, const FindLaw& find_law = reduction::find_law);
 
 /// Returns an experiment as a run file that reads back to the same doubles.
