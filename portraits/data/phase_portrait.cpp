@@ -347,9 +347,9 @@ void require(const PortraitRequest& request, const Window& window, View view) {
   for (const State& point : request.through) {
     reduction::require_state("portrait", point);
     if (point.u != 0 && point.v != 0) continue;
-    throw std::domain_error(
-        fmt::format("portrait: the orbit through ({}, {}) is an axis, which is drawn anyway; u and v must not be 0",
-                    point.u, point.v));
+    throw std::domain_error(fmt::format(
+        "portrait: ({}, {}) lies on an axis, through which no orbit passes; u and v must not be 0, or make it the start",
+        point.u, point.v));
   }
   require(request, window);
 }

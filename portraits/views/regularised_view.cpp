@@ -81,6 +81,7 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
   const double slow = std::max(rate_at(system, 1, ratios.back()) / rate_at(system, 1, 0),
                                rate_at(system, 1, ratios.front()) / rate_at(system, 0, ratios.front()));
   const double border = std::pow(10, std::ceil(3 + std::log10(slow)));
+  constexpr double least = 1e-12;  // smallest u/u0 that is drawn
   constexpr std::array<Quantity, 3> quantities{spin_left, log_slip_left, time_passed};
   std::vector<MappedPanel> panels(quantities.size());
   panels[0].panel.title = "spinning  " + math("u/u") + sub("0");
@@ -104,15 +105,18 @@ std::vector<MappedPanel> regularised_view(const Drawing& drawing) {
     const Instant &first = course.instants.front(), &last = course.instants.back();
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Polyline line;
-      for (std::size_t j = 0; j < course.places.size(); ++j)
-        line.push_back({course.places[j], quantities[i](course.instants[j], first)});
+      for (std::size_t j = 0; j < course.places.size(); ++j) {
+        const double value = quantities[i](course.instants[j], first);
+        if (i == 0 && value < least) break;  // u may underflow, and the axis is logarithmic
+        line.push_back({course.places[j], value});
+      }
       panels[i].panel.lines.push_back({{std::move(line)}, stroke, legend});
     }
     const double u = spin_left(last, first), v = log_slip_left(last, first);
     const double power_of_u = std::isinf(end) ? r / terminal.high : 1, power_of_v = end == 0 ? terminal.low / r : 1;
-    powers_of_u.lines.push_back({{1, u * std::pow(border, power_of_u)}, {border, u}});
+    if (u >= least) powers_of_u.lines.push_back({{1, u * std::pow(border, power_of_u)}, {border, u}});
     powers_of_v.lines.push_back({{1, v + power_of_v * std::log(border)}, {border, v}});
-    panels[0].panel.y.low = std::min(panels[0].panel.y.low, u);
+    panels[0].panel.y.low = std::min(panels[0].panel.y.low, std::max(u, least));
     panels[1].panel.y.low = std::min(panels[1].panel.y.low, 1.02 * v);
   });
   panels[0].panel.lines.push_back(std::move(powers_of_u));

@@ -253,10 +253,11 @@ OrbitPoint at_beta(const Orbit& orbit, double mu, State start, double beta) {
     const double unit = 1 / (16 * mu * std::abs(start.u) + 15 * pi * start.v);
     const auto at = [&](double ln_share) { return orbit.at_time_left(std::min(stop * std::exp(ln_share), stop)); };
     const auto missing = [&](double ln_share) { return std::log(beta + unit) - std::log(at(ln_share).beta + unit); };
-    constexpr double last = -700;  // a smaller share of the time underflows
+    constexpr double last = -500;  // from there on beta is proportional to 1/(time left), within rounding
     double low = -1;
     while (low > last && missing(low) > 0) low = std::max(2 * low, last);
-    found = at(root_between(missing, low, 0, missing(low), std::log(beta + unit) - std::log(unit)));
+    found = missing(low) > 0 ? orbit.at_time_left(stop * std::exp(low) * std::exp(-missing(low)))
+                             : at(root_between(missing, low, 0, missing(low), std::log(beta + unit) - std::log(unit)));
   }
   found.beta = beta;
   return found;

@@ -450,7 +450,8 @@ OrbitPoint Orbit::at_time_left(double time_left) const {
     throw std::domain_error(
         fmt::format("Orbit::at_time_left: 0 <= time_left <= stop time {} required, got {}", stop, time_left));
   }
-  if (time_left == 0) return rest(stop);
+  // Nearer to the stop than the smallest double the speeds are 0.
+  if (time_left == 0 || !(scaled_of(time_left) / whole() > 0)) return rest(stop);
   const double tau = stop - time_left;
   if (on_axis()) return on_axis_at(tau, time_left / stop);
   if (tau == 0) return point_with_left(0, xi0_, whole());

@@ -448,8 +448,9 @@ void bind_si(py::module_& module) {
   module.def(
       "roll_uncertainty",
       [](const si::Experiment& experiment, const Law& law, double rolling_below, const std::string& spreads) {
-        return portraits::json_document(
-            answers::members_of(answers::roll_uncertainty(experiment, law, rolling_below, spreads)));
+        Interruption interruption;
+        return portraits::json_document(answers::members_of(
+            answers::roll_uncertainty(experiment, law, rolling_below, spreads, [&] { interruption.look(); })));
       },
       Released());
   module.def(

@@ -98,6 +98,29 @@ while True: {call}"""
         assert b"KeyboardInterrupt" in error
 
 
+def test_signals_are_heard_during_the_samples_of_an_uncertainty():
+    heard = []
+    before = signal.signal(signal.SIGALRM, lambda *_: heard.append(1))
+    signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)
+    try:
+        # This motion is integrated in 1000 samples. Without a look for signals they are heard once, after the call.
+        ct.Ball.pool().but(slope=1, rolling_friction=0.01).roll(velocity=(1, 0.3), angular_velocity=(10, 20, 30)).uncertainty(friction=0.01)
+        during = len(heard)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert during >= 2
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 13), reason="the name of the module has changed")
+def test_a_sub_interpreter_is_refused():
+    code = """import _xxsubinterpreters as interpreters
+one = interpreters.create()
+interpreters.run_string(one, "import contensou")"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600, env=os.environ)
+    assert "only in the main interpreter" in done.stderr
+
+
 POOL, PUCK, T = ct.Ball.pool(), ct.Ball.puck(), np.linspace(0, 0.5, 20)
 FILM = {"slip": np.exp(-T), "ball": POOL}
 

@@ -508,6 +508,26 @@ TEST_CASE("at a regularised time the state is that of steps of (2.7) in beta", "
   }
 }
 
+TEST_CASE("next to the smallest doubles an orbit has its last states, or is at rest", "[orbit][limit]") {
+  // Once k is tiny, du/dbeta = -40 mu^3 u^2 for a ball with Psi(0) = 3 pi/16.
+  for (const double mu : {1e-4, 1e-2, 0.3}) {
+    const Flow flow(HertzLaw{}, mu);
+    for (const double beta : {1e180, 1e240, 1e280, 1e300, 1e308}) {
+      CAPTURE(mu, beta);
+      const double wanted = 1 / (40 * mu * mu * mu) / beta;
+      CHECK(at_beta(flow, {1, 1}, beta).u == Approx(wanted).epsilon(1e-9));
+      // 1e308 leaves u/1e10 only a few bits.
+      if (beta < 1e305) CHECK(at_beta(flow, {1e10, 1e10}, beta).u == Approx(wanted).epsilon(1e-9));
+    }
+    const Orbit orbit = flow.orbit({1, 1});
+    for (const double left : {5e-324, 1e-323, 1e-322, 1e-310}) {
+      const OrbitPoint last = orbit.at_time_left(left);
+      CHECK(last.u <= left);
+      CHECK(last.beta > 1e300);
+    }
+  }
+}
+
 TEST_CASE("an orbit is asked within its motion", "[orbit][domain]") {
   using Catch::Matchers::Contains;
   const ReducedSystem system(PadeLaw{}, 0.1);

@@ -56,6 +56,16 @@ TEST_CASE("any start ends in rolling along one line", "[invariant]") {
   CHECK(7 * R * general.angular_velocity.y() == Approx(5 * 2).epsilon(1e-15));
 }
 
+TEST_CASE("a path is as long as the slide of a disc, at any speed", "[limit]") {
+  Experiment puck = find_ball("puck")->experiment;
+  for (const double slip : {1e-150, 1e-90, 1.0, 1e90, 1e150}) {
+    CAPTURE(slip);
+    puck.start = SlipAndSpin{.slip = slip, .spin = 0};
+    const Motion motion = Motion::reduced(puck, *contensou::reduction::find_law(law_of(puck)));
+    CHECK(motion.path_length(motion.stop_time()) == Approx(motion.slip_length()).epsilon(1e-13));
+  }
+}
+
 TEST_CASE("a body that lies flat comes to rest, and loses all its energy", "[invariant]") {
   Experiment puck = find_ball("puck")->experiment;
   const contensou::reduction::Law law = *contensou::reduction::find_law(law_of(puck));

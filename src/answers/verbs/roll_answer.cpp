@@ -301,13 +301,13 @@ Answer roll_answer(const Roll& roll, const Eigen::ArrayXd& times) {
 }
 
 std::string roll_text(const Roll& roll, const Digits& digits) {
-  const std::string text = opening(roll) + heading(roll.experiment, roll.law, digits) +
-                           (roll.load ? fmt::format("the load changes: {} N is its first, {} N its last\n",
-                                                    digits(roll.load->nominal()), digits(roll.load->loads().back()))
-                                      : "") +
-                           "\n" + events_text(roll, digits) + "\n" +
-                           (roll.gradient ? gradient_text(*roll.gradient, digits) + "\n" : "") +
-                           (roll.uncertainty ? text_of(*roll.uncertainty, digits) + "\n" : "") + ending(roll, digits);
+  const std::string text =
+      opening(roll) + heading(roll.experiment, roll.law, digits) +
+      (roll.load ? fmt::format("the load changes: {} N is its first, {} N its last\n",
+                               digits(roll.load->loads().front()), digits(roll.load->loads().back()))
+                 : "") +
+      "\n" + events_text(roll, digits) + "\n" + (roll.gradient ? gradient_text(*roll.gradient, digits) + "\n" : "") +
+      (roll.uncertainty ? text_of(*roll.uncertainty, digits) + "\n" : "") + ending(roll, digits);
   if (!roll.in_steps) return text;
   const si::Motion& motion = *roll.in_steps;
   if (roll.is_driven()) {

@@ -269,8 +269,10 @@ Uncertainty uncertainty_of(const Varied& varied, const Spreads& spreads, std::st
 }
 
 /// @param rolling_below  as for si::EventNumbers
-Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction::Law& law,
-                              std::optional<double> rolling_below, const std::string& typed, std::string_view corner) {
+/// @param before_each    called before each sample
+Uncertainty event_uncertainty(
+    const si::Experiment& experiment, const reduction::Law& law, std::optional<double> rolling_below,
+    const std::string& typed, std::string_view corner, const std::function<void()>& before_each = [] {}) {
   std::optional<si::EventNumbers> made;
   try {
     made.emplace(experiment, law, rolling_below);
@@ -286,8 +288,16 @@ Uncertainty event_uncertainty(const si::Experiment& experiment, const reduction:
   Varied varied{.numbers = {},
                 .parts = {},
                 .samples = 10'000,
-                .slopes = [&](std::size_t place) { return events.slopes(events.components()[place]); },
-                .at = [&](const auto& places, const VectorXd& values) { return events.of(moved(places, values)); }};
+                .slopes =
+                    [&](std::size_t place) {
+                      before_each();
+                      return events.slopes(events.components()[place]);
+                    },
+                .at =
+                    [&](const auto& places, const VectorXd& values) {
+                      before_each();
+                      return events.of(moved(places, values));
+                    }};
   for (const si::Component& each : events.components()) {
     const bool vector = each.quantity->count() > 1, about_vertical = each.name() == "wz";
     varied.numbers.push_back({{each.name(), events.value(each)},
@@ -350,8 +360,8 @@ std::string label_of(std::string_view event, std::string_view of) {
 }
 
 Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
-                             const std::string& typed) {
-  Uncertainty result = event_uncertainty(experiment, law, rolling_below, typed, "the events have");
+                             const std::string& typed, const std::function<void()>& before_each) {
+  Uncertainty result = event_uncertainty(experiment, law, rolling_below, typed, "the events have", before_each);
   if (si::spin_at_start(experiment) == 0)
     std::erase_if(result.parts, [](const auto& part) { return part.event == "spin_ends" || part.event == "turns"; });
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,9 +47,11 @@ std::string label_of(std::string_view event, std::string_view of);
 /// @param rolling_below  slip below which the ball rolls, m/s, as in si::Motion::rolls
 /// @param typed          spreads such as "slip=1%, spin=2 rad/s, fit", for numbers of the ball and of its start: slip,
 ///                       spin or vx, vy, wx, wy, wz
+/// @param before_each    called before each sample; it may throw
 /// @throws BadInput  with the mistake and the allowed values; for a ball at rest; and if all samples are outside
-Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
-                             const std::string& typed);
+Uncertainty roll_uncertainty(
+    const si::Experiment& experiment, const reduction::Law& law, double rolling_below, const std::string& typed,
+    const std::function<void()>& before_each = [] {});
 
 /// Returns the uncertainty of the stop time alone: in s for a ball, otherwise in tau.
 /// @param typed  for a ball as in roll_uncertainty, but only slip and spin for the start; otherwise spreads of u0, v0,

@@ -243,7 +243,7 @@ class PortraitCommand final : public Verb {
     for (const State& point : request_.through) {
       const std::string typed = fmt::format("--through {},{}", point.u, point.v);
       if (point.u == 0 || !(point.v > 0)) {
-        throw BadInput(typed + ": U must not be 0 and V > 0; the axes are orbits that are drawn anyway");
+        throw BadInput(typed + ": U must not be 0 and V > 0; for a motion from an axis give --u0 and --v0");
       }
       const auto& sides = request_.sides;
       if ((sides && !(std::abs(point.u) <= (*sides)[0] && point.v <= (*sides)[1])) ||

@@ -15,6 +15,7 @@ gravity g. u, v and tau have one unit, which is arbitrary; a Ball is in SI units
 shapes that broadcast; masked entries become NaN. Errors of the library are ValueErrors.
 """
 
+from . import _interpreter  # first, because it raises ImportError where the extension module would wait for ever
 from ._core import __version__
 from ._aim import aim
 from ._balls import Ball, Event, Roll, Rolls, balls

@@ -48,7 +48,7 @@ class OneOrbit final : public Motion::Solution {
     if (std::abs(last.x() * change.y() - last.y() * change.x()) <= straight * last.norm() * change.norm()) {
       // The centre moves along a straight line: forth, and perhaps back from a turning point.
       const Eigen::Vector2d there = at(slowest > 0 && slowest < v0 ? std::min(slip_time(slowest), t) : 0).position;
-      return there.norm() + (at(t).position - there).norm();
+      return there.stableNorm() + (at(t).position - there).stableNorm();
     }
     return seconds(experiment, orbit_.integral(speed, paper_time(t), {slowest})) +
            last.norm() * std::max(0.0, t - stop_);
