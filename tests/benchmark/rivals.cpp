@@ -9,11 +9,6 @@
 #include <boost/numeric/odeint.hpp>
 #include <boost/version.hpp>
 
-#ifdef CONTENSOU_GSL
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
-#include <gsl/gsl_version.h>
-#endif
 #ifdef CONTENSOU_SUNDIALS
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
@@ -86,26 +81,6 @@ RivalResult by_odeint(double mu, double u0, double v0) {
   return {tau, field.evaluations};
 }
 
-#ifdef CONTENSOU_GSL
-RivalResult by_gsl_stepper(double mu, double u0, double v0) {
-  Field field{mu};
-  gsl_odeiv2_system system{[](double, const double x[], double rate[], void* data) {
-                             (*static_cast<Field*>(data))(x, rate);
-                             return int{GSL_SUCCESS};
-                           },
-                           nullptr, 2, &field};
-  gsl_odeiv2_driver* driver =
-      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, negligible(mu, std::abs(u0), v0), tolerance);
-  const double tau = halving(mu, std::abs(u0), v0, [&](double& time, State& x, double& dt) {
-    const int status = gsl_odeiv2_evolve_apply(driver->e, driver->c, driver->s, &system, &time, 1e300, &dt, x.data());
-    if (status != GSL_SUCCESS) x[0] = -1;
-  });
-  gsl_odeiv2_driver_free(driver);
-  return {tau, field.evaluations};
-}
-
-#endif
-
 #ifdef CONTENSOU_SUNDIALS
 RivalResult by_cvode(double mu, double u0, double v0) {
   struct Data {
@@ -160,10 +135,6 @@ RivalResult by_cvode(double mu, double u0, double v0) {
 std::vector<Rival> all() {
   std::vector<Rival> found{{"Odeint dopri5 on (2.6)", by_odeint<odeint::runge_kutta_dopri5<State>>},
                            {"Odeint Fehlberg 7(8) on (2.6)", by_odeint<odeint::runge_kutta_fehlberg78<State>>}};
-#ifdef CONTENSOU_GSL
-  gsl_set_error_handler_off();
-  found.push_back({"GSL rk8pd on (2.6)", by_gsl_stepper});
-#endif
 #ifdef CONTENSOU_SUNDIALS
   found.push_back({"SUNDIALS CVODE, BDF, on (2.6)", by_cvode});
 #endif
@@ -172,9 +143,6 @@ std::vector<Rival> all() {
 
 std::string versions() {
   std::string text = fmt::format("Boost {}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000);
-#ifdef CONTENSOU_GSL
-  text += fmt::format(", GSL {}", GSL_VERSION);
-#endif
 #ifdef CONTENSOU_SUNDIALS
   text += fmt::format(", SUNDIALS {}", SUNDIALS_VERSION);
 #endif

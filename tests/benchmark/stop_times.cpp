@@ -256,19 +256,6 @@ int main() {
   for (const char* name : {"exact", "ring"}) measure_own(*find_law(name), 0.1, false);
   for (const char* name : {"exact", "ring"}) measure_own(*find_law(name), 0, true);
 
-  // One start, (1, 1), with several mu.
-  const std::vector<double> small{0.3, 0.1, 0.03, 0.01};
-  for (double mu : small) {
-    for (const auto& [name, method] : methods) {
-      if (name != "closed form" && name != "Odeint dopri5 on (2.6)" && name != "Odeint on (2.7) in ln u, ln v")
-        continue;
-      const Start start{mu, 1, 1, 1};
-      measure(
-          fmt::format("{} at {}", name, mu), [method = method, start] { benchmark::DoNotOptimize(method(start)); },
-          0.001, 3);
-    }
-  }
-
   // Measure compared calls alternately, so that a slow minute of the machine affects all of them.
   std::array<std::string, 2> options{"benchmark_stop_times", "--benchmark_enable_random_interleaving=true"};
   std::array<char*, 2> arguments{options[0].data(), options[1].data()};
@@ -312,19 +299,5 @@ int main() {
   for (const std::string& name : own_rows) {
     const double together = times(name) / static_cast<double>(own), alone = times(name + " alone");
     fmt::print("| {} | {} | {} | {:.2g} |\n", name, duration(together), duration(alone), alone / together);
-  }
-
-  fmt::print("\n| u0 = v0 = 1, mu = |");
-  for (double mu : small) fmt::print(" {} |", mu);
-  fmt::print("\n|---|---|---|---|---|\n");
-  for (const auto& [name, method] : methods) {
-    if (name != "closed form" && name != "Odeint dopri5 on (2.6)" && name != "Odeint on (2.7) in ln u, ln v") continue;
-    fmt::print("| {} |", name);
-    for (double mu : small) {
-      const long evaluations = method({mu, 1, 1, 1}).evaluations;
-      const std::string time = duration(times(fmt::format("{} at {}", name, mu)));
-      fmt::print(" {}{} |", time, evaluations > 0 ? fmt::format(", {} evaluations", evaluations) : "");
-    }
-    fmt::print("\n");
   }
 }
