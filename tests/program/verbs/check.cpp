@@ -38,33 +38,6 @@ int count_words(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("check of one start, by one law and by both", "[cli]") {
-  for (const std::string start : {"--mu 0.1 --u0 1 --v0 1", "--ball gel", "--mu 1 --u0 -1 --v0 1e-3",
-                                  "--mu 0.1 --u0 0 --v0 1", "--mu 0.1 --u0 1 --v0 0"}) {
-    const Run both = run_program("check " + start);
-    INFO(start << "\n" << both.out << both.err);
-    CHECK(both.status == 0);
-    CHECK(count_rows(both.out, "FAIL") == 0);
-    CHECK(count_words(both.out, "ok") == count_rows(both.out, "ok"));
-    const int pade = count_rows(run_program("check --law pade " + start).out, "ok");
-    const int exact = count_rows(run_program("check --law exact " + start).out, "ok");
-    CHECK(pade >= 8);
-    CHECK(exact >= 8);
-    CHECK(count_rows(both.out, "ok") == pade + exact);
-  }
-}
-
-TEST_CASE("check without a start", "[cli]") {
-  const Run run = run_program("check");
-  INFO(run.out);
-  CHECK(run.status == 0);
-  CHECK(count_rows(run.out, "ok") >= 16);
-  for (const std::string law : {"exact", "pade "}) {
-    for (const std::string route : {"(2.7) and (2.8) in beta", "(2.6) in tau"})
-      CHECK_THAT(run.out, Contains(law + "  stop time: " + route + ", with a drive "));
-  }
-}
-
 TEST_CASE("a law's name cannot break the table of check", "[cli]") {
   const TemporaryDirectory scratch;
   for (const std::string name : {"FAIL ok.csv", "two\nlines ok.csv", "FAILURE.csv", "ok", "a book on ok-FAIL.csv"}) {
@@ -85,34 +58,6 @@ TEST_CASE("a law's name cannot break the table of check", "[cli]") {
     const std::size_t column = heading.find("check");
     while (std::getline(lines, row)) CHECK(row.substr(column - 2, 2) == "  ");
   }
-}
-
-TEST_CASE("check as JSON and CSV", "[cli]") {
-  const auto document = json_of("check --mu 0.1 --u0 1 --v0 1 --format json");
-  CHECK(document.at("schema") == 1);
-  REQUIRE(document.at("checks").size() >= 16);
-  for (const auto& check : document.at("checks")) {
-    CHECK(check.at("passed") == (check.at("measured").get<double>() <= check.at("allowed").get<double>()));
-  }
-  const Run csv = run_program("check --mu 0.1 --u0 1 --v0 1 --format csv");
-  CHECK(csv.out.starts_with("law,check,measured,allowed,verdict\n"));
-}
-
-TEST_CASE("a table of the exact motion passes, to all digits", "[cli]") {
-  for (const std::string start : {"--slip 2 --spin 50", "--slip 2 --spin 0", "--slip 0 --spin -50"}) {
-    const std::string motion = run_program("roll --ball gel --samples 60 " + start).out;
-    const Run run = run_program("check --ball gel --tolerance 1e-12 --against -", motion);
-    INFO(start << "\n" << run.out << run.err);
-    CHECK(run.status == 0);
-    CHECK(count_rows(run.out, "ok") == 2);
-    CHECK_THAT(run.out, Contains("nearest: exact\n"));
-    CHECK(run_program("check --ball gel --law elliptic --tolerance 1e-12 --against -", motion).status ==
-          (start == "--slip 2 --spin 50" ? 1 : 0));
-  }
-  const Run uniform = run_program("check --ball gel --tolerance 1e-12 --law exact --against -",
-                                  run_program("roll --ball gel --law uniform").out);
-  CHECK(uniform.status == 1);
-  CHECK_THAT(uniform.out, Contains("nearest: uniform\n"));
 }
 
 TEST_CASE("a table of the textbook's motion leaves the exact one and is known for what it is", "[cli]") {
@@ -263,45 +208,4 @@ TEST_CASE("a log in other axes or units resembles no model, and its reading is n
     }
   }
   CHECK(unlike > 10);
-}
-
-TEST_CASE("a table is drawn against the law", "[cli]") {
-  const std::string table = "t,slip,spin\n0,1,10\n1,0.2,9\n2,0,0\n";
-  const Run run = run_program("check --ball pool --against - -o - --format svg", table);
-  CHECK(run.status == 1);
-  for (const char* words : {"<svg", "law exact", "nearest", "slip, m/s", "table"}) CHECK_THAT(run.out, Contains(words));
-  check_rejected("check --ball pool -o check.svg", "a picture compares with a table: add --against FILE");
-  check_rejected("check --ball pool --against - --size 80mm", "--size", table);
-}
-
-TEST_CASE("--slip and --spin are the start in place of the first row's", "[cli]") {
-  const std::string motion = run_program("roll --ball pool --slip 2 --spin 50").out;
-  CHECK(run_program("check --ball pool --slip 2 --against -", motion).status == 0);
-  CHECK(run_program("check --ball pool --slip 3 --against -", motion).status == 1);
-  CHECK(run_program("check --ball pool --spin 60 --against -", motion).status == 1);
-}
-
-TEST_CASE("mistakes in a table that is checked", "[cli]") {
-  const std::vector<std::pair<std::string, std::string>> tables{
-      {"", "<stdin>:1: empty input"},
-      {"t,slip\n0,1\n", "<stdin>:1: no column is called 'spin'"},
-      {"t,spin\n0,1\n", "<stdin>:1: no column is called 'slip': a motion has columns t (or time), slip and spin"},
-      {"t,x,y,angle\n0,0,0,0\n0.1,0.2,0,3\n", "wx, wy, wz; 'contensou fit' reads positions and angles"},
-      {"t,vx,vy,wx,wz\n0,1,0,0,0\n", "<stdin>:1: no column is called 'wy'"},
-      {"t,vx,wx,wy,wz\n0,1,0,0,0\n", "<stdin>:1: no column is called 'vy'"},
-      {"t,time,slip,spin\n0,0,1,1\n", "<stdin>:1: columns t and time are both there"},
-      {"t,slip [kg],spin\n0,0,1\n", "<stdin>:1: column 'slip [kg]': 'kg' is no unit of it"},
-      {"t,slip,slip [mm/s],spin\n0,0,0,1\n", "<stdin>:1: two columns are called 'slip'; one is allowed"},
-      {"t,slip,spin\n", "<stdin>:1: two rows or more are needed, got 0"},
-      {"t,slip,spin\n0,1,1\n", "<stdin>:2: two rows or more are needed, got 1"},
-      {"t,slip,spin\n0,-1,1\n1,1,1\n", "<stdin>:2: slip: the start is a speed, 0 or more, got -1"},
-      {"t,slip,spin\n0,1,1\n-1,1,1\n", "<stdin>:3: t: -1 is before 0 of the row above"},
-      {"t,slip,spin\n0,1,1\n1,nan,1\n", "<stdin>:3: slip: 'nan' is not a finite number"},
-      {"t,slip,spin\n0,1,1\n1,1\n", "<stdin>:3: 2 fields where the header has 3"},
-      {"t,slip,spin\n\n0,0,0\n1,0,0\n", "<stdin>:3: the ball is at rest in the first row"},
-      {"t,slip,spin\n0,1,1.7e308\n1,0,0\n", "<stdin>:2: the start: "},
-  };
-  for (const auto& [table, words] : tables)
-    check_rejected("check --ball pool --radius 3 --patch-radius 1 --against -", words, table);
-  CHECK(run_program("check --ball pool --against nosuch.csv").status == 4);
 }

@@ -38,35 +38,6 @@ struct NumpyFile {
 
 }  // namespace
 
-TEST_CASE("a sweep as csv: u0 runs fastest, then v0, then mu", "[cli]") {
-  const Run run = run_program("sweep --law pade --mu 0.1:0.3:2 --u0 -1:1:3 --v0 0:0.5:2");
-  CHECK(run.status == 0);
-  CHECK(run.err.empty());
-  std::string expected = "mu,u0,v0,tau_stop\n";
-  for (double mu : {0.1, 0.3}) {
-    for (double v0 : {0.0, 0.5}) {
-      for (double u0 : {-1.0, 0.0, 1.0}) {
-        expected += fmt::format("{},{},{},{}\n", mu, u0, v0, Flow(PadeLaw{}, mu).stop_time({u0, v0}).tau);
-      }
-    }
-  }
-  CHECK(run.out == expected);
-  CHECK(run_program("sweep --law pade --mu 0.1:0.3:2 --u0 -1:1:3 --v0 0:0.5:2 -o - --format csv").out == expected);
-}
-
-TEST_CASE("a sweep of a ball is in SI", "[cli]") {
-  const std::string sweep = "sweep --ball pool --friction 0.3 --spin -100:100:3 --slip 0:2:2";
-  const auto rows = rows_of(run_program(sweep).out);
-  REQUIRE(rows.size() == 7);
-  CHECK(rows[0] == std::vector<std::string>{"spin", "slip", "t_stop"});
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto one = json_of(
-        fmt::format("stop --ball pool --friction 0.3 --spin {} --slip {} --format json", rows[i][0], rows[i][1]));
-    CHECK(std::stod(rows[i][2]) == Approx(one.at("t_stop").get<double>()).epsilon(1e-14));
-  }
-  CHECK(run_program(sweep + " --format npy").out.size() == 128 + 6 * sizeof(double));
-}
-
 TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   const TemporaryDirectory scratch;
   const std::string axes = " --u0 0:2:5 --v0 0.5:1.5:3 --law exact -o " + scratch.file("map.npy");
@@ -91,27 +62,6 @@ TEST_CASE("a sweep as npy is a C array of doubles", "[cli]") {
   CHECK(scratch.names() == std::vector<std::string>{"map.npy"});
 }
 
-TEST_CASE("ends are exact and steps are rounded once", "[limit]") {
-  const auto column = [](const std::string& arguments) {
-    std::vector<std::string> values;
-    for (const auto& row : rows_of(run_program("sweep --mu 0.1 --v0 1 --u0 " + arguments).out))
-      values.push_back(row[1]);
-    values.erase(values.begin());
-    return values;
-  };
-  using Values = std::vector<std::string>;
-  CHECK(column("0:1:11") == Values{"0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1"});
-  CHECK(column("1e-3:1e3:7 --log") == Values{"0.001", "0.01", "0.1", "1", "10", "100", "1000"});
-  CHECK(column("-1.6e308:1.6e308:5") == Values{"-1.6e+308", "-8e+307", "0", "8e+307", "1.6e+308"});
-  CHECK(column("5e-324:1e308:2 --log") == Values{"5e-324", "1e+308"});
-  CHECK(column("7") == Values{"7"});
-  CHECK(column("7:7:1") == Values{"7"});
-}
-
-TEST_CASE("a stop time that overflows is inf in a sweep", "[limit]") {
-  CHECK_THAT(run_program("sweep --mu 1e-100 --u0 1e300 --v0 0:1:2").out, Contains(",inf\n"));
-}
-
 TEST_CASE("a sweep has the same bytes for any number of threads", "[route]") {
   for (const std::string format : {"npy", "csv"}) {
     // Rows are shorter or longer than the part that one thread computes at once.
@@ -123,27 +73,6 @@ TEST_CASE("a sweep has the same bytes for any number of threads", "[route]") {
       CHECK(run_program(command + "2").out == one.out);
       CHECK(run_program(command + "13").out == one.out);
     }
-  }
-}
-
-TEST_CASE("a sweep of a body other than the ball", "[cli]") {
-  const auto rows = rows_of(run_program("sweep --body disc --law uniform --u0 0:1:2 --v0 0:1:2").out);
-  REQUIRE(rows.size() == 5);
-  const ReducedSystem disc(PressureLaw(0), 1, {.chi = 1, .gamma = 2});
-  for (std::size_t i = 1; i < 5; ++i) {
-    CHECK(rows[i][0] == "1");
-    const double tau = Flow(disc).stop_time({std::stod(rows[i][1]), std::stod(rows[i][2])}).tau;
-    CHECK(std::stod(rows[i][3]) == Approx(tau).epsilon(1e-12));
-  }
-}
-
-TEST_CASE("a sweep that fails at its first start leaves standard output empty", "[cli]") {
-  for (const std::string format : {"csv", "npy"}) {
-    const Run run = run_program("sweep --law uniform --body 1,1 --mu 1e200 --u0 0:1:2 --v0 0:1:2 --format " + format);
-    INFO(run.err);
-    CHECK(run.status == 2);
-    CHECK(run.out.empty());
-    CHECK_THAT(run.err, Contains("r = gamma mu^2/chi must be positive and finite"));
   }
 }
 
@@ -185,18 +114,4 @@ TEST_CASE("a sweep says once that its tables are not whole, and has the numbers 
   }
   CHECK_THAT(run_program("sweep --mu 0.3 --u0 1:2:182 --v0 0.1:0.3:182 -o " + scratch.file("map.gp") + law).err,
              Contains("misses 4 eps"));
-}
-
-TEST_CASE("a sweep as a picture", "[cli]") {
-  const TemporaryDirectory scratch;
-  const std::string command = "sweep --mu 0.3 --u0 -1:1:21 --v0 0:1:21 -o ";
-  REQUIRE(run_program(command + scratch.file("map.gp")).status == 0);
-  CHECK_THAT(read_file(scratch.file("map.gp")), Contains("with image") && Contains("law: exact"));
-  REQUIRE(run_program(command + scratch.file("map.svg")).status == 0);
-  CHECK_THAT(read_file(scratch.file("map.svg")), StartsWith("<?xml") && Contains("<image"));
-  CHECK(scratch.names() == std::vector<std::string>{"map.gp", "map.svg"});
-  const Run ball =
-      run_program("sweep --ball pool --spin 0:200:21 --slip 0:2:21 --size single --font Serif --format gp");
-  CHECK_THAT(ball.out, Contains("rad/s") && Contains("m/s") && Contains("pool ball on cloth") &&
-                           Contains("size 425,") && Contains("font 'Serif,") && Contains("set xrange [0:200]"));
 }
