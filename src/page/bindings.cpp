@@ -61,9 +61,8 @@ Law law_of(const std::string& name) {
   std::vector<std::string> names;
   for (std::string_view known_name : reduction::names_of_laws()) names.emplace_back(known_name);
   for (const reduction::LawFamily& family : reduction::law_families())
-    names.push_back(fmt::format("{}:{}", family.name, family.letter));
-  throw std::domain_error(
-      fmt::format("no such law '{}'{}; laws: {}", name, suggestion(name, names), fmt::join(names, ", ")));
+    names.push_back(family.form());
+  throw std::domain_error(no_such("law", name, names));
 }
 
 si::Experiment experiment_of(const val& fields) {

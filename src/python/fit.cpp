@@ -80,8 +80,7 @@ void bind_fit(py::module_& module) {
     track.t = column_of(t);
     track.start = track.t.size() > 0 ? track.t[0] : 0;
     for (const auto& [name, values, sd] : series) {
-      const auto kind =
-          entry_of("observable", "observables", fit::observable_kinds(), &fit::ObservableKind::name, name);
+      const auto kind = entry_of("observable", fit::observable_kinds(), &fit::ObservableKind::name, name);
       track.series.push_back({kind.observable, column_of(values), column_of(sd)});
     }
     fit::FitRequest request{.ball = ball,
@@ -95,7 +94,7 @@ void bind_fit(py::module_& module) {
         {"slip", &fit::Free::slip},
         {"spin", &fit::Free::spin}};
     for (const std::string& name : free.value_or(std::vector<std::string>()))
-      request.free.*one_of("parameter", "parameters", parameters, name) = true;
+      request.free.*one_of("parameter", parameters, name) = true;
     request.robust = robust;
     const fit::Fit found = [&] {
       const py::gil_scoped_release released;

@@ -144,11 +144,11 @@ using Size = std::pair<std::optional<double>, std::optional<double>>;
 PortraitStyle style_of(const std::string& arrows, bool axes, const std::string& colour, const std::string& style,
                        const Size& size) {
   using Arrows = PortraitStyle::Arrows;
-  return {.arrows = one_of<Arrows>("place for arrows", "places",
+  return {.arrows = one_of<Arrows>("arrow place",
                                    {{"time", Arrows::time}, {"one", Arrows::one}, {"none", Arrows::none}}, arrows),
           .invariant = axes,
-          .colour_by_time = one_of<bool>("colour", "colours", {{"time", true}, {"none", false}}, colour),
-          .screen = one_of<bool>("style", "styles", {{"print", false}, {"screen", true}}, style),
+          .colour_by_time = one_of<bool>("colour", {{"time", true}, {"none", false}}, colour),
+          .screen = one_of<bool>("style", {{"print", false}, {"screen", true}}, style),
           .size = {size.first, size.second}};
 }
 
@@ -177,12 +177,11 @@ Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optio
   if (start) asked.start = reduction::State{start->first, start->second};
   if (experiment) asked.start = si::reduced_start(*experiment);
   const auto name_of_view = [](portraits::View each) { return name(each); };
-  if (view) asked.request.view = entry_of("view", "views", portraits::views(), name_of_view, *view);
+  if (view) asked.request.view = entry_of("view", portraits::views(), name_of_view, *view);
   asked.request.comparison = against;
-  asked.request.linear = one_of<bool>("scale", "scales", {{"bent", false}, {"linear", true}}, scale);
-  asked.style.field =
-      one_of<Field>("field", "fields",
-                    {{"none", Field::none}, {"motion", Field::motion}, {"regularised", Field::regularised}}, field);
+  asked.request.linear = one_of<bool>("scale", {{"bent", false}, {"linear", true}}, scale);
+  asked.style.field = one_of<Field>(
+      "field", {{"none", Field::none}, {"motion", Field::motion}, {"regularised", Field::regularised}}, field);
   if (estimate && asked.request.view != portraits::View::time) {
     throw std::domain_error("estimate is drawn against time: view=\"time\" is needed");
   }
@@ -208,7 +207,7 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
   portraits::PortraitRequest asked = request_of(window, orbits, through, isochrones);
   if (start) asked.highlight = {start->first, start->second};
   PortraitStyle looks = style_of(arrows, axes, colour, style, size);
-  looks.field = one_of<Field>("field", "fields", {{"none", Field::none}, {"motion", Field::motion}}, field);
+  looks.field = one_of<Field>("field", {{"none", Field::none}, {"motion", Field::motion}}, field);
   return interruptible([&]() -> Portrait {
     portraits::PlanarPortrait data = portraits::planar_portrait(planar.solved(), system, asked);
     data.variables = planar.variables;
@@ -234,8 +233,9 @@ void bind_portraits(py::module_& module) {
            [](const Portrait& portrait, const std::string& ending, const std::string& font, double dpi) {
              const auto format = portraits::find_picture_format(ending);
              if (!format) {
-               throw std::domain_error(fmt::format("no such format '{}'; formats: {}", ending,
-                                                   fmt::join(portraits::picture_formats(), ", ")));
+               const auto formats = portraits::picture_formats();
+               throw std::domain_error(
+                   no_such("format", ending, std::vector<std::string>(formats.begin(), formats.end())));
              }
              const auto drawn = [&] {
                const py::gil_scoped_release released;

@@ -63,17 +63,15 @@ class FunctionLaw {
 Law law_of_name(const std::string& name) {
   if (auto law = answers::find_law_or_formulas(name)) return *law;
   std::vector<std::string> families;
-  for (const auto& family : reduction::law_families()) {
-    families.push_back(fmt::format("{}:{}", family.name, family.letter));
-  }
-  return entry_of("law", "laws", reduction::named_laws(), &Law::name, name, families);
+  for (const auto& family : reduction::law_families()) families.push_back(family.form());
+  return entry_of("law", reduction::named_laws(), &Law::name, name, families);
 }
 
 si::Body body_of(const std::variant<std::string, std::pair<double, double>>& given) {
   if (const auto* ratios = std::get_if<1>(&given)) {
     return {"", {.chi = ratios->first, .gamma = ratios->second}, std::nullopt, false};
   }
-  return entry_of("body", "bodies", si::bodies(), &si::Body::name, std::get<0>(given), {"(chi, gamma)"});
+  return entry_of("body", si::bodies(), &si::Body::name, std::get<0>(given), {"(chi, gamma)"});
 }
 
 reduction::ReducedSystem system_of(const std::optional<Law>& law, std::optional<double> mu,

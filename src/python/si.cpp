@@ -165,9 +165,7 @@ void for_numbers(const py::handle& dict, const std::string& what, const Take& ta
     if (name == correlation_field) continue;
     const auto of = si::find_component(name);
     if (!of) {
-      throw std::domain_error(fmt::format("{}: no such number '{}'{}; numbers: {}", what, name,
-                                          suggestion(name, si::uncertain_names()),
-                                          fmt::join(si::uncertain_names(), ", ")));
+      throw std::domain_error(fmt::format("{}: {}", what, no_such("number", name, si::uncertain_names())));
     }
     take(*of, value, fmt::format("{} of {}", what, name));
   }
@@ -403,7 +401,7 @@ void bind_si(py::module_& module) {
   });
 
   module.def("ball", [](const std::string& name) {
-    const auto entry = entry_of("ball", "balls", si::catalogue(), &si::CatalogueEntry::name, name);
+    const auto entry = entry_of("ball", si::catalogue(), &si::CatalogueEntry::name, name);
     return fields_of_ball(si::describe(entry.experiment));
   });
   module.attr("balls") = list_of(si::catalogue(), &si::CatalogueEntry::name);
@@ -427,7 +425,7 @@ void bind_si(py::module_& module) {
         for (const si::EngineAlias& alias : si::engine_aliases())
           engines.emplace_back(alias.name, si::find_engine(alias.name));
         si::require_undriven(experiment, "engine");
-        const si::Engine* const only = name ? one_of("engine", "engines", engines, *name) : nullptr;
+        const si::Engine* const only = name ? one_of("engine", engines, *name) : nullptr;
         return portraits::json_document(answers::engine_answer(experiment, law, only).members);
       },
       Released());

@@ -86,12 +86,12 @@ py::array_t<Value> mapped(const Numbers& given, Function function) {
 }
 
 /// Returns the entry of a range that a name stands for.
-/// @param kinds  plural of the kind of names, such as "laws"
+/// @param kind   kind of the names, such as "law"
 /// @param name   returns the name of an entry
 /// @param more   further names for the message, such as families of laws
 /// @throws std::domain_error  with a list of the names, if the name is not among them
 template <class Range, class Name>
-auto entry_of(std::string_view kind, std::string_view kinds, const Range& range, Name name, const std::string& typed,
+auto entry_of(std::string_view kind, const Range& range, Name name, const std::string& typed,
               const std::vector<std::string>& more = {}) {
   std::vector<std::string> names;
   for (const auto& entry : range) {
@@ -99,15 +99,14 @@ auto entry_of(std::string_view kind, std::string_view kinds, const Range& range,
     if (names.back() == typed) return entry;
   }
   names.insert(names.end(), more.begin(), more.end());
-  throw std::domain_error(
-      fmt::format("no such {} '{}'{}; {}: {}", kind, typed, suggestion(typed, names), kinds, fmt::join(names, ", ")));
+  throw std::domain_error(no_such(kind, typed, names));
 }
 
 /// Returns the value that a name stands for. Throws as entry_of.
 template <class Value>
-Value one_of(std::string_view kind, std::string_view kinds, const std::vector<std::pair<std::string, Value>>& choices,
+Value one_of(std::string_view kind, const std::vector<std::pair<std::string, Value>>& choices,
              const std::string& typed) {
-  return entry_of(kind, kinds, choices, &std::pair<std::string, Value>::first, typed).second;
+  return entry_of(kind, choices, &std::pair<std::string, Value>::first, typed).second;
 }
 
 /// Returns the fields of Python's Ball.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace contensou {
 
@@ -39,6 +40,13 @@ std::string nearest_name(std::string_view typed, std::span<const std::string> na
 std::string suggestion(std::string_view typed, std::span<const std::string> names) {
   const std::string nearest = nearest_name(typed, names);
   return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
+}
+
+std::string no_such(std::string_view kind, std::string_view typed, std::span<const std::string> names, bool quoted) {
+  const std::string kinds =
+      kind.ends_with('y') ? fmt::format("{}ies", kind.substr(0, kind.size() - 1)) : fmt::format("{}s", kind);
+  return fmt::format("no such {}{}{}; {}: {}", kind, quoted ? fmt::format(" '{:.80}'", typed) : "",
+                     suggestion(typed, names), kinds, fmt::join(names, ", "));
 }
 
 }  // namespace contensou

@@ -25,8 +25,7 @@ std::vector<std::pair<std::string, std::string>> law_forms() {
     forms.emplace_back(name, meaning);
   }
   for (const auto& family : reduction::law_families()) {
-    forms.emplace_back(fmt::format("{}:{}", family.name, family.letter),
-                       fmt::format("{}, {}", family.meaning, family.allowed));
+    forms.emplace_back(family.form(), fmt::format("{}, {}", family.meaning, family.allowed));
   }
   forms.emplace_back("\"phi = F; psi = G\"",
                      "your own Phi and Psi as formulas in k. Parameters are given by --param NAME=VALUE, or at the end "

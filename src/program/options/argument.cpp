@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "contensou/si/quantity.hpp"
-#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
@@ -134,13 +133,6 @@ std::vector<double> numbers(const std::string& typed, std::size_t count, const s
   std::vector<double> values = parse_quantities(split(typed, ','), symbol);
   if (values.size() != count) throw NotAllowed("{} numbers are needed, {}", count, names);
   return values;
-}
-
-NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names) {
-  const std::string list = fmt::format("{}", fmt::join(names, ", "));
-  const std::string nearest = suggestion(typed, names);
-  if (kind.empty()) return NotAllowed("one of {} is needed{}", list, nearest);
-  return NotAllowed("no such {}{}; {}: {}", kind, nearest, kind == "body" ? "bodies" : kind + "s", list);
 }
 
 }  // namespace contensou::program

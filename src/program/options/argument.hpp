@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "answers/input/parse.hpp"
 #include "exit_status.hpp"
+#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
@@ -156,11 +158,8 @@ std::vector<double> numbers(const std::string& typed, std::size_t count, const s
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-/// Returns the error for an unknown name.
-/// @param kind  noun for the named things, such as "law"; if empty, the message asks for one of the names
-NotAllowed no_such(const std::string& kind, const std::string& typed, const std::vector<std::string>& names);
-
 /// Reads the value that a name stands for. Messages do not list the empty name.
+/// @param kind  noun for the named things, such as "law"; if empty, the message asks for one of the names
 template <class Value>
 std::function<Value(const std::string&)> one_of(Choices<Value> choices, std::string kind = "") {
   return [choices = std::move(choices), kind = std::move(kind)](const std::string& typed) {
@@ -169,7 +168,8 @@ std::function<Value(const std::string&)> one_of(Choices<Value> choices, std::str
       if (name == typed) return value;
       if (!name.empty()) names.push_back(name);
     }
-    throw no_such(kind, typed, names);
+    if (!kind.empty()) throw NotAllowed(no_such(kind, typed, names, false));
+    throw NotAllowed("one of {} is needed{}", fmt::join(names, ", "), suggestion(typed, names));
   };
 }
 

@@ -3,12 +3,10 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "answers/asked/formula_law.hpp"
 #include "answers/asked/law_forms.hpp"
 #include "answers/input/pressure_profile.hpp"
-#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
@@ -82,8 +80,7 @@ reduction::Law LawOption::read_one(const std::string& typed) const {
     law_.reject(error.what());
   }
   if (names_a_file(typed, {".csv"})) return read_pressure_profile(typed);
-  const std::vector<std::string> forms = names_of_forms();
-  law_.reject(fmt::format("no such law{}; laws: {}", suggestion(typed, forms), fmt::join(forms, ", ")));
+  law_.reject(no_such("law", typed, names_of_forms(), false));
 }
 
 }  // namespace contensou::program

@@ -10,7 +10,6 @@
 
 #include "output/help.hpp"
 #include "platform/output_file.hpp"
-#include "text/nearest_name.hpp"
 
 namespace contensou::program {
 
@@ -137,8 +136,7 @@ std::string OutputOptions::default_path(const OutputKind& kind) const {
 
 std::string OutputOptions::read_format(const OutputKind& kind, const std::string& path) const {
   if (format_.given() && !is_one_of(kind.formats, format_.text())) {
-    format_.reject(fmt::format("unknown format{}; formats: {}", suggestion(format_.text(), kind.formats),
-                               fmt::join(kind.formats, ", ")));
+    format_.reject(no_such("format", format_.text(), kind.formats, false));
   }
   const std::string ending = path == "-" ? "" : ending_of(path);
   const std::string by_ending = ending == "txt" ? "text" : ending;

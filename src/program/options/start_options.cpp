@@ -87,7 +87,7 @@ const si::CatalogueEntry& require_ball(const std::string& name) {
   if (const si::CatalogueEntry* entry = si::find_ball(name)) return *entry;
   std::vector<std::string> names;
   for (const si::CatalogueEntry& entry : si::catalogue()) names.push_back(entry.name);
-  throw no_such("ball", name, names);
+  throw NotAllowed(no_such("ball", name, names, false));
 }
 
 std::string ball_group() { return shared_group("Values that replace those of --ball", "ball"); }

@@ -45,7 +45,7 @@ class EngineCommand final : public Verb {
     std::vector<std::string> names;
     for (const Engine& engine : si::engines()) names.emplace_back(engine.name);
     for (const si::EngineAlias& alias : si::engine_aliases()) names.emplace_back(alias.name);
-    throw no_such("engine", name, names);
+    throw NotAllowed(no_such("engine", name, names, false));
   }
 
   ArgumentOf<const Engine*> engine_;

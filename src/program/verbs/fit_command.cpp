@@ -41,7 +41,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const std::string known = observable_name(typed_name);
     const std::string& name = std::ranges::count(names, known) > 0 ? known : typed_name;
     const auto found = std::ranges::find(names, name);
-    if (found == names.end()) throw no_such("observable", name, names);
+    if (found == names.end()) throw NotAllowed(no_such("observable", name, names, false));
     const auto place = static_cast<std::size_t>(found - names.begin());
     const std::string_view unit = name == stop ? "s" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);

@@ -252,7 +252,7 @@ class HelpCommand final : public Verb {
       names.push_back(verb->get_name());
     }
     if (std::ranges::find(theory_words, topic) != std::end(theory_words)) return theory();
-    throw no_such("topic", topic, names);
+    throw NotAllowed(no_such("topic", topic, names, false));
   }
 
   const CLI::App* root_ = nullptr;

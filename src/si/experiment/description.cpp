@@ -112,8 +112,7 @@ void Description::set_body(const std::string& name, const Source& source) {
     if (known.name == name) return set_body(known);
     names.emplace_back(known.name);
   }
-  source.fail(
-      fmt::format("no such body '{:.80}'{}; bodies: {}", name, suggestion(name, names), fmt::join(names, ", ")));
+  source.fail(no_such("body", name, names));
 }
 
 void Description::add_spread(const Component& of, double standard, const Source& source) {

@@ -326,7 +326,7 @@ class Reader {
     }
     std::vector<std::string> names;
     for (const reduction::Law& known : reduction::named_laws()) names.push_back(known.name());
-    source.fail(fmt::format("no such law '{:.80}'{}; laws: {}", text, suggestion(text, names), fmt::join(names, ", ")));
+    source.fail(no_such("law", text, names));
   }
 
   double plain_number(const toml::node& node, const std::string& name, const Dimension* dimension,

@@ -167,6 +167,9 @@ struct LawFamily {
   double example;
   double min, max;  ///< least and largest number, both allowed
   Law (*law)(double number);
+
+  /// Returns the form of the names of this family, such as pressure:P.
+  std::string form() const { return std::string(name).append(":").append(letter); }
 };
 const std::vector<LawFamily>& law_families();
 
