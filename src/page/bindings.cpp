@@ -60,8 +60,7 @@ Law law_of(const std::string& name) {
   if (auto law = answers::find_law_or_formulas(name)) return known.emplace(name, *law).first->second;
   std::vector<std::string> names;
   for (std::string_view known_name : reduction::names_of_laws()) names.emplace_back(known_name);
-  for (const reduction::LawFamily& family : reduction::law_families())
-    names.push_back(family.form());
+  for (const reduction::LawFamily& family : reduction::law_families()) names.push_back(family.form());
   throw std::domain_error(no_such("law", name, names));
 }
 
@@ -406,12 +405,11 @@ std::string law_name(const std::string& called) {
 }
 
 /// Returns the start (start_value) that a stroke with a cue gives to a ball.
-/// @param elevation  degrees; the others as in si::CueStrike
+/// The arguments are those of si::CueStrike.
 val struck(const val& fields, double speed, double right, double above, double elevation) {
   si::Experiment experiment = experiment_of(fields);
   experiment.start =
-      si::struck(experiment.ball,
-                 {.speed = speed, .right = right, .above = above, .elevation = elevation * (std::numbers::pi / 180)});
+      si::struck(experiment.ball, {.speed = speed, .right = right, .above = above, .elevation = elevation});
   return start_value(experiment);
 }
 

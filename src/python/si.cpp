@@ -6,7 +6,6 @@
 #include <exception>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <stdexcept>
 #include <thread>
 #include <tuple>
@@ -296,7 +295,7 @@ void bind_si(py::module_& module) {
              experiment.start = si::struck(experiment.ball, {.speed = speed,
                                                              .right = tip[0],
                                                              .above = tip[1],
-                                                             .elevation = elevation * (std::numbers::pi / 180),
+                                                             .elevation = elevation,
                                                              .mass = cue_mass});
              si::require_experiment(experiment);
              return experiment;
@@ -392,7 +391,7 @@ void bind_si(py::module_& module) {
       const auto [velocity, w] = si::struck(experiment.ball, {.speed = each[0],
                                                               .right = each[1],
                                                               .above = each[2],
-                                                              .elevation = each[3] * (std::numbers::pi / 180),
+                                                              .elevation = each[3],
                                                               .mass = each[4]});
       const std::array start{velocity.x(), velocity.y(), w.x(), w.y(), w.z()};
       std::ranges::copy(start, to + row * columns_of_start);

@@ -30,7 +30,7 @@ TEST_CASE("a stroke is elastic: momentum and energy of cue and ball are kept", "
 }
 
 TEST_CASE("the spin of a stroke is the moment of its impulse", "[route]") {
-  const CueStrike strike{.speed = 3, .right = 0.25, .above = -0.3, .elevation = 35 * degree};
+  const CueStrike strike{.speed = 3, .right = 0.25, .above = -0.3, .elevation = 35};
   const Velocities after = struck(ball, strike);
   const double a = 0.25 * ball.radius, b = -0.3 * ball.radius, sine = std::sin(35 * degree),
                cosine = std::cos(35 * degree);
@@ -58,7 +58,7 @@ TEST_CASE("a stroke that no cue can make is refused", "[domain]") {
                                  CueStrike{.speed = nan, .right = 0, .above = 0, .elevation = 0},
                                  CueStrike{.speed = 1, .right = 0.4, .above = 0.4, .elevation = 0},
                                  CueStrike{.speed = 1, .right = nan, .above = 0, .elevation = 0},
-                                 CueStrike{.speed = 1, .right = 0, .above = 0, .elevation = 90 * degree},
+                                 CueStrike{.speed = 1, .right = 0, .above = 0, .elevation = 90},
                                  CueStrike{.speed = 1, .right = 0, .above = 0, .elevation = -0.1},
                                  CueStrike{.speed = 1, .right = 0, .above = 0, .elevation = 0, .mass = 0}}) {
     CHECK_THROWS_AS(struck(ball, wrong), std::domain_error);

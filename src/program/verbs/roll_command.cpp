@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 
@@ -300,7 +299,7 @@ class RollCommand final : public Verb {
       experiment.start = si::struck(experiment.ball, {.speed = *strike_,
                                                       .right = tip.x(),
                                                       .above = tip.y(),
-                                                      .elevation = elevation_.value_or(0) * (std::numbers::pi / 180),
+                                                      .elevation = elevation_.value_or(0),
                                                       .mass = cue_mass_.value_or(si::standard_cue_mass)});
     } catch (const std::domain_error& error) {
       throw BadInput("{}: {}", names_given({&strike_, &tip_, &elevation_, &cue_mass_}), error.what());

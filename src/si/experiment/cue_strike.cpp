@@ -18,10 +18,8 @@ Velocities struck(const Ball& ball, const CueStrike& strike) {
     throw std::domain_error(fmt::format("a cue's speed must be positive, in m/s; got {}", speed));
   if (!(cue_mass > 0 && std::isfinite(cue_mass)))
     throw std::domain_error(fmt::format("a cue's mass must be positive, in kg; got {}", cue_mass));
-  if (!(elevation >= 0 && elevation < std::numbers::pi / 2)) {
-    throw std::domain_error(
-        fmt::format("a cue's elevation must be 0 to below 90 degrees; got {}", elevation * (180 / std::numbers::pi)));
-  }
+  if (!(elevation >= 0 && elevation < 90))
+    throw std::domain_error(fmt::format("a cue's elevation must be 0 to below 90 degrees; got {}", elevation));
   if (!(offset <= largest_tip_offset)) {
     throw std::domain_error(fmt::format("the tip slips off the ball {} radii from its centre: at most {} are allowed",
                                         offset, largest_tip_offset));
@@ -30,7 +28,7 @@ Velocities struck(const Ball& ball, const CueStrike& strike) {
   const double velocity =
       2 * speed / (1 + mass_for("a cue's stroke", ball) / cue_mass + gamma * offset * offset);  // P/m of cue_strike.hpp
   const double spin = gamma * velocity / ball.radius;
-  const double sine = std::sin(elevation), cosine = std::cos(elevation);
+  const double angle = elevation * (std::numbers::pi / 180), sine = std::sin(angle), cosine = std::cos(angle);
   return {{velocity * cosine, 0}, {spin * right * sine, spin * above, spin * right * cosine}};
 }
 

@@ -12,7 +12,7 @@ struct CueStrike {
   double speed;                     ///< speed of the cue, m/s, > 0
   double right;                     ///< offset to the right of the centre, in radii of the ball
   double above;                     ///< offset above the centre, in radii of the ball
-  double elevation;                 ///< elevation of the cue's butt, rad, 0 <= elevation < pi/2
+  double elevation;                 ///< elevation of the cue's butt in degrees, 0 <= elevation < 90
   double mass = standard_cue_mass;  ///< mass of the cue, kg, > 0
 };
 
