@@ -146,16 +146,17 @@ GivenStart StartOptions::read(const reduction::Law& law) const {
   if (ball_.given()) {
     const si::Experiment experiment = read_ball(law);
     try {
-      GivenStart start{si::undriven_system(experiment, law), si::reduced_start(experiment), experiment};
       (void)si::drive_of(experiment);  // throws with the reason if the motion has no reduced system
-      start.motion = si::Motion::reduced(experiment, law);
-      if (!start.motion->is_reduced()) {
+      const si::Motion motion = si::Motion::reduced(experiment, law);
+      if (!motion.is_reduced()) {
         throw std::domain_error(
             "slope and rolling resistance drive the slip as much as friction holds it, or more, for a while: the whole "
             "motion (roll) is integrated");
       }
-      if (!start.at_rest()) start.system = start.pieces().front().flow.system();
-      return start;
+      const reduction::State state = si::reduced_start(experiment);
+      const bool moves = state.u != 0 || state.v != 0;
+      return {moves ? motion.pieces().front().flow.system() : si::undriven_system(experiment, law), state, experiment,
+              motion};
     } catch (const std::domain_error& error) {
       reject_ball(error.what());
     }
@@ -254,7 +255,6 @@ si::Experiment StartOptions::read_ball(const reduction::Law& law, const si::Desc
   try {
     const si::Description described = own.under(between).under(given);
     const si::Experiment experiment = si::experiment_of(described);
-    si::patch_radius_of(experiment, law);  // throws if the patch radius is impossible
     tell_new_patch(experiment, law);
     if (starts_anew && slip_given != spin_given) {
       fmt::print(stderr, "note: {} replaces [start] of {}; the rest of the start is 0\n", names_given(velocities_),
@@ -308,7 +308,10 @@ bool StartOptions::brings_law() const {
 
 void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const {
   const auto* measured = std::get_if<si::SpinDeceleration>(&experiment.contact.patch);
-  if (measured == nullptr || given_values().find(si::spin_deceleration)) return;
+  if (measured == nullptr) return;  // experiment_of has checked the patch radius
+  const double patch = si::patch_radius_of(experiment, law);
+  const bool of_start_alone = names_given(of_ball_) == names_given(velocities_) && law.name() == standard_law();
+  if (of_start_alone || value(si::spin_deceleration).given()) return;
   double own = 0;
   try {
     const si::Experiment before = si::experiment_of(ball_of_its_own().under(at_rest("")));
@@ -316,7 +319,6 @@ void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduct
   } catch (const std::domain_error&) {
     return;  // the file leaves this value to an option
   }
-  const double patch = si::patch_radius_of(experiment, law);
   if (std::abs(patch - own) <= 1e-12 * own) return;
   fmt::print(stderr,
              "note: the patch radius goes from {:.6g} m to {:.6g} m: what was measured is the spin deceleration,\n"

@@ -152,6 +152,7 @@ class StartOptions : public BodyOptions {
 
   /// Prints a warning on standard error if options replace values of the ball or the law, so that a measured spin
   /// deceleration now gives another patch than before.
+  /// @throws std::domain_error  if the patch radius that follows from the spin deceleration is impossible
   void tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const;
 
   ArgumentOf<double> u0_, v0_;
