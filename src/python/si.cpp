@@ -292,11 +292,9 @@ void bind_si(py::module_& module) {
       .def(py::init([](const py::dict& fields) { return si::experiment_of(at_rest().under(described_by(fields))); }))
       .def("struck",
            [](si::Experiment experiment, double speed, Pair tip, double elevation, double cue_mass) {
-             experiment.start = si::struck(experiment.ball, {.speed = speed,
-                                                             .right = tip[0],
-                                                             .above = tip[1],
-                                                             .elevation = elevation,
-                                                             .mass = cue_mass});
+             experiment.start = si::struck(
+                 experiment.ball,
+                 {.speed = speed, .right = tip[0], .above = tip[1], .elevation = elevation, .mass = cue_mass});
              si::require_experiment(experiment);
              return experiment;
            })
@@ -317,24 +315,17 @@ void bind_si(py::module_& module) {
         return py::make_tuple(py::make_tuple(velocity.x(), velocity.y()), py::make_tuple(w.x(), w.y(), w.z()));
       });
 
-  const auto with_rolling_friction = [](si::Experiment experiment, double u_r) {
-    experiment.contact.rolling_friction = u_r;
-    return experiment;
-  };
   py::class_<si::Motion>(module, "Motion")
       .def_static(
           "reduced",
-          [=](const si::Experiment& experiment, const Flow& flow, double u_r,
-              const std::optional<si::LoadHistory>& load) {
-            return si::Motion::reduced(with_rolling_friction(experiment, u_r), flow, load).finite();
+          [](const si::Experiment& experiment, const Flow& flow, const std::optional<si::LoadHistory>& load) {
+            return si::Motion::reduced(experiment, flow, load).finite();
           },
           Released())
       .def_static(
           "uncoupled",
-          [=](const si::Experiment& experiment, const Law& law, double u_r, const std::optional<si::LoadHistory>& load,
-              double rolling_below) {
-            return si::Motion::uncoupled(with_rolling_friction(experiment, u_r), law, rolling_below, load).finite();
-          },
+          [](const si::Experiment& experiment, const Law& law, const std::optional<si::LoadHistory>& load,
+             double rolling_below) { return si::Motion::uncoupled(experiment, law, rolling_below, load).finite(); },
           Released())
       .def_property_readonly("stop_time", &si::Motion::stop_time)
       .def("at",
@@ -355,10 +346,7 @@ void bind_si(py::module_& module) {
       .def("path", [](const si::Motion& motion, double below) { return motion.path_length(motion.rolls(below)); });
 
   py::class_<si::Shots>(module, "Shots")
-      .def(py::init([=](const si::Experiment& experiment, const Law& law, double u_r) {
-             return si::Shots(with_rolling_friction(experiment, u_r), law);
-           }),
-           Released())
+      .def(py::init<const si::Experiment&, const Law&>(), Released())
       .def("events",
            [](const si::Shots& shots, const Numbers& starts, double rolling_below, py::array_t<double>& out,
               unsigned threads) {
@@ -388,11 +376,9 @@ void bind_si(py::module_& module) {
     double* to = result.mutable_data();
     for_rows(rows, 1, [&](py::ssize_t row) {
       const double* const each = from + row * columns;
-      const auto [velocity, w] = si::struck(experiment.ball, {.speed = each[0],
-                                                              .right = each[1],
-                                                              .above = each[2],
-                                                              .elevation = each[3],
-                                                              .mass = each[4]});
+      const auto [velocity, w] =
+          si::struck(experiment.ball,
+                     {.speed = each[0], .right = each[1], .above = each[2], .elevation = each[3], .mass = each[4]});
       const std::array start{velocity.x(), velocity.y(), w.x(), w.y(), w.z()};
       std::ranges::copy(start, to + row * columns_of_start);
     });

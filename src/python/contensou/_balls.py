@@ -268,20 +268,20 @@ class Ball:
         below = _core.rolling_slip if rolling_below is None else number("rolling_below", rolling_below)
         if not below >= 0:
             raise ValueError(f"rolling_below: 0 or more is needed, in m/s; got {below}")
-        friction = self.rolling_friction if rolling_friction is None else number("rolling_friction", rolling_friction)
+        rolling = self if rolling_friction is None else self.but(rolling_friction=number("rolling_friction", rolling_friction))
         count = _count(start)
         if count is None:
             if threads != 1 or out is not None:
                 raise ValueError("threads and out are of an array of starts; this is one")
-            ball = self if strike is not None else self.but(**{name: value.tolist() for name, value in start.items()})
+            ball = rolling if strike is not None else rolling.but(**{name: value.tolist() for name, value in start.items()})
             history = None
             if load is not None:
-                history, ball = ball._under(load, friction)
+                history, ball = ball._under(load)
             core = ball._experiment
             if strike is not None:
                 core = core.struck(*(value.tolist() for value in start.values()))
                 ball = ball.but(velocity=core.start[0], angular_velocity=core.start[1])
-            return Roll(ball, *core.start, ball._law(law), below, friction, load=history)
+            return Roll(ball, *core.start, ball._law(law), below, load=history)
         if load is not None:
             raise ValueError("load: a load that changes needs one start, and these are several")
         if strike is not None:
@@ -289,7 +289,7 @@ class Ball:
             starts = _core.struck_starts(self._experiment, np.column_stack(columns))
         else:
             starts = self._starts(start, count)
-        return Rolls(self, starts, self._law(law), below, friction, thread_count(threads), out)
+        return Rolls(rolling, starts, self._law(law), below, thread_count(threads), out)
 
     def _starts(self, given: dict[str, NDArray[np.float64]], count: int) -> NDArray[np.float64]:
         """Returns rows vx, vy, wx, wy, wz. Values that are not given are the ball's own, as in `but`."""
@@ -312,7 +312,7 @@ class Ball:
                 starts[:, columns] = given[name]
         return starts
 
-    def _under(self, load: tuple[ArrayLike, ArrayLike], friction: float) -> tuple[Any, Ball]:
+    def _under(self, load: tuple[ArrayLike, ArrayLike]) -> tuple[Any, Ball]:
         """Returns a changing load as two tuples, and this ball under its nominal load."""
         if not isinstance(load, (tuple, list, np.ndarray)) or len(load) != 2:
             raise needs("load", "(instants in s, newtons at each)", load)
@@ -321,7 +321,7 @@ class Ball:
         if ball.youngs_modulus is not None:
             raise ValueError("load: the patch of Young's moduli grows with a load that changes, and the motion is then "
                              "no other one's copy: give patch_radius")
-        if ball.slope or friction:
+        if ball.slope or ball.rolling_friction:
             raise ValueError("load: a load that changes allows friction alone: leave out slope and rolling_friction")
         return (t, newtons), ball
 
@@ -417,7 +417,6 @@ class Roll:
     angular_velocity: tuple[float, float, float]
     law: Law
     rolling_below: float
-    rolling_friction: float
     textbook: bool = False
     load: Optional[tuple[tuple[float, ...], tuple[float, ...]]] = None
     _core: _core.Motion = field(init=False, repr=False, compare=False)
@@ -426,9 +425,9 @@ class Roll:
         experiment = self.ball.but(velocity=self.velocity, angular_velocity=self.angular_velocity)._experiment
         load = None if self.load is None else _core.LoadHistory(list(self.load[0]), list(self.load[1]))
         if self.textbook:
-            core = _core.Motion.uncoupled(experiment, self.law._core, self.rolling_friction, load, self.rolling_below)
+            core = _core.Motion.uncoupled(experiment, self.law._core, load, self.rolling_below)
         else:
-            core = _core.Motion.reduced(experiment, _solved(self.ball.but(slip=0, spin=0), self.law), self.rolling_friction, load)
+            core = _core.Motion.reduced(experiment, _solved(self.ball.but(slip=0, spin=0), self.law), load)
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -492,7 +491,7 @@ class Roll:
     @property
     def uncoupled(self) -> Roll:
         """The motion under the uncoupled model, in which sliding and spinning are independent, from the same start."""
-        return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, self.rolling_friction, True, self.load)
+        return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, True, self.load)
 
     @property
     def rolls_after(self) -> Event:
@@ -559,7 +558,7 @@ class Roll:
     def _undisturbed(self, asked: str) -> _Undisturbed:
         if self.textbook or self.load is not None:
             raise ValueError(f"{asked} needs a constant load and the coupled model")
-        return self.ball.but(rolling_friction=self.rolling_friction)._experiment, self.law._core, self.rolling_below
+        return self.ball._experiment, self.law._core, self.rolling_below
 
 
 _places = ("rolls_after", "spin_ends", "rest")
@@ -606,11 +605,11 @@ class Rolls:
     path: NDArray[np.float64]
     stop_time: NDArray[np.float64]
 
-    def __init__(self, ball: Ball, starts: NDArray[np.float64], law: Law, rolling_below: float, rolling_friction: float,
+    def __init__(self, ball: Ball, starts: NDArray[np.float64], law: Law, rolling_below: float,
                  threads: int = 1, out: Optional[NDArray[Any]] = None) -> None:
         self.ball, self.starts, self.law = ball, np.ascontiguousarray(starts), law
-        self.rolling_below, self.rolling_friction, self.threads = rolling_below, rolling_friction, threads
-        self._core = _core.Shots(ball._experiment, law._core, rolling_friction)
+        self.rolling_below, self.threads = rolling_below, threads
+        self._core = _core.Shots(ball._experiment, law._core)
         found = self._events(np.empty(len(self), self.dtype) if out is None else target(out, (len(self),), self.dtype))
         self.events: NDArray[np.void] = found.view(_Events)
 
@@ -646,7 +645,7 @@ class Rolls:
         vx, vy, wx, wy, wz = self.starts[whole("row", row)].tolist()
         velocity, angular_velocity = (vx, vy), (wx, wy, wz)
         ball = self.ball.but(velocity=velocity, angular_velocity=angular_velocity)
-        return Roll(ball, velocity, angular_velocity, self.law, self.rolling_below, self.rolling_friction)
+        return Roll(ball, velocity, angular_velocity, self.law, self.rolling_below)
 
     def __call__(self, t: ArrayLike) -> NDArray[np.void]:
         times = numbers("t", t)
@@ -656,15 +655,15 @@ class Rolls:
         return Rolls, (self.ball, self.starts, *self._again)
 
     @property
-    def _again(self) -> tuple[Law, float, float, int]:
-        return self.law, self.rolling_below, self.rolling_friction, self.threads
+    def _again(self) -> tuple[Law, float, int]:
+        return self.law, self.rolling_below, self.threads
 
     def __eq__(self, other: object) -> bool:
-        return (isinstance(other, Rolls) and self.ball == other.ball and self._again[:3] == other._again[:3]
+        return (isinstance(other, Rolls) and self.ball == other.ball and self._again[:2] == other._again[:2]
                 and np.array_equal(self.starts, other.starts))
 
     def __hash__(self) -> int:
-        return hash((self.ball, *self._again[:3], len(self)))
+        return hash((self.ball, *self._again[:2], len(self)))
 
     def __repr__(self) -> str:
         return f"Rolls({len(self)} starts of {self.ball.name!r}, law {self.law.name!r})"
