@@ -83,7 +83,8 @@ auto at_most(int highest) {
 std::vector<FieldText> portrait_fields() {
   return {
       {"CSV `kind`, `index`", "",
-       "type of the line: orbit, highlight, through, isochrone and others; number of the line within its type"},
+       "type of the line: orbit, highlight, through, isochrone, and with --against also against_orbit and "
+       "against_isochrone; number of the line within its type"},
       {"CSV `u`, `v`, `tau`", "speed", "states on the line; tau: time that is left until the stop"},
       {"CSV `ln_v`, `k`", "", "natural logarithm of v, and ratio k = v/(mu |u|)"},
       {"CSV `beta`", "1/speed", "time beta since the first state of an orbit, with --view regularised"},

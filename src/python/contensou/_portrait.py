@@ -113,10 +113,8 @@ class Portrait:
 
     @property
     def data(self) -> dict[str, Any]:
-        """The content of `contensou portrait -o FILE.json`, with lists of numbers as arrays: window; orbits with u, v,
-        ln_v, k and tau_left, in the view regularised also beta; isochrones with tau_stop, u, v; if requested highlight,
-        through, against. A Reduction adds kind, centre and rays; its window has two ends of each axis, its highlight is
-        a list of parts, and ln_v and k are missing. For several mu or laws it is {"portraits": list}."""
+        """The content of `contensou portrait -o FILE.json`, with lists of numbers as arrays. `contensou help fields`
+        describes the members; those of a Reduction are the fields of `portrait --system`."""
         return dict(_columns(json.loads(self._core.json())))
 
     @property

@@ -186,18 +186,10 @@ struct PortraitSource {
   double seconds_per_tau = 0;  ///< seconds of that ball per unit of tau
 };
 
-/// Returns one or more portraits as JSON. Numbers read back to the same doubles.
-///
-/// Members: schema, law, mu, body {chi, gamma}, view, window ([U, V] or the ends of both axes), drive (if > 0),
-/// version, ball, seconds_per_tau, orbits [{u, v, ln_v, k, beta (in the view regularised), tau_left}], isochrones
-/// [{tau_stop, u, v}]. On request also highlight (an orbit), through (orbits), against {law, orbits, isochrones}.
-/// Several portraits give the members schema and portraits; each of these portraits has the other members above.
+/// Return one or more portraits as JSON or CSV. `contensou help fields` describes members and columns. Numbers read
+/// back to the same doubles. Comment lines (#) at the top of CSV contain the members that stand before the orbits in
+/// JSON.
 std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
-
-/// Returns one or more portraits as CSV with the columns kind,index,u,v,tau,ln_v,k, beta in the view regularised, and t
-/// for a ball. Several portraits have mu,law as first columns. kind is orbit, highlight, through or isochrone; for the
-/// compared law it is against_orbit or against_isochrone. tau and t (s) are the time left. Comment lines (#) at the top
-/// contain the members that stand before the orbits in JSON.
 std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSource& source = {});
 
 }  // namespace contensou::portraits
