@@ -19,7 +19,6 @@
 #include "answers/verbs/roll_answer.hpp"
 #include "answers/verbs/uncertainty.hpp"
 #include "contensou/portraits/json.hpp"
-#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"
@@ -139,17 +138,14 @@ si::Velocities start_of(const double* row) { return {{row[0], row[1]}, {row[2], 
 
 constexpr py::ssize_t columns_of_start = 5;
 
-/// Writes the events of a motion in the order of the fields in Python. If the ball never rests, rest gets infinity.
+/// Writes the numbers of the events of a motion, and its stop time.
 void write_events(const si::Motion& motion, double rolling_below, double* row) {
   const si::Events events = motion.finite().events(rolling_below);
-  for (const si::Event& event :
-       {events.rolls, events.spin_ends, events.rest.value_or(si::Event{infinity, {infinity, infinity}})}) {
-    for (double value : {event.t, event.place.x(), event.place.y()}) *row++ = value;
-  }
-  for (double value : {events.slip_length, events.turns, events.path, motion.stop_time()}) *row++ = value;
+  for (const si::EventNumber& number : si::event_numbers()) *row++ = number.value(events);
+  *row = motion.stop_time();
 }
 
-constexpr py::ssize_t columns_of_events = 13;
+const auto columns_of_events = static_cast<py::ssize_t>(si::event_numbers().size()) + 1;
 
 constexpr const char *uncertainty_field = "uncertainty", *correlation_field = "correlation";
 
@@ -277,8 +273,6 @@ py::dict fields_of_ball(const si::Description& described) {
   return fields;
 }
 
-py::tuple place_of(const si::Event& event) { return py::make_tuple(event.t, event.place.x(), event.place.y()); }
-
 }  // namespace
 
 void bind_si(py::module_& module) {
@@ -332,18 +326,11 @@ void bind_si(py::module_& module) {
            [](const si::Motion& motion, const Numbers& times) {
              return mapped<Instant>(times, [&](double t) { return instant_of(motion.at(t)); });
            })
-      .def("rolls_after",
-           [](const si::Motion& motion, double below) { return place_of(motion.event(motion.rolls(below))); })
-      .def_property_readonly("spin_ends",
-                             [](const si::Motion& motion) { return place_of(motion.event(motion.spin_end())); })
-      .def_property_readonly("rest",
-                             [](const si::Motion& motion) {
-                               const auto rest = motion.rest();
-                               return rest ? std::optional(place_of(*rest)) : std::nullopt;
-                             })
-      .def_property_readonly("slip_length", &si::Motion::slip_length)
-      .def_property_readonly("turns", &si::Motion::turns)
-      .def("path", [](const si::Motion& motion, double below) { return motion.path_length(motion.rolls(below)); });
+      .def("events", [](const si::Motion& motion, double rolling_below) {
+        py::array_t<double> row(columns_of_events);
+        write_events(motion, rolling_below, row.mutable_data());
+        return row;
+      });
 
   py::class_<si::Shots>(module, "Shots")
       .def(py::init<const si::Experiment&, const Law&>(), Released())
@@ -368,6 +355,8 @@ void bind_si(py::module_& module) {
         });
         return result;
       });
+  module.attr("event_numbers") = list_of(
+      si::event_numbers(), [](const si::EventNumber& number) { return py::make_tuple(number.event, number.of); });
   module.def("struck_starts", [](const si::Experiment& experiment, const Numbers& strikes) {
     constexpr py::ssize_t columns = 5;  // columns: speed, right, above, degrees, mass
     const py::ssize_t rows = strikes.size() / columns;

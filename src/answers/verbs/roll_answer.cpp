@@ -142,7 +142,7 @@ std::string gradient_text(const si::EventGradient& gradient, const Digits& digit
   for (const si::Component& by : gradient.by) heading.push_back(by.name());
   table.add(std::move(heading));
   for (std::size_t i = 0; i < gradient.events.size(); ++i) {
-    std::vector<std::string> line{label_of(gradient.events[i].event, gradient.events[i].of)};
+    std::vector<std::string> line{label_of(gradient.events[i])};
     for (const double slope : gradient.slopes.row(static_cast<Eigen::Index>(i))) line.push_back(digits(slope));
     table.add(std::move(line));
   }
@@ -329,12 +329,9 @@ std::string roll_text(const Roll& roll, const Digits& digits) {
 Json members_of(const si::EventGradient& gradient) {
   Json members = Json::object();
   for (std::size_t i = 0; i < gradient.events.size(); ++i) {
-    const auto& [event, of, unit] = gradient.events[i];
-    Json slopes = Json::object();
+    Json& slopes = place_of(gradient.events[i], members) = Json::object();
     for (std::size_t j = 0; j < gradient.by.size(); ++j)
       slopes[gradient.by[j].name()] = gradient.slopes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    const std::string name(event);
-    (of.empty() ? members[name] : members[name][std::string(of)]) = slopes;
   }
   return members;
 }

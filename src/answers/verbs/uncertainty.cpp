@@ -304,10 +304,8 @@ Uncertainty event_uncertainty(
                               each.quantity->unit,
                               !vector || about_vertical ? corner : std::string_view()});
   }
-  for (const auto& [event, of, unit] : events.names()) {
-    varied.parts.push_back({std::string(event), std::string(of), std::string(unit),
-                            events.values()[static_cast<Index>(varied.parts.size())]});
-  }
+  for (const si::EventNumber& number : events.names())
+    varied.parts.push_back({number, events.values()[static_cast<Index>(varied.parts.size())]});
   const Spreads spreads = read_spreads(typed, varied.numbers, experiment.spreads);
   const auto changes_mu = [&](const Spread& number) {
     const auto found = std::ranges::find(events.components(), number.name, &si::Component::name);
@@ -353,17 +351,23 @@ si::Spreads of_slip_and_spin(const si::Experiment& experiment) {
 
 }  // namespace
 
-std::string label_of(std::string_view event, std::string_view of) {
-  std::string label = of.empty() ? std::string(event) : fmt::format("{} {}", event, of);
+std::string label_of(const si::EventNumber& number) {
+  std::string label = fmt::format("{}{}{}", number.event, number.of.empty() ? "" : " ", number.of);
   std::ranges::replace(label, '_', ' ');
   return label;
+}
+
+Json& place_of(const si::EventNumber& number, Json& members) {
+  Json& event = members[std::string(number.event)];
+  return number.of.empty() ? event : event[std::string(number.of)];
 }
 
 Uncertainty roll_uncertainty(const si::Experiment& experiment, const reduction::Law& law, double rolling_below,
                              const std::string& typed, const std::function<void()>& before_each) {
   Uncertainty result = event_uncertainty(experiment, law, rolling_below, typed, "the events have", before_each);
   if (si::spin_at_start(experiment) == 0)
-    std::erase_if(result.parts, [](const auto& part) { return part.event == "spin_ends" || part.event == "turns"; });
+    std::erase_if(result.parts,
+                  [](const auto& part) { return part.number.event == "spin_ends" || part.number.event == "turns"; });
   return result;
 }
 
@@ -382,7 +386,7 @@ Uncertainty stop_uncertainty(const GivenStart& start, const std::string& typed) 
   const reduction::StopTimesOfMu times(system.law(), system.inertia(), system.drive());
   const Varied varied{
       .numbers = {{{"u0", state.u}, "", corner}, {{"v0", state.v}, "", corner}, {{"mu", system.mu()}, ""}},
-      .parts = {{"t_stop", "", "", by.tau}},
+      .parts = {{{"t_stop", "", ""}, by.tau}},
       .samples = 10'000,
       .slopes = [&](std::size_t place) -> std::optional<VectorXd> {
         return VectorXd::Constant(1, std::array{by.by_u, by.by_v, by.by_mu}[place]);
@@ -407,8 +411,7 @@ Json members_of(const KnownTo& known) {
 
 Json members_of(const Uncertainty& uncertainty) {
   Json members = Json::object();
-  for (const auto& [event, of, unit, value, known] : uncertainty.parts)
-    (of.empty() ? members[event] : members[event][of]) = members_of(known);
+  for (const auto& [number, value, known] : uncertainty.parts) place_of(number, members) = members_of(known);
   members.update({{"samples", uncertainty.samples}, {"outside", uncertainty.outside}});
   return members;
 }
@@ -425,14 +428,14 @@ std::string remarks_on(const Uncertainty& uncertainty) {
 std::string text_of(const Uncertainty& uncertainty, const Digits& digits) {
   if (std::ranges::all_of(uncertainty.parts, [](const auto& part) { return part.known.standard == 0; }))
     return "known to: none of these numbers changes it\n" + remarks_on(uncertainty);
-  const TextTable::Column number = TextTable::right(digits.width());
-  TextTable table({TextTable::left(24), number, number, number, number});
+  const TextTable::Column column = TextTable::right(digits.width());
+  TextTable table({TextTable::left(24), column, column, column, column});
   table.add({"", "value", "+-", "95 % from", "to"});
-  for (const auto& [event, of, unit, value, known] : uncertainty.parts) {
+  for (const auto& [number, value, known] : uncertainty.parts) {
     if (known.standard == 0) continue;
-    table.add({label_of(event, of), digits(value), digits(known.standard), digits(known.quantiles.front()),
+    table.add({label_of(number), digits(value), digits(known.standard), digits(known.quantiles.front()),
                digits(known.quantiles.back()),
-               fmt::format("{}{}{}", unit.empty() ? "" : "  ", unit, known.holds ? "" : "  *")});
+               fmt::format("{}{}{}", number.unit.empty() ? "" : "  ", number.unit, known.holds ? "" : "  *")});
   }
   const std::string remarks = remarks_on(uncertainty);
   return fmt::format("known to, one standard deviation to first order; 95 % of {} samples\n{}{}{}", uncertainty.samples,

@@ -3,14 +3,13 @@
 #include <array>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "answers/asked/given_start.hpp"
 #include "answers/table/answer.hpp"
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/si/experiment.hpp"
+#include "contensou/si/motion.hpp"
 
 namespace contensou::answers {
 
@@ -28,10 +27,8 @@ struct KnownTo {
 
 /// The uncertainty of the numbers of a motion's events.
 struct Uncertainty {
-  /// A number of an event.
   struct Part {
-    std::string event, of;  ///< names in JSON, such as rolls_after and t; `of` is empty for slip_length
-    std::string unit;
+    si::EventNumber number;  ///< its function `value` is not used
     double value;
     KnownTo known = {};
   };
@@ -41,7 +38,10 @@ struct Uncertainty {
 };
 
 /// Returns the label of a number of an event, such as "rolls after t" or "path".
-std::string label_of(std::string_view event, std::string_view of);
+std::string label_of(const si::EventNumber& number);
+
+/// Returns the place of a number of an event in an object of JSON: members.rolls_after.t, or members.path.
+Json& place_of(const si::EventNumber& number, Json& members);
 
 /// Returns the uncertainty of all events of `roll`.
 /// @param rolling_below  slip below which the ball rolls, m/s, as in si::Motion::rolls

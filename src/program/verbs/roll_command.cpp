@@ -7,7 +7,6 @@
 #include "answers/input/load_table.hpp"
 #include "answers/verbs/roll_answer.hpp"
 #include "contensou/portraits/roll_figure.hpp"
-#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"
@@ -236,38 +235,29 @@ class RollCommand final : public Verb {
       throw table.complaint(table.header_line(),
                             "columns slip, spin and vx, vy, wx, wy, wz exclude each other: keep one kind of start");
     }
+    std::vector<std::string> names = names_of(shot_events);
+    std::vector<si::EventNumber> columns;
+    for (const std::string& name : names)
+      columns.push_back(*std::ranges::find(si::event_numbers(), name, &si::EventNumber::column));
+    if (still.ball.body.lies_flat())
+      std::copy(names.end() - 3, names.end(), names.begin());  // columns of the rest, in place of columns of rolling
+    if (!may_rest) names.resize(names.size() - 3);
     BatchRequest request{.inputs = general ? velocities : along_x,
-                         .results = names_of(shot_events),
+                         .results = names,
                          .compute =
                              [&](std::span<const double> row, std::span<double> results, long /*line*/) {
                                const si::Start start =
                                    general ? si::Start(si::Velocities{{row[0], row[1]}, {row[2], row[3], row[4]}})
                                            : si::Start(si::SlipAndSpin{row[0], row[1]});
-                               write(shots.from(start).finite().events(rolling_below), results);
+                               const si::Events events = shots.from(start).finite().events(rolling_below);
+                               for (std::size_t i = 0; i < results.size(); ++i) results[i] = columns[i].value(events);
                              },
                          .keep_going = keep_going_,
                          .threads = bulk_.threads(),
                          .progress = bulk_.progress(out.path)};
-    std::vector<std::string>& names = request.results;
-    if (still.ball.body.lies_flat())
-      std::copy(names.end() - 3, names.end(), names.begin());  // columns of the rest, in place of columns of rolling
-    if (!may_rest) names.resize(names.size() - 3);
     const ExitStatus status = run_batch(table, output, request);
     output.finish();
     return status;
-  }
-
-  /// Writes the events of a row.
-  static void write(const si::Events& events, std::span<double> results) {
-    const auto& [rolls, spin_ends, rest, slip_length, turns, path] = events;
-    auto place = results.begin();
-    const auto add = [&](const si::Event& event) {
-      for (double value : {event.t, event.place.x(), event.place.y()}) *place++ = value;
-    };
-    add(rolls);
-    add(spin_ends);
-    for (double value : {slip_length, turns, path}) *place++ = value;
-    if (place != results.end()) add(rest.value_or(si::Event{infinity, {infinity, infinity}}));
   }
 
   /// Returns the load if it changes; else empty.

@@ -493,42 +493,47 @@ class Roll:
         """The motion under the uncoupled model, in which sliding and spinning are independent, from the same start."""
         return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, True, self.load)
 
+    @cached_property
+    def _events(self) -> np.void:
+        row: np.void = self._core.events(self.rolling_below).view(Rolls.dtype)[0]
+        return row
+
     @property
     def rolls_after(self) -> Event:
         """The time at which the slip has fallen to rolling_below, or a body that lies flat rests, and the place."""
-        return Event(*self._core.rolls_after(self.rolling_below))
+        return Event(*self._events["rolls_after"].item())
 
     @property
     def spin_ends(self) -> Event:
         """The time at which the spin ends, and the place; the start for a ball without spin."""
-        return Event(*self._core.spin_ends)
+        return Event(*self._events["spin_ends"].item())
 
     @property
     def rest(self) -> Optional[Event]:
         """The time at which the centre comes to rest, with rolling friction or on a slope, and the place; None if it
         rolls for ever, and for a body that lies flat on a level plane, which rests at rolls_after."""
-        rest = self._core.rest
-        return None if rest is None else Event(*rest)
+        rest = Event(*self._events["rest"].item())
+        return rest if np.isfinite(rest.t) else None
 
     @property
     def stop_time(self) -> float:
         """The time until slip and spin end, s."""
         return self._core.stop_time
 
-    @cached_property
+    @property
     def slip_length(self) -> float:
         """The length that the contact point slides, m."""
-        return self._core.slip_length
+        return float(self._events["slip_length"])
 
-    @cached_property
+    @property
     def turns(self) -> float:
         """The number of turns about the vertical until the spin ends."""
-        return self._core.turns
+        return float(self._events["turns"])
 
-    @cached_property
+    @property
     def path(self) -> float:
         """The length of the centre's path until the ball rolls, m."""
-        return self._core.path(self.rolling_below)
+        return float(self._events["path"])
 
     def uncertainty(self, *own: str, **spreads: Union[str, float]) -> dict[str, Any]:
         """Returns the uncertainty of the events from standard deviations of numbers of the ball or of its start:
@@ -561,8 +566,8 @@ class Roll:
         return self.ball._experiment, self.law._core, self.rolling_below
 
 
-_places = ("rolls_after", "spin_ends", "rest")
-_others = ("slip_length", "turns", "path", "stop_time")
+_places = tuple(dict.fromkeys(event for event, of in _core.event_numbers if of))
+_others = (*(event for event, of in _core.event_numbers if not of), "stop_time")
 _nested = np.dtype([*((name, [(axis, "f8") for axis in "txy"]) for name in _places), *((name, "f8") for name in _others)])
 
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "contensou/reduction/detail/infinity.hpp"
-#include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 
 namespace contensou::si {
@@ -33,14 +31,13 @@ EventNumbers::EventNumbers(const Experiment& experiment, const reduction::Law& l
   const bool flat = experiment.ball.body.lies_flat();
   if (slip_at_start(experiment) == 0 && spin_at_start(experiment) == 0)
     throw std::domain_error("a body at rest has no events");
-  const auto add = [&](const char* event) {
-    for (const auto& [of, unit] : {std::pair{"t", "s"}, {"x", "m"}, {"y", "m"}}) names_.push_back({event, of, unit});
-  };
   if (rolling_below) {
-    add(flat ? "rest" : "rolls_after");
-    add("spin_ends");
-    if (!flat && Motion::reduced(experiment_, flow_).finite().rest()) add("rest");
-    names_.insert(names_.end(), {{"slip_length", "", "m"}, {"turns", "", ""}, {"path", "", "m"}});
+    const bool rolls_and_rests = !flat && Motion::reduced(experiment_, flow_).finite().rest();
+    for (EventNumber number : event_numbers()) {
+      if (number.event == "rest" && !rolls_and_rests) continue;
+      if (number.event == "rolls_after" && flat) number.event = "rest";
+      names_.push_back(number);
+    }
   }
   names_.push_back({"t_stop", "", "s"});
   for (const Component& each : uncertain_components()) {
@@ -69,19 +66,9 @@ VectorXd EventNumbers::of(const Experiment& other, const reduction::Flow& flow) 
   const Motion motion = Motion::reduced(other, flow).finite();
   if (!rolling_below_) return VectorXd::Constant(1, motion.stop_time());
   const Events events = motion.events(*rolling_below_);
-  VectorXd values(static_cast<Index>(names_.size()));
-  Index place = 0;
-  const auto add = [&](const Event& event) {
-    for (double each : {event.t, event.place.x(), event.place.y()}) values[place++] = each;
-  };
-  add(events.rolls);
-  add(events.spin_ends);
-  constexpr Index numbers_by_themselves = 4;
-  if (place + numbers_by_themselves < values.size()) {
-    if (!events.rest) throw std::domain_error("it rolls for ever");
-    add(*events.rest);
-  }
-  for (double each : {events.slip_length, events.turns, events.path, motion.stop_time()}) values[place++] = each;
+  VectorXd values = VectorXd::Constant(static_cast<Index>(names_.size()), motion.stop_time());
+  for (Index i = 0; i + 1 < values.size(); ++i) values[i] = names_[static_cast<std::size_t>(i)].value(events);
+  if (!values.allFinite()) throw std::domain_error("it rolls for ever");
   return values;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
 #include "contensou/si/scaling.hpp"
 #include "solution.hpp"
@@ -40,7 +41,24 @@ SolvedMotion under(const std::optional<LoadHistory>& history, SolvedMotion motio
   return history ? loaded_motion(std::move(motion), *history) : motion;
 }
 
+constexpr EventNumber numbers_of_events[]{
+    {"rolls_after", "t", "s", "t_rolls", [](const Events& of) { return of.rolls.t; }},
+    {"rolls_after", "x", "m", "x_rolls", [](const Events& of) { return of.rolls.place.x(); }},
+    {"rolls_after", "y", "m", "y_rolls", [](const Events& of) { return of.rolls.place.y(); }},
+    {"spin_ends", "t", "s", "t_spin_ends", [](const Events& of) { return of.spin_ends.t; }},
+    {"spin_ends", "x", "m", "x_spin_ends", [](const Events& of) { return of.spin_ends.place.x(); }},
+    {"spin_ends", "y", "m", "y_spin_ends", [](const Events& of) { return of.spin_ends.place.y(); }},
+    {"rest", "t", "s", "t_rest", [](const Events& of) { return of.rest ? of.rest->t : infinity; }},
+    {"rest", "x", "m", "x_rest", [](const Events& of) { return of.rest ? of.rest->place.x() : infinity; }},
+    {"rest", "y", "m", "y_rest", [](const Events& of) { return of.rest ? of.rest->place.y() : infinity; }},
+    {"slip_length", "", "m", "slip_length", [](const Events& of) { return of.slip_length; }},
+    {"turns", "", "", "turns", [](const Events& of) { return of.turns; }},
+    {"path", "", "m", "path", [](const Events& of) { return of.path; }},
+};
+
 }  // namespace
+
+std::span<const EventNumber> event_numbers() { return numbers_of_events; }
 
 reduction::OrbitPoint state_at(const std::vector<ReducedPiece>& pieces, double tau) {
   double beta = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,14 +8,9 @@
 #include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/si/description.hpp"
+#include "contensou/si/motion.hpp"
 
 namespace contensou::si {
-
-/// The name of a number of an event: {"rolls_after", "t", "s"} is the time t, in s, of the event "rolls_after". For a
-/// number without an event, such as "path", the name stands in `event`, and `of` is empty.
-struct EventNumber {
-  std::string_view event, of, unit;
-};
 
 /// The numbers of the events of a ball's motion, as functions of the numbers by which the experiment is given.
 ///

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,17 @@ struct Events {
   double turns;               ///< turns about the vertical
   double path;                ///< path of the centre, m, until the ball rolls or, lying flat, rests
 };
+
+/// A number of Events, such as {"rolls_after", "t", "s"}: the time, in s, of the event "rolls_after". A length or a
+/// number of turns, such as "path", has no event; its name stands in `event`, and `of` is empty.
+struct EventNumber {
+  std::string_view event, of, unit;
+  std::string_view column = {};              ///< heading in a table, such as "t_rolls"
+  double (*value)(const Events&) = nullptr;  ///< returns infinity for `rest` if the body does not come to rest
+};
+
+/// Returns all numbers of Events: t, x and y of rolls, spin_ends and rest, then slip_length, turns and path.
+std::span<const EventNumber> event_numbers();
 
 /// The kinetic energy of a motion and its losses, in J.
 struct EnergyBalance {
@@ -71,6 +84,8 @@ inline constexpr double resting_slip = 1e-4;
 /// sin(alpha) pulls. After slip and spin the ball rolls on or rests, in closed form (reduction/README.md, (R56)).
 ///
 /// A motion never changes. Copies, also in several threads, share its solution.
+///
+/// @throws std::domain_error  functions of a time or a speed, if the number is negative or not a number
 class Motion {
  public:
   /// Computes the motion, if possible without steps in time. Slip and spin are then one orbit of the reduced system.
@@ -119,7 +134,6 @@ class Motion {
 
   /// Returns the state at a time.
   /// @param t  time, s, >= 0
-  /// @throws std::domain_error  if t is negative or not a number
   MotionPoint at(double t) const;
 
   /// Returns the states at all times, in the order given.
@@ -133,12 +147,10 @@ class Motion {
 
   /// Returns the time after which the slip never exceeds a speed, s; 0 if the slip never exceeds this speed.
   /// @param speed  slip, m/s, >= 0
-  /// @throws std::domain_error  if the speed is negative or not a number
   double slip_time(double speed) const;
 
   /// Returns the time at which |spin| has fallen to a speed, s; 0 if |spin| never exceeds this speed.
   /// @param speed  spin, rad/s, >= 0
-  /// @throws std::domain_error  if the speed is negative or not a number
   double spin_time(double speed) const;
 
   /// Returns the time until the ball rolls, s; for a body that lies flat, until its centre comes to rest.
