@@ -1,4 +1,4 @@
-#include "paper/literature.hpp"
+#include "paper/statements.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,54 +98,54 @@ double spin_decay_of_stone(double v) {
 
 }  // namespace
 
-bool Published::agrees() const { return std::abs(computed - published) <= allowed; }
-
-std::vector<Published> published_numbers() {
-  constexpr std::string_view farkas = "Z. Farkas, G. Bartels, T. Unger, D. E. Wolf, Phys. Rev. Lett. 90 (2003) 248302",
-                             farkas_doi = "10.1103/PhysRevLett.90.248302",
-                             weidman =
-                                 "P. D. Weidman, C. P. Malhotra, On the terminal motion of sliding spinning disks "
-                                 "with uniform Coulomb friction (2007)",
-                             goyal = "S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991) 331",
-                             goyal_doi = "10.1016/0043-1648(91)90105-4", textbooks = "Textbooks of mechanics",
-                             stones = "DigitalCurling, simulator_fcv1.cpp: a fit to stones",
-                             stones_link = "github.com/digitalcurling";
+std::vector<Statement> published_numbers() {
+  constexpr Source weidman{
+      "P. D. Weidman, C. P. Malhotra, On the terminal motion of sliding spinning disks with uniform Coulomb friction "
+      "(2007)",
+      "", "abstract"},
+      farkas{"Z. Farkas, G. Bartels, T. Unger, D. E. Wolf, Phys. Rev. Lett. 90 (2003) 248302",
+             "10.1103/PhysRevLett.90.248302", "abstract"},
+      goyal{"S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991) 331", "10.1016/0043-1648(91)90105-4", "as cited"},
+      mihaly{"L. Mihaly (2018)", "", "as cited"}, textbooks{"Textbooks of mechanics", "", "in textbooks"},
+      grains{"J. S. Marshall, J. Comput. Phys. 228 (2009) 1541, as coded in LAMMPS", "github.com/lammps/lammps",
+             "code"},
+      coriolis{"G. Coriolis, Theorie mathematique des effets du jeu de billard (1835)", "", "as cited"},
+      stones{"DigitalCurling, simulator_fcv1.cpp: a fit to stones", "github.com/digitalcurling", "code"};
   const auto ray = [](const reduction::ReducedSystem& system) {
     return reduction::Flow(system).terminal().rays.front().k;
+  };
+  const auto number = [](std::string_view name, const Source& source, double published, double allowed, double computed,
+                         Verdict recorded = Verdict::holds) {
+    return Statement{"", name, published, computed, allowed, 0, "", recorded, "", nullptr, source};
   };
   const reduction::TerminalRatios disc = reduction::Flow(flat("uniform", disc_gyration)).terminal();
   const Bowled bowled;
   return {
-      {"v/(R omega) with which a disc comes to rest", weidman, "", "abstract", 0.653, three_digits,
-       ray(flat("uniform", disc_gyration))},
-      {"when a disc's spin ends, over when its slip ends, by steps in time", farkas, farkas_doi, "abstract", 1, 1e-5,
-       ends_of_puck()},
-      {"v/(R omega) with which a ring comes to rest", weidman, "", "abstract", 1, rounding, ray(flat("ring", 1))},
-      {"radius of gyration over R above which v/(R omega) ends at 0", goyal, goyal_doi, "as cited", std::sqrt(2. / 3),
-       rounding, 1 / std::sqrt(disc.low)},
-      {"radius of gyration over R below which v/(R omega) grows for ever", goyal, goyal_doi, "as cited", 0.5, rounding,
-       1 / std::sqrt(disc.high)},
-      {"way of a ring with v = R omega over that of one without spin", "L. Mihaly (2018)", "", "as cited",
-       std::numbers::pi / 2, rounding, way_of_ring()},
-      {"moment of a disc that only turns, over f N R", textbooks, "", "in textbooks", 2. / 3, rounding,
-       law_named("uniform").pivoting_moment()},
-      {"moment of a contact of grains that only turns, over f N a",
-       "J. S. Marshall, J. Comput. Phys. 228 (2009) 1541, as coded in LAMMPS", "github.com/lammps/lammps", "code",
-       2. / 3, rounding, law_named("exact").pivoting_moment(), false},
-      {"time after which a ball without spin rolls, in v/(f g)", textbooks, "", "in textbooks", 2. / 7, rounding,
-       bowled.motion.stop_time() * bowled.friction / bowled.speed},
-      {"its speed then, over v", textbooks, "", "in textbooks", 5. / 7, rounding,
-       bowled.end.velocity.norm() / bowled.speed},
-      {"its way until then, in v^2/(f g)", textbooks, "", "in textbooks", 12. / 49, rounding,
-       bowled.end.position.norm() * bowled.friction / (bowled.speed * bowled.speed)},
-      {"speed, over v, at which a ball with backspin (5/2) v/R ends", textbooks, "", "in textbooks", 0, rounding,
-       speed_of_draw()},
-      {"height above the centre, over R, at which a level cue sets a ball rolling",
-       "G. Coriolis, Theorie mathematique des effets du jeu de billard (1835)", "", "as cited", 0.4, rounding,
-       height_of_rolling()},
-      {"decay of a curling stone's spin at 1 m/s, times v, m/s^3", stones, stones_link, "code", 0.025, three_digits,
-       spin_decay_of_stone(1)},
-      {"the same at 2.5 m/s", stones, stones_link, "code", 0.025, three_digits, spin_decay_of_stone(2.5), false},
+      number("v/(R omega) with which a disc comes to rest", weidman, 0.653, three_digits,
+             ray(flat("uniform", disc_gyration))),
+      number("when a disc's spin ends, over when its slip ends, by steps in time", farkas, 1, 1e-5, ends_of_puck()),
+      number("v/(R omega) with which a ring comes to rest", weidman, 1, rounding, ray(flat("ring", 1))),
+      number("radius of gyration over R above which v/(R omega) ends at 0", goyal, std::sqrt(2. / 3), rounding,
+             1 / std::sqrt(disc.low)),
+      number("radius of gyration over R below which v/(R omega) grows for ever", goyal, 0.5, rounding,
+             1 / std::sqrt(disc.high)),
+      number("way of a ring with v = R omega over that of one without spin", mihaly, std::numbers::pi / 2, rounding,
+             way_of_ring()),
+      number("moment of a disc that only turns, over f N R", textbooks, 2. / 3, rounding,
+             law_named("uniform").pivoting_moment()),
+      number("moment of a contact of grains that only turns, over f N a", grains, 2. / 3, rounding,
+             law_named("exact").pivoting_moment(), Verdict::not_true),
+      number("time after which a ball without spin rolls, in v/(f g)", textbooks, 2. / 7, rounding,
+             bowled.motion.stop_time() * bowled.friction / bowled.speed),
+      number("its speed then, over v", textbooks, 5. / 7, rounding, bowled.end.velocity.norm() / bowled.speed),
+      number("its way until then, in v^2/(f g)", textbooks, 12. / 49, rounding,
+             bowled.end.position.norm() * bowled.friction / (bowled.speed * bowled.speed)),
+      number("speed, over v, at which a ball with backspin (5/2) v/R ends", textbooks, 0, rounding, speed_of_draw()),
+      number("height above the centre, over R, at which a level cue sets a ball rolling", coriolis, 0.4, rounding,
+             height_of_rolling()),
+      number("decay of a curling stone's spin at 1 m/s, times v, m/s^3", stones, 0.025, three_digits,
+             spin_decay_of_stone(1)),
+      number("the same at 2.5 m/s", stones, 0.025, three_digits, spin_decay_of_stone(2.5), Verdict::not_true),
   };
 }
 

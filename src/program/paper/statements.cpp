@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace contensou::program {
 
 std::string_view word(Verdict verdict) {
@@ -28,6 +30,11 @@ Finding Statement::examine() const {
   if (found.corrected && agrees(*found.corrected)) found.verdict = Verdict::erratum;
   if (agrees(found.printed)) found.verdict = Verdict::holds;
   return found;
+}
+
+std::string Examined::correction() const {
+  return fmt::format(fmt::runtime(statement.correction), fmt::arg("computed", found.computed),
+                     fmt::arg("percent", 100 * found.computed));
 }
 
 }  // namespace contensou::program

@@ -6,7 +6,7 @@
 
 #include "answers/table/text_table.hpp"
 #include "options/output_options.hpp"
-#include "paper/literature.hpp"
+#include "paper/statements.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -15,51 +15,42 @@ namespace {
 
 using answers::TextTable;
 
-std::string verdict(const Published& number) { return number.agrees() ? "agrees" : "differs"; }
+const char* word_of(Verdict verdict) { return verdict == Verdict::holds ? "agrees" : "differs"; }
 
-constexpr Field<Published> number_fields[]{
-    {"name", "", "name of the number", [](const Published& n) -> Json { return n.name; }},
+constexpr Field<Examined> number_fields[]{
+    {"name", "", "name of the number", [](const Examined& n) -> Json { return n.statement.says; }},
     {"source", "", "source of the number: authors, journal and year",
-     [](const Published& n) -> Json { return n.source; }},
-    {"link", "", "DOI or repository of the source", [](const Published& n) -> Json { return n.link; }},
+     [](const Examined& n) -> Json { return n.statement.source.name; }},
+    {"link", "", "DOI or repository of the source", [](const Examined& n) -> Json { return n.statement.source.link; }},
     {"read", "", "material that was read for this number: abstract, code, textbooks, or only a citation",
-     [](const Published& n) -> Json { return n.read; }},
-    {"published", "", "value that the source prints", [](const Published& n) -> Json { return n.published; }},
-    {"computed", "", "value that this program computes", [](const Published& n) -> Json { return n.computed; }},
+     [](const Examined& n) -> Json { return n.statement.source.read; }},
+    {"published", "", "value that the source prints", [](const Examined& n) -> Json { return n.found.printed; }},
+    {"computed", "", "value that this program computes", [](const Examined& n) -> Json { return n.found.computed; }},
     {"verdict", "", "result of the comparison: agrees or differs",
-     [](const Published& n) -> Json { return verdict(n); }},
+     [](const Examined& n) -> Json { return word_of(n.found.verdict); }},
     {"recorded", "", "verdict that the program expects; any other verdict gives exit status 1",
-     [](const Published& n) -> Json { return n.confirmed ? "agrees" : "differs"; }},
+     [](const Examined& n) -> Json { return word_of(n.statement.recorded); }},
 };
 
-/// The list of sources below the table, and the number of each source in this list.
-struct Sources {
-  std::vector<std::string> list{};
-
-  std::ptrdiff_t operator()(const Published& number) {
-    const std::string source =
-        fmt::format("{}{}{} ({})", number.source, number.link.empty() ? "" : ", ", number.link, number.read);
-    const auto known = std::ranges::find(list, source);
-    const auto place = known - list.begin();
-    if (known == list.end()) list.push_back(source);
-    return place + 1;
-  }
-};
-
-std::string as_text(const std::vector<Published>& numbers, const Digits& digits) {
+std::string numbers_as_text(const std::vector<Examined>& numbers, const Digits& digits) {
   const auto column = TextTable::right(digits.width());
   TextTable table({TextTable::left(), column, column, column});
   table.add({"number", "published", "computed", "difference", "  verdict"});
-  Sources sources;
-  for (const Published& number : numbers) {
-    table.add({std::string(number.name), digits(number.published), digits(number.computed),
-               digits(number.computed - number.published),
-               fmt::format("  {} [{}]{}", verdict(number), sources(number),
-                           number.agrees() == number.confirmed ? "" : "  FAIL: not as recorded")});
+  std::vector<std::string> sources;  // list below the table
+  for (const Examined& number : numbers) {
+    const auto& [name, link, read] = number.statement.source;
+    const std::string source = fmt::format("{}{}{} ({})", name, link.empty() ? "" : ", ", link, read);
+    const auto place = std::ranges::find(sources, source) - sources.begin();
+    if (place == std::ssize(sources)) sources.push_back(source);
+    const auto& [published, computed, corrected, verdict] = number.found;
+    table.add({std::string(number.statement.says), digits(published), digits(computed), digits(computed - published),
+               fmt::format("  {} [{}]{}", word_of(verdict), place + 1,
+                           number.as_recorded() ? "" : "  FAIL: not as recorded")});
   }
   std::string text = table.text() + "\n";
-  for (std::size_t i = 0; i < sources.list.size(); ++i) text += fmt::format("[{}] {}\n", i + 1, sources.list[i]);
-  const auto agreeing = std::ranges::count_if(numbers, &Published::agrees);
+  for (std::size_t i = 0; i < sources.size(); ++i) text += fmt::format("[{}] {}\n", i + 1, sources[i]);
+  const auto agreeing =
+      std::ranges::count(numbers, Verdict::holds, [](const Examined& number) { return number.found.verdict; });
   return text + fmt::format("\n{} numbers: {} agree, {} differ. In brackets: what of a source was read.\n",
                             numbers.size(), agreeing, std::ssize(numbers) - agreeing);
 }
@@ -72,11 +63,12 @@ class LiteratureCommand final : public Verb {
 
   ExitStatus run() override {
     const Output output = output_.read();
-    const std::vector<Published> numbers = published_numbers();
+    std::vector<Examined> numbers;
+    for (const Statement& number : published_numbers()) numbers.push_back({number});
     Answer answer = answer_of_rows("rows", number_fields, numbers);
     answer.beside = {"link", "read", "recorded"};
-    answer.text = [&](const Digits& digits) { return as_text(numbers, digits); };
-    answer.passed = std::ranges::all_of(numbers, [](const Published& n) { return n.agrees() == n.confirmed; });
+    answer.text = [&](const Digits& digits) { return numbers_as_text(numbers, digits); };
+    answer.passed = std::ranges::all_of(numbers, &Examined::as_recorded);
     return output.write(answer);
   }
 

@@ -34,41 +34,30 @@ using portraits::PictureFormat;
 constexpr double stated_patch_ratio = 0.3;
 constexpr double drawn_patch_ratio = 1;
 
-/// A statement and its verdict, as text for people.
-struct StatementRow {
-  Statement statement;
-  Finding found = statement.examine();
-  std::string correction = fmt::format(fmt::runtime(statement.correction), fmt::arg("computed", found.computed),
-                                       fmt::arg("percent", 100 * found.computed));
-  std::string where = fmt::format(fmt::runtime(statement.where), statement.at);
-
-  bool as_recorded() const { return found.verdict == statement.recorded; }
-};
-
-constexpr Field<StatementRow> statement_fields[]{
+constexpr Field<Examined> statement_fields[]{
     {"equation", "", "number of the equation in the paper",
-     [](const StatementRow& row) -> Json { return row.statement.equation; }},
+     [](const Examined& row) -> Json { return row.statement.equation; }},
     {"statement", "", "statement of the paper in words",
-     [](const StatementRow& row) -> Json { return row.statement.says; }},
+     [](const Examined& row) -> Json { return row.statement.says; }},
     {"printed", "", "value by the formula that the paper prints",
-     [](const StatementRow& row) -> Json { return or_infinity(row.found.printed); }},
+     [](const Examined& row) -> Json { return or_infinity(row.found.printed); }},
     {"computed", "", "value that this program computes in another way",
-     [](const StatementRow& row) -> Json { return or_infinity(row.found.computed); }},
+     [](const Examined& row) -> Json { return or_infinity(row.found.computed); }},
     {"verdict", "", "result of the comparison, such as holds or erratum",
-     [](const StatementRow& row) -> Json { return word(row.found.verdict); }},
+     [](const Examined& row) -> Json { return word(row.found.verdict); }},
     {"recorded", "", "verdict that the program expects; any other verdict gives exit status 1",
-     [](const StatementRow& row) -> Json { return word(row.statement.recorded); }},
+     [](const Examined& row) -> Json { return word(row.statement.recorded); }},
     {"correction", "", "correct form of a statement that is an erratum",
-     [](const StatementRow& row) -> Json { return row.correction; }},
+     [](const Examined& row) -> Json { return row.correction(); }},
     {"at", "", "values at which printed and computed were compared",
-     [](const StatementRow& row) -> Json { return row.where; }},
+     [](const Examined& row) -> Json { return fmt::format(fmt::runtime(row.statement.where), row.statement.at); }},
 };
 
 /// Examines all statements, in the order of the paper.
-std::vector<StatementRow> recompute() {
-  std::vector<StatementRow> rows;
+std::vector<Examined> recompute() {
+  std::vector<Examined> rows;
   for (const auto& section : {patch_statements(), ball_statements(), plane_statements(stated_patch_ratio)}) {
-    for (const Statement& statement : section) rows.push_back({.statement = statement});
+    for (const Statement& statement : section) rows.push_back({statement});
   }
   return rows;
 }
@@ -137,12 +126,12 @@ void write_files(const Argument& out, const std::vector<File>& files) {
   }
 }
 
-std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits) {
+std::string as_text(const std::vector<Examined>& rows, const Digits& digits) {
   const TextTable::Column number = TextTable::right(digits.width());
   TextTable table({TextTable::left(7), TextTable::left(67), number, number});
   table.add({"Zh98", "says", "printed", "computed", "  verdict"});
   std::string_view equation = "none";
-  for (const StatementRow& row : rows) {
+  for (const Examined& row : rows) {
     const auto& [printed, computed, corrected, verdict] = row.found;
     table.add(
         {std::string(row.statement.equation == equation ? "" : row.statement.equation), std::string(row.statement.says),
@@ -150,19 +139,19 @@ std::string as_text(const std::vector<StatementRow>& rows, const Digits& digits)
          fmt::format("  {}{}", word(verdict),
                      row.as_recorded() ? "" : fmt::format("  FAIL: recorded as {}", word(row.statement.recorded)))});
     equation = row.statement.equation;
-    if (row.correction.empty()) continue;
-    std::vector<std::string> correction{"", "  -> " + row.correction};
+    if (row.statement.correction.empty()) continue;
+    std::vector<std::string> correction{"", "  -> " + row.correction()};
     if (corrected) correction.push_back(digits(*corrected));
     table.add(std::move(correction));
   }
   const auto count = [&](Verdict verdict) {
-    return std::ranges::count_if(rows, [&](const StatementRow& row) { return row.found.verdict == verdict; });
+    return std::ranges::count_if(rows, [&](const Examined& row) { return row.found.verdict == verdict; });
   };
   return table.text() + fmt::format(
                             "\nThe plane's statements and Fig. 4 use the Pade law, as the paper does.\n"
                             "{} statements: {} hold, {} are errata, {} are false; {} not as recorded\n",
                             rows.size(), count(Verdict::holds), count(Verdict::erratum), count(Verdict::not_true),
-                            std::ranges::count(rows, false, &StatementRow::as_recorded));
+                            std::ranges::count(rows, false, &Examined::as_recorded));
 }
 
 std::vector<FieldText> paper_texts() { return texts_of_rows("claims", statement_fields); }
@@ -182,12 +171,12 @@ class PaperCommand final : public Verb {
     if (const std::string names = figure_.names(); !out_.given() && !names.empty()) {
       throw BadInput("{}: without --out DIR nothing is drawn: add it, or leave it out", names);
     }
-    const std::vector<StatementRow> rows = recompute();
+    const std::vector<Examined> rows = recompute();
     if (out_.given()) write_files(out_, draw_figures(path_of(out_.text()), figure_));
     Answer answer = answer_of_rows("claims", statement_fields, rows);
     answer.beside = {"recorded", "correction"};
     answer.text = [&](const Digits& digits) { return as_text(rows, digits); };
-    answer.passed = std::ranges::all_of(rows, &StatementRow::as_recorded);
+    answer.passed = std::ranges::all_of(rows, &Examined::as_recorded);
     return output.write(answer);
   }
 
