@@ -65,6 +65,13 @@ constexpr Field<ReducedSystem> system_fields[]{
      [](const ReducedSystem& system) -> Json { return system.r(); }},
     {"drive", "", "force of --drive. With a drive, r_high is the value of (Phi - drive)/(k Psi) at k = infinity",
      [](const ReducedSystem& system) -> Json { return system.drive() > 0 ? Json(system.drive()) : Json(); }},
+    {"mu", "", "radius of the patch divided by the radius R of the body",
+     [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
+    {"body", "", "inertia of the body: chi = 1 + m R^2/J, gamma = m R^2/J_z",
+     [](const ReducedSystem& system) -> Json {
+       return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};
+     },
+     "", 0, " {`chi`, `gamma`}"},
 };
 constexpr Field<TerminalRatios> regime_fields[]{
     {"r_low", "", "value of Phi/(k Psi) at k = 0. If r is at most r_low, k tends to 0",
@@ -104,14 +111,6 @@ constexpr Field<TerminalRatios> list_fields[]{
      "", 0, " [{`limit`, ...}]"},
 };
 
-/// Returns the members that both answers contain. The limit with the largest sector precedes the list of all limits.
-Json ratio_members(const TerminalRatios& ratios) {
-  Json members = members_of(regime_fields, ratios);
-  members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
-  members.update(members_of(list_fields, ratios));
-  return members;
-}
-
 /// Returns the half-line along which orbits with this limit of k enter the origin, its k, and the order of contact.
 Json tangent_of(const PhasePlane& plane, std::size_t end) {
   const auto& [direction, k, order] = plane.tangents[end];
@@ -135,15 +134,6 @@ constexpr Field<SingularPoint> point_fields[]{
     {"separatrix", "", "true if the half-line is a separatrix, the curve of a motion that leads to a saddle or from it",
      [](const SingularPoint& point) -> Json { return point.kind == "saddle"; }},
 };
-constexpr Field<ReducedSystem> body_fields[]{
-    {"mu", "", "radius of the patch divided by the radius R of the body",
-     [](const ReducedSystem& system) -> Json { return system.mu(); }, ""},
-    {"body", "", "inertia of the body: chi = 1 + m R^2/J, gamma = m R^2/J_z",
-     [](const ReducedSystem& system) -> Json {
-       return {{"chi", system.inertia().chi}, {"gamma", system.inertia().gamma}};
-     },
-     "", 0, " {`chi`, `gamma`}"},
-};
 constexpr Field<PhasePlane> plane_fields[]{
     {"mu_low", "", "mu at which the number r of this body is r_low; not with --drive",
      [](const PhasePlane& plane) -> Json { return plane.points.front().k == 0 ? Json(plane.mu_low) : Json(); }, ""},
@@ -161,33 +151,19 @@ constexpr Field<PhasePlane> plane_fields[]{
      },
      "", 0, " [{`half_line`, `k`, `contact_order`}]"},
     {"singular_points", "",
-     "singular points of (2.7), with the origin and infinity drawn as curves; one row of CSV each",
+     "singular points of (2.7), with the origin and infinity drawn as curves. portrait --facts writes each as a row of "
+     "CSV",
      [](const PhasePlane& plane) {
        Json points = Json::array();
        for (const SingularPoint& point : plane.points) points.push_back(members_of(point_fields, point));
        return points;
      },
-     "", 0, " [...]"},
+     "", 0, " [{`half_line`, `place`, `k`, `q`, `eigenvalues` {`radial`, `angular`}, `kind`, `separatrix`}]"},
 };
 
-/// Returns a heading with the law, the numbers from which r is computed, and the values of k at rays.
-std::string heading(const ReducedSystem& system, const TerminalRatios& ratios, std::string_view rays,
-                    const Digits& digits) {
-  return fmt::format(
-      "law    {}\n"
-      "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
-      "{}",
-      system.law().name(), digits(system.r()), digits(system.inertia().gamma), digits(system.mu()),
-      digits(system.inertia().chi),
-      system.drive() > 0
-          ? fmt::format("drive  {} of f N, along the slip: v = 0 is no motion, from there a body creeps\n"
-                        "rays   where (Phi - drive)/(k Psi) = r; it is {} at k = infinity",
-                        digits(system.drive()), digits(ratios.high))
-          : fmt::format("rays   {}where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity", rays,
-                        digits(ratios.low), digits(ratios.high)));
-}
-
-std::string as_text(const ReducedSystem& system, const TerminalRatios& ratios, const Digits& digits) {
+std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const Digits& digits) {
+  const TerminalRatios& ratios = plane.terminal;
+  const bool driven = system.drive() > 0;
   std::string text;
   if (ratios.ends.size() == 1) {
     const TerminalRatio& end = ratios.ends.front();
@@ -199,19 +175,23 @@ std::string as_text(const ReducedSystem& system, const TerminalRatios& ratios, c
           fmt::format("{} < k < {}: to {}, {}\n", digits(end.from), digits(end.to), digits(end.k), meaning(end.regime));
     }
   }
-  text += "\n" + heading(system, ratios, "", digits) + "\n";
+  text += fmt::format(
+      "\n"
+      "law    {}\n"
+      "r      {} = gamma mu^2/chi, gamma = {}, mu = {}, chi = {}\n"
+      "{}\n",
+      system.law().name(), digits(system.r()), digits(system.inertia().gamma), digits(system.mu()),
+      digits(system.inertia().chi),
+      driven ? fmt::format("drive  {} of f N, along the slip: v = 0 is no motion, from there a body creeps\n"
+                           "rays   where (Phi - drive)/(k Psi) = r; it is {} at k = infinity, the r of mu = {}",
+                           digits(system.drive()), digits(ratios.high), digits(plane.mu_high))
+             : fmt::format("rays   v = k mu |u| where Phi/(k Psi) = r; it is {} at k = 0 and {} at k = infinity, "
+                           "the r of {} < mu < {}",
+                           digits(ratios.low), digits(ratios.high), digits(plane.mu_low), digits(plane.mu_high)));
   for (const InvariantRay& ray : ratios.rays) {
     text +=
         fmt::format("       k = {} {}, relative error of k below {:.0e}\n", digits(ray.k), effect(ray), ray.accuracy);
   }
-  return text;
-}
-
-std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const Digits& digits) {
-  const bool driven = system.drive() > 0;
-  std::string text = heading(system, plane.terminal, "v = k mu |u| ", digits) +
-                     (driven ? fmt::format(", the r of mu = {}\n\n", digits(plane.mu_high))
-                             : fmt::format(", the r of {} < mu < {}\n\n", digits(plane.mu_low), digits(plane.mu_high)));
   const TextTable::Column number = TextTable::right(digits.width());
   TextTable table({TextTable::left(11), TextTable::left(9), number, number, number, number});
   table.add({"half-line", "at", "k", "q = v/|u|", "radial", "angular", "  kind"});
@@ -219,7 +199,7 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
     table.add({std::string(name(point.direction)), std::string(name(point.place)), digits(point.k), digits(point.q),
                digits(point.radial), digits(point.angular), fmt::format("  {}", point.kind)});
   }
-  text += table.text();
+  text += "\n" + table.text();
   text +=
       std::string(
           "\n"
@@ -230,7 +210,7 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
                   driven ? ", or begins at v = 0," : "");
   for (std::size_t i = 0; i < plane.tangents.size(); ++i) {
     const auto& [direction, k, order] = plane.tangents[i];
-    const auto& end = plane.terminal.ends[i];
+    const auto& end = ratios.ends[i];
     const std::string_view speed = direction == InvariantDirection::sliding ? "v" : "|u|";
     text += fmt::format("from {} < k < {} {}{}\n", digits(end.from), digits(end.to), text_of(approaches, direction),
                         order > 0 ? fmt::format(" like {}^{}", speed, digits(order))
@@ -241,11 +221,20 @@ std::string as_text(const ReducedSystem& system, const PhasePlane& plane, const 
 
 }  // namespace
 
-Answer terminal_answer(const ReducedSystem& system) {
-  const TerminalRatios ratios = reduction::terminal_ratios(system.law(), system.r(), system.drive());
+Answer phase_plane_answer(const ReducedSystem& system, PlaneRows rows) {
+  const PhasePlane plane = reduction::phase_plane(system);
+  const TerminalRatios& ratios = plane.terminal;
   Answer answer{.members = members_of(system_fields, system),
-                .text = [=](const Digits& digits) { return as_text(system, ratios, digits); }};
-  answer.members.update(ratio_members(ratios));
+                .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
+  answer.members.update(members_of(regime_fields, ratios));
+  // The limit with the largest sector precedes the list of all limits.
+  answer.members.update(members_of(end_fields, end_of(ratios, ratios.ends[usual_end(ratios)])));
+  answer.members.update(members_of(list_fields, ratios));
+  answer.members.update(members_of(plane_fields, plane));
+  if (rows == PlaneRows::points) {
+    for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));
+    return answer;
+  }
   for (const TerminalRatio& end : ratios.ends) {
     Json& row = answer.rows.emplace_back(row_of(system_fields, system));
     row.update(row_of(regime_fields, ratios));
@@ -255,28 +244,16 @@ Answer terminal_answer(const ReducedSystem& system) {
 }
 
 std::vector<FieldText> terminal_fields() {
-  return joined({texts_of(system_fields), texts_of(regime_fields), texts_of(end_fields), texts_of(list_fields)});
-}
-
-Answer phase_plane_answer(const ReducedSystem& system) {
-  const PhasePlane plane = reduction::phase_plane(system);
-  Answer answer{.members = members_of(system_fields, system),
-                .text = [=](const Digits& digits) { return as_text(system, plane, digits); }};
-  answer.members.update(members_of(body_fields, system));
-  answer.members.update(ratio_members(plane.terminal));
-  answer.members.update(members_of(plane_fields, plane));
-  for (const SingularPoint& point : plane.points) answer.rows.push_back(row_of(point_fields, point));
-  return answer;
+  return joined({texts_of(system_fields), texts_of(regime_fields), texts_of(end_fields), texts_of(list_fields),
+                 texts_of(plane_fields)});
 }
 
 std::vector<FieldText> phase_plane_fields() {
-  return joined(
-      {{{"JSON `law`, `r`, `drive`, `r_low`, `r_high`, `limit`, `k_star`, `k_star_accuracy`, `k_from`, `k_to`, "
-         "`rays`, `ends`",
-         "", "fields as in terminal"}},
-       texts_of(body_fields),
-       texts_of(plane_fields),
-       texts_of(point_fields)});
+  return joined({{{"JSON `law`, `r`, `drive`, `mu`, `body`, `r_low`, `r_high`, `limit`, `k_star`, `k_star_accuracy`, "
+                   "`k_from`, `k_to`, `rays`, `ends`, `mu_low`, `mu_high`, `tangent`, `contact_order`, `tangents`, "
+                   "`singular_points`",
+                   "", "fields as in terminal"}},
+                 texts_of(point_fields)});
 }
 
 }  // namespace contensou::answers

@@ -8,14 +8,15 @@
 
 namespace contensou::answers {
 
-/// Returns the answer of `terminal`: the limits of k at the stop, and the invariant rays. CSV has a row for each limit.
-Answer terminal_answer(const reduction::ReducedSystem& system);
+/// Rows of CSV: one for each limit of k, or one for each singular point.
+enum class PlaneRows { limits, points };
 
-/// Returns the answer of `portrait --facts`: the limits of k, the singular points with eigenvalues and kinds, and the
-/// way in which orbits enter the origin. CSV has one row for each singular point.
-Answer phase_plane_answer(const reduction::ReducedSystem& system);
+/// Returns the answer of `terminal` (rows: limits) and of `portrait --facts` (rows: points): the limits of k at the
+/// stop, the invariant rays, the singular points with eigenvalues and kinds, and the way in which orbits enter the
+/// origin.
+Answer phase_plane_answer(const reduction::ReducedSystem& system, PlaneRows rows);
 
-/// Return the fields of terminal_answer and of phase_plane_answer.
+/// Return the fields of this answer.
 std::vector<FieldText> terminal_fields();
 std::vector<FieldText> phase_plane_fields();
 

@@ -335,7 +335,7 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus print_facts(const reduction::ReducedSystem& system) const {
-    return output_.read(1).write(phase_plane_answer(system));
+    return output_.read(1).write(phase_plane_answer(system, answers::PlaneRows::points));
   }
 
   SystemOption system_;

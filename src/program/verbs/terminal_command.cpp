@@ -15,25 +15,31 @@ class TerminalCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     app.option_defaults()->group("Start");
-    body_.add_mu(app);
-    body_.add_body(app);
-    body_.add_drive(app);
+    start_.add_mu(app);
+    start_.add_body(app);
+    start_.add_ball(app);
+    start_.add_drive(app);
     law_.add(app);
     output_.add(app);
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
-    const reduction::Law law = law_.read(std::string(body_.body().law));
-    if (!output.picture) return output.write(terminal_answer(body_.read_system(law)));
+    const reduction::Law law = law_.read(start_.standard_law());
+    if (!output.picture) return output.write(phase_plane_answer(start_.read_body(law), answers::PlaneRows::limits));
     // The figure shows all r. If a body is given, a mark shows the r of this body.
     std::optional<double> r;
-    if (body_.mu().given() || body_.body_argument().given()) r = body_.read_system(law).r();
-    return output_.write({portraits::rays_figure(law, r, output_.size(), body_.drive().value_or(0))}, output);
+    double drive = start_.drive().value_or(0);
+    if (!start_.names_of_one_start().empty() || start_.body_argument().given()) {
+      const reduction::ReducedSystem system = start_.read_body(law);
+      r = system.r();
+      drive = system.drive();
+    }
+    return output_.write({portraits::rays_figure(law, r, output_.size(), drive)}, output);
   }
 
  private:
-  BodyOptions body_;
+  StartOptions start_;
   LawOption law_;
   PictureOptions output_{{{"a terminal ratio", with_pictures(answer_formats("text"))}}};
 };

@@ -7,6 +7,13 @@
 
 using Catch::Matchers::Contains;
 
+TEST_CASE("terminal prints the answer of portrait --facts", "[cli]") {
+  for (const std::string format : {"text", "json"}) {
+    const std::string start = " --ball pool --law exact --friction 0.3 --format " + format;
+    CHECK(run_program("terminal" + start).out == run_program("portrait --facts" + start).out);
+  }
+}
+
 TEST_CASE("portrait writes every view as script, as LaTeX and as data", "[cli]") {
   const TemporaryDirectory scratch;
   for (const std::string& view : names_in_help("views")) {
