@@ -489,6 +489,11 @@ class Roll:
         return with_picture(table(f"{self.ball.name}: law {self.law.name}", head, rows), self._repr_svg_())
 
     @property
+    def rolling_friction(self) -> float:
+        """The rolling friction u_r of the ball."""
+        return self.ball.rolling_friction
+
+    @property
     def uncoupled(self) -> Roll:
         """The motion under the uncoupled model, in which sliding and spinning are independent, from the same start."""
         return Roll(self.ball, self.velocity, self.angular_velocity, self.law, self.rolling_below, True, self.load)
@@ -658,6 +663,11 @@ class Rolls:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Rolls, (self.ball, self.starts, *self._again)
+
+    @property
+    def rolling_friction(self) -> float:
+        """The rolling friction u_r of the ball."""
+        return self.ball.rolling_friction
 
     @property
     def _again(self) -> tuple[Law, float, int]:
