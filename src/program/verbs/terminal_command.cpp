@@ -30,7 +30,7 @@ class TerminalCommand final : public Verb {
     // The figure shows all r. If a body is given, a mark shows the r of this body.
     std::optional<double> r;
     double drive = start_.drive().value_or(0);
-    if (!start_.names_of_one_start().empty() || start_.body_argument().given()) {
+    if (names_given(start_.of_body()) != names_given({&start_.drive()})) {
       const reduction::ReducedSystem system = start_.read_body(law);
       r = system.r();
       drive = system.drive();
