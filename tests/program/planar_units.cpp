@@ -215,7 +215,8 @@ TEST_CASE("orbits begin at the origin and next to it", "[net]") {
   for (const TypedSystem& system : systems) {
     const answers::FormulaField field = answers::parse_planar_system(system.text(), {});
     const Vector2d around = system.start();
-    const reduction::PlanarReduction plane = reduction::reduce(field, around, reduction::find_symmetries(field, around));
+    const reduction::PlanarReduction plane =
+        reduction::reduce(field, around, reduction::find_symmetries(field, around));
     INFO(system.text());
     CHECK(plane.solved());
     if (!plane.solved()) continue;
