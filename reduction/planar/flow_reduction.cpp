@@ -58,7 +58,9 @@ struct FlowSolution final : SectionSolution {
   PlanarOrbit orbit(const Vector2d& start) const override {
     return PlanarOrbit(std::make_shared<const FlowMotion>(motions.orbit(state_of(start)), start[1]));
   }
-  double end_time_error(const Vector2d& x) const override { return motions.stop_time(state_of(x)).accuracy; }
+  double end_time_error(const Vector2d& x, const PlanarOrbit&) const override {
+    return motions.stop_time(state_of(x)).accuracy;
+  }
   std::optional<double> first_integral(const Vector2d& x) const override {
     const State state = state_of(x);
     try {

@@ -130,7 +130,7 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
     return followed(from, evaluations);
   }
   PlanarOrbit followed(const Vector2d& from, int most_work) const;
-  double end_time_error(const Vector2d& x) const override;
+  double end_time_error(const Vector2d& x, const PlanarOrbit& from_x) const override;
   std::optional<double> first_integral(const Vector2d& x) const override { return unit * unit * integral(x / unit); }
   std::shared_ptr<const Solution> reversed() const override;
 
@@ -244,12 +244,11 @@ std::vector<FactorPiece> FactorSolution::factor_pieces(const Vector2d& low, cons
 }
 
 /// Compares with an orbit that begins a little later and is therefore divided into other parts.
-double FactorSolution::end_time_error(const Vector2d& x) const {
+double FactorSolution::end_time_error(const Vector2d&, const PlanarOrbit& from_x) const {
   constexpr double least = 1e-12, margin = 8, early = 0.01;
-  const PlanarOrbit here = orbit(x);
-  const double time = here.period().value_or(here.end_time());
-  const PlanarOrbit again = orbit(here.at(early * time));
-  if (again.end() != here.end()) return 1;
+  const double time = period_or_end(from_x);
+  const PlanarOrbit again = orbit(from_x.at(early * time));
+  if (again.end() != from_x.end()) return 1;
   const double other = again.period().value_or(early * time + again.end_time());
   return std::max(least, margin * std::abs(other / time - 1));
 }

@@ -1,8 +1,10 @@
 #include "contensou/reduction/planar_reduction.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,28 +30,15 @@ void require_point(const Vector2d& x) {
   if (!x.allFinite()) throw std::domain_error(fmt::format("({}, {}) is no point of the plane", x[0], x[1]));
 }
 
-/// Solves a system by its scaling.
-/// @param why_not  set to the reason if there is no such solution
-std::optional<PlanarReduction> by_scaling(const SmoothField& field, const Vector2d& start,
-                                          const PlanarSymmetries& found, std::string& why_not) {
+/// Returns the reason why a system without a scaling has none.
+std::string reason_of(const PlanarSymmetries& found) {
   using Verdict = PlanarSymmetries::Verdict;
-  if (found.scaling) {
-    Vector2d around = sampled_about(field, start);
-    if (found.scaling->fixes(around)) around.array() += around.lpNorm<Eigen::Infinity>();
-    try {
-      return PlanarReduction(field, *found.scaling, around, found.residual);
-    } catch (const std::domain_error& refused) {
-      why_not = refused.what();
-      return std::nullopt;
-    }
-  }
-  why_not = found.verdict == Verdict::none        ? "no scaling was found"
-            : found.verdict == Verdict::undecided ? "the field's noise, or its kinks, hide whether it has a scaling"
-            : std::ranges::all_of(found.generators, &Generator::everywhere)
-                ? "no generator is a scaling"
-                : "no scaling holds throughout, only within sectors in which the field is smooth: across their borders "
-                  "orbits are no copies of one another";
-  return std::nullopt;
+  return found.verdict == Verdict::none        ? "no scaling was found"
+         : found.verdict == Verdict::undecided ? "the field's noise, or its kinks, hide whether it has a scaling"
+         : std::ranges::all_of(found.generators, &Generator::everywhere)
+             ? "no generator is a scaling"
+             : "no scaling holds throughout, only within sectors in which the field is smooth: across their borders "
+               "orbits are no copies of one another";
 }
 
 }  // namespace
@@ -57,7 +46,17 @@ std::optional<PlanarReduction> by_scaling(const SmoothField& field, const Vector
 PlanarReduction reduce(const SmoothField& field, const Vector2d& start, const PlanarSymmetries& found) {
   if (field.basis.values) return by_factor(field, start);
   std::string why_not;
-  if (auto solved = by_scaling(field, start, found, why_not)) return *std::move(solved);
+  if (found.scaling) {
+    Vector2d around = sampled_about(field, start);
+    if (found.scaling->fixes(around)) around.array() += around.lpNorm<Eigen::Infinity>();
+    try {
+      return PlanarReduction(field, *found.scaling, around, found.residual);
+    } catch (const std::domain_error& refused) {
+      why_not = refused.what();
+    }
+  } else {
+    why_not = reason_of(found);
+  }
   auto solved = solved_by_factor(field, start);
   if (solved->form.empty()) solved->why_not = why_not + ", and " + solved->why_not;
   return PlanarReduction(std::move(solved));
@@ -119,11 +118,12 @@ Vector2d PlanarReduction::point(double q, double p) const { return solution_->po
 PlanarEnd PlanarReduction::end(const Vector2d& x) const { return orbit(x).end(); }
 double PlanarReduction::end_time(const Vector2d& x) const { return orbit(x).end_time(); }
 
-double PlanarReduction::end_time_error(const Vector2d& x) const {
-  const PlanarOrbit from_here = orbit(x);
-  const double time = from_here.period().value_or(from_here.end_time());
-  return std::isfinite(time) && time != 0 ? solution_->end_time_error(x) : 0;
+double PlanarReduction::end_time_error(const Vector2d& x, const PlanarOrbit& orbit) const {
+  const double time = period_or_end(orbit);
+  return std::isfinite(time) && time != 0 ? solution_->end_time_error(x, orbit) : 0;
 }
+
+double PlanarReduction::end_time_error(const Vector2d& x) const { return end_time_error(x, orbit(x)); }
 
 double PlanarReduction::first_integral(const Vector2d& x) const {
   require_point(x);

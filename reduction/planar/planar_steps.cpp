@@ -122,7 +122,9 @@ struct SteppedSolution final : PlanarReduction::Solution {
   SteppedSolution(SmoothField of, double relative) : Solution(std::move(of), ""), tolerance(relative) {}
 
   double factor(const Vector2d&) const override { throw std::domain_error("no inverse integrating factor was found"); }
-  double end_time_error(const Vector2d&) const override { return std::numeric_limits<double>::quiet_NaN(); }
+  double end_time_error(const Vector2d&, const PlanarOrbit&) const override {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   PlanarOrbit orbit(const Vector2d& start) const override {
     return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start, tolerance));
   }

@@ -62,13 +62,13 @@ struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<Sca
 
   PlanarOrbit orbit(const Vector2d& start) const override;
   PlanarOrbit orbit_from_centre() const override;
-  double end_time_error(const Vector2d& x) const override;
+  double end_time_error(const Vector2d& x, const PlanarOrbit& from_x) const override;
   std::optional<double> first_integral(const Vector2d& x) const override;
   std::shared_ptr<const Solution> reversed() const override {
     return std::make_shared<const ScalingSolution>(backward(field), *scaling, point(0, 0), noise);
   }
 
-  void leave_branching_open();
+  void leave_doubtful_open();
   void make_strips();
   bool proves_center() const;
   std::string_view classify() const;
@@ -112,7 +112,7 @@ ScalingSolution::ScalingSolution(SmoothField given, const Generator& generator, 
 /// Makes the end undecided for orbits that join a ray in finite time, if the field does not determine how they
 /// continue: other orbits leave the ray, too, or the field on the ray is not the limit of its values beside the ray.
 /// Also makes the end undecided for orbits that near an axis, if rounding hides the motion on the axis beside it.
-void ScalingSolution::leave_branching_open() {
+void ScalingSolution::leave_doubtful_open() {
   constexpr double close = 1e-6;
   const bool exact = centre.isZero(0) && scaling->matrix.isDiagonal(0);
   for (Direction& end : directions.dividing) {
@@ -152,7 +152,7 @@ void ScalingSolution::make_strips() {
   rays.clear();
   undecided.clear();
   if (directions.star) return;
-  leave_branching_open();
+  leave_doubtful_open();
   const std::vector<Direction>& ends = directions.dividing;
   if (ends.empty()) {
     const auto rates = section(turned({1, 0}, 0.5));
@@ -319,14 +319,10 @@ Vector2d ScalingSolution::along_ray(const Vector2d& n, double radial, double p, 
   return section.point(n, p + (growth == 0 ? radial * way : std::log1p(growth * way) / c));
 }
 
-double ScalingSolution::end_time_error(const Vector2d& x) const {
-  const auto time_from = [&x](const ScalingSolution& solution) {
-    const PlanarOrbit from_here = solution.orbit(x);
-    return from_here.period().value_or(from_here.end_time());
-  };
+double ScalingSolution::end_time_error(const Vector2d& x, const PlanarOrbit& from_x) const {
   constexpr double other = 1.37, margin = 8, least = 1e-13;
   const auto again = std::make_shared<const ScalingSolution>(field, *scaling, centre + other * (x - centre), noise);
-  return std::max(least, margin * std::abs(time_from(*again) / time_from(*this) - 1));
+  return std::max(least, margin * std::abs(period_or_end(again->orbit(x)) / period_or_end(from_x) - 1));
 }
 
 std::optional<double> ScalingSolution::first_integral(const Vector2d& x) const {

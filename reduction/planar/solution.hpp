@@ -29,7 +29,8 @@ struct PlanarReduction::Solution {
   /// Returns the motion from the centre of the scaling: it rests there unless the field has a value other than 0.
   virtual PlanarOrbit orbit_from_centre() const;
   virtual PlanarOrbit part_of_orbit(const Eigen::Vector2d& start) const { return orbit(start); }
-  virtual double end_time_error(const Eigen::Vector2d& x) const = 0;
+  /// @param orbit  orbit from x
+  virtual double end_time_error(const Eigen::Vector2d& x, const PlanarOrbit& orbit) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
   virtual FactorFormula formula() const { return {}; }
@@ -83,6 +84,9 @@ struct SectionSolution : PlanarReduction::Solution {
 /// Solves a system by its scaling. Arguments and exceptions are those of the constructor of PlanarReduction.
 std::shared_ptr<const PlanarReduction::Solution> solved_by_scaling(SmoothField field, const Generator& scaling,
                                                                    const Eigen::Vector2d& around, double noise);
+
+/// Returns the period of an orbit, or else its end time.
+inline double period_or_end(const PlanarOrbit& orbit) { return orbit.period().value_or(orbit.end_time()); }
 
 /// Returns the solution of by_factor, which has no form if it is by steps.
 std::shared_ptr<PlanarReduction::Solution> solved_by_factor(const SmoothField& field, const Eigen::Vector2d& start);

@@ -384,7 +384,7 @@ bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
   const bool named = std::ranges::count(named_ends(), name(end)) > 0;
   members.update({{"end", named ? Json(name(end)) : Json()}, {"tau_stop", unknown ? Json() : Json(tau_stop)}});
-  const double error = unknown ? 0 : plane.end_time_error(start);
+  const double error = unknown ? 0 : plane.end_time_error(start, orbit);
   if (error > 0) members["accuracy"] = error;
   if (orbit.period()) members["period"] = *orbit.period();
   if (!orbit.undecided().empty()) members["undecided"] = orbit.undecided();
@@ -671,7 +671,7 @@ std::vector<FieldText> reduce_system_fields() {
          "isolated points at which u and v do not change. eigenvalues [[re, im], [re, im]] of the equations linearised "
          "there; null if kind is not smooth. index: turns of (u', v') on a small circle; null if not known"},
         {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`, `equilibria_curve`", "",
-         "part of the plane in which equilibria are sought and reversors compared: |u| and |v| at most 2.5 max(|u0|, |v0|). "
+         "within: ranges of u and v in which equilibria are sought and reversors compared, up to 2.5 max(|u0|, |v0|). "
          "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
         {"JSON `reversors`", "",
          "reversors: maps of the plane that turn each motion into a motion backward in time, such as (u, -v)"},
@@ -682,9 +682,10 @@ std::vector<FieldText> reduce_system_fields() {
          "left until the centre"},
         {"JSON `copies` [{`factor`, `u0`, `v0`, `tau_stop`}]", "",
          "starts that the symmetry makes of this one. Their p is larger by ln(factor)"},
-        {"`tau_stop`, `accuracy`", "",
-         "time at which the motion reaches the centre, and its relative error; accuracy also belongs to period, and to "
-         "the time to infinity in the text. inf: the motion does not reach the centre. null: the motion comes to a border before, or its end was not found"},
+        {"`tau_stop`", "",
+         "time at which the motion reaches the centre. inf: the motion does not reach the centre. null: the motion "
+         "comes to a border before, or its end was not found"},
+        {"`accuracy`", "", "relative error of tau_stop, of period, or of the time at which the motion is at infinity"},
         {"`end`", "", "end of the motion"},
         {"every `end`", "", fmt::format("{}; null if the end was not found", fmt::join(named_ends(), ", "))},
         {"`period`", "", "time after which the motion returns to its start"},

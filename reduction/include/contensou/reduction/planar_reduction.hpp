@@ -197,6 +197,9 @@ class PlanarReduction {
   /// @throws as end, and as the constructor
   double end_time_error(const Eigen::Vector2d& x) const;
 
+  /// Returns the same estimate for an orbit from x that is known.
+  double end_time_error(const Eigen::Vector2d& x, const PlanarOrbit& orbit) const;
+
   /// Returns a number that is constant along an orbit. If V alone solves the system it is H, dH = (F dv - G du)/V for f
   /// = (F, G), with H = 0 at the start of the search. For a scaling it is p - L(q), where p = L(q) is one orbit of the
   /// sector. This number differs between orbits of a sector; exp(s X) adds s to it. A turn about a centre without rays
