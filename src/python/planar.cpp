@@ -97,12 +97,12 @@ void bind_planar(py::module_& module) {
       .def_property_readonly("gap", [](const Planar& planar) { return planar.symmetries.gap; })
       .def_property_readonly("form",
                              [](const Planar& planar) -> std::optional<std::string> {
-                               if (!planar.plane->solved()) return std::nullopt;
-                               return std::string(planar.plane->form());
+                               if (!planar.plane.solved()) return std::nullopt;
+                               return std::string(planar.plane.form());
                              })
       .def_property_readonly("tried",
                              [](const Planar& planar) {
-                               return list_of(planar.plane->tried(), [](const reduction::TriedForm& tried) {
+                               return list_of(planar.plane.tried(), [](const reduction::TriedForm& tried) {
                                  const auto& [form, value, gap, residual, cleared] = tried;
                                  return py::make_tuple(form, value, gap, residual, cleared);
                                });
@@ -127,7 +127,7 @@ void bind_planar(py::module_& module) {
       .def_property_readonly(
           "reversors",
           [](const Planar& planar) { return list_of(planar.equilibria().reversors, &reduction::Reversor::name); })
-      .def_property_readonly("solved", [](const Planar& planar) { return planar.plane->solved(); })
+      .def_property_readonly("solved", [](const Planar& planar) { return planar.plane.solved(); })
       .def_property_readonly("kind",
                              [](const Planar& planar) -> std::optional<std::string> {
                                const std::string_view kind = planar.solved().kind();

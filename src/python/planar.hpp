@@ -57,18 +57,15 @@ class Planar {
  public:
   /// @param known  solution, if there is one
   Planar(reduction::SmoothField given, const Eigen::Vector2d& around,
-         std::optional<reduction::PlanarReduction> known = {})
-      : field(std::move(given)), plane(std::move(known)) {
-    interruptible([&] {
-      start = reduction::sampled_about(field, around);
-      symmetries = reduction::find_symmetries(field, start);
-      if (!plane) plane = reduction::reduce(field, around, symmetries);
-    });
-  }
+         const std::optional<reduction::PlanarReduction>& known = {})
+      : field(std::move(given)),
+        start(interruptible([&] { return reduction::sampled_about(field, around); })),
+        symmetries(interruptible([&] { return reduction::find_symmetries(field, start); })),
+        plane(known ? *known : interruptible([&] { return reduction::reduce(field, around, symmetries); })) {}
 
   const reduction::PlanarReduction& solved() const {
-    if (plane->solved()) return *plane;
-    throw std::domain_error("reduce: this field is not solved: " + answers::words_of(plane->why_not()));
+    if (plane.solved()) return plane;
+    throw std::domain_error("reduce: this field is not solved: " + answers::words_of(plane.why_not()));
   }
 
   /// Returns the equilibria and reversors, which are sought at the first call.
@@ -76,7 +73,7 @@ class Planar {
     if (!equilibria_) {
       equilibria_ = interruptible([&] {
         auto found = reduction::find_equilibria(field, start);
-        compare_kinds(found, *plane);
+        compare_kinds(found, plane);
         return found;
       });
     }
@@ -84,10 +81,10 @@ class Planar {
   }
 
   reduction::SmoothField field;
-  Eigen::Vector2d start;                           ///< point whose coordinates set the scale of the samples
-  std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
+  Eigen::Vector2d start;  ///< point whose coordinates set the scale of the samples
   reduction::PlanarSymmetries symmetries;
-  std::optional<reduction::PlanarReduction> plane;  ///< never empty after the constructor
+  reduction::PlanarReduction plane;
+  std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
 
  private:
   mutable std::optional<reduction::Equilibria> equilibria_;

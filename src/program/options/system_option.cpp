@@ -16,22 +16,17 @@ void SystemOption::add(CLI::App& app) {
              "that gives a constant of the motion");
 }
 
-reduction::SmoothField SystemOption::read(const std::map<std::string, double>& parameters) const {
+TypedSystem SystemOption::read(const std::map<std::string, double>& parameters) const {
   const Argument* reading = &system_;
   try {
     const FormulaField field = parse_planar_system(system_.text(), parameters);
-    reduction::SmoothField smooth = field;
+    TypedSystem typed{field, {field.variables.at(0), field.variables.at(1)}};
     reading = &basis_;
-    if (basis_.given()) smooth.basis = parse_basis(basis_.text(), field, parameters);
-    return smooth;
+    if (basis_.given()) typed.field.basis = parse_basis(basis_.text(), field, parameters);
+    return typed;
   } catch (const BadInput& error) {
     throw BadInput("{}: {}", reading->name(), error.what());
   }
-}
-
-std::array<std::string, 2> SystemOption::variables(const std::map<std::string, double>& parameters) const {
-  const std::vector<std::string> names = parse_planar_system(system_.text(), parameters).variables;
-  return {names.at(0), names.at(1)};
 }
 
 }  // namespace contensou::program

@@ -11,6 +11,12 @@
 
 namespace contensou::program {
 
+/// A field that was typed, and the two letters of its equations, such as x and x'.
+struct TypedSystem {
+  reduction::SmoothField field;
+  std::array<std::string, 2> variables;
+};
+
 /// The option --system: a planar system, given by formulas, in place of the equations of motion (2.6).
 class SystemOption {
  public:
@@ -20,11 +26,7 @@ class SystemOption {
   const std::string& text() const { return system_.text(); }
 
   /// @throws BadInput  as parse_planar_system
-  reduction::SmoothField read(const std::map<std::string, double>& parameters) const;
-
-  /// Returns the two letters of the equations, such as x and x'.
-  /// @throws BadInput  as parse_planar_system
-  std::array<std::string, 2> variables(const std::map<std::string, double>& parameters) const;
+  TypedSystem read(const std::map<std::string, double>& parameters) const;
 
  private:
   Argument system_, basis_;

@@ -200,7 +200,7 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run_system() {
-    const reduction::SmoothField field = system_.read(law_.parameters());
+    const auto [field, variables] = system_.read(law_.parameters());
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
@@ -216,7 +216,7 @@ class PortraitCommand final : public Verb {
     const Output output = read_output();
     portraits::PlanarPortrait portrait =
         portraits::planar_portrait(reduction::reduce(field, around), system_.text(), request_);
-    portrait.variables = system_.variables(law_.parameters());
+    portrait.variables = variables;
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 

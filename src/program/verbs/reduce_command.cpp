@@ -32,15 +32,15 @@ class ReduceCommand final : public Verb {
 
  private:
   ExitStatus run_system(const Output& output) {
-    const reduction::SmoothField field = system_.read(law_.parameters());
+    const reduction::SmoothField field = system_.read(law_.parameters()).field;
     const Eigen::Vector2d start = start_.read_point();
     if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));
-    const reduction::PlanarReduction plane = reduction::reduce(field, start);
+    const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
+    const reduction::PlanarReduction plane = reduction::reduce(field, start, found);
     if (!plane.scaling()) {
-      const bool found = reduction::find_symmetries(field, reduction::sampled_about(field, start)).scaling.has_value();
       throw BadInput(
           "the picture of reduce shows how a scaling moves orbits, and {}: 'contensou portrait --system' draws its plane",
-          found ? "the scaling of this system does not solve it" : "this system has none");
+          found.scaling ? "the scaling of this system does not solve it" : "this system has none");
     }
     return draw(plane, start, output);
   }
