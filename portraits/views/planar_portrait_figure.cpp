@@ -177,21 +177,23 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   }
   layers.add_highlights();
   if (scaling) {
+    // No other equilibrium is isolated.
     const Vector2d& centre = portrait.plane.centre();
     layers.panel().marks.push_back(
         {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "centre of the symmetry"});
+  } else {
+    std::map<std::string_view, Marks> of_kind;
+    for (const reduction::Equilibrium& each : portrait.equilibria.points) {
+      const auto mark = each.kind.starts_with("stable") ? Marks::Shape::dot
+                        : each.kind == "saddle"         ? Marks::Shape::square
+                                                        : Marks::Shape::circle;
+      Marks& marks =
+          of_kind.try_emplace(each.kind, Marks{{}, look.palette.invariant, 1.2, mark, std::string(each.kind)})
+              .first->second;
+      marks.points.push_back({each.x[0], each.x[1]});
+    }
+    for (auto& [kind, marks] : of_kind) layers.panel().marks.push_back(std::move(marks));
   }
-  std::map<std::string_view, Marks> of_kind;
-  for (const reduction::Equilibrium& each : portrait.equilibria.points) {
-    if (scaling) break;  // the centre is the only isolated equilibrium, and has its mark
-    const auto mark = each.kind.starts_with("stable") ? Marks::Shape::dot
-                      : each.kind == "saddle"         ? Marks::Shape::square
-                                                      : Marks::Shape::circle;
-    Marks& marks = of_kind.try_emplace(each.kind, Marks{{}, look.palette.invariant, 1.2, mark, std::string(each.kind)})
-                       .first->second;
-    marks.points.push_back({each.x[0], each.x[1]});
-  }
-  for (auto& [kind, marks] : of_kind) layers.panel().marks.push_back(std::move(marks));
 
   Figure figure;
   figure.title = shortened(portrait.name);
