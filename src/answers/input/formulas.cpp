@@ -682,7 +682,7 @@ Steps branch(const Steps& formula, const double* values) {
     beyond.push_back(has_function ? step.function->breaks.beyond : Beyond::same);
     const bool whole_power =
         step.kind == Kind::two && step.function == &power && step.right == 0 && is_whole(value_of_part(i - 1));
-    // What ends has no continuation, and its operands stay as they are.
+    // A function that ends has no continuation, and its operands stay as they are.
     if (beyond[i] == Beyond::nothing && !whole_power)
       std::fill(beyond.begin() + static_cast<std::ptrdiff_t>(begin), beyond.end(), Beyond::same);
   }

@@ -80,7 +80,7 @@ class Flag : public Argument {
     return keep(name, app.add_flag_callback(
                           name, [this, &app] { require_rules(app); }, help));
   }
-  operator bool() const { return given(); }
+  operator bool() const { return given(); }  // NOLINT(google-explicit-constructor): a flag is true or false
 };
 
 /// An option whose value is read when the command line is parsed, so that mistakes are found at once.
