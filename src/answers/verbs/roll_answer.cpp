@@ -164,7 +164,7 @@ std::string opening(const Roll& roll) {
   const bool flat = roll.lies_flat(), slips = si::slip_at_start(roll.experiment) > 0;
   const bool spins = si::spin_at_start(roll.experiment) != 0, slopes = roll.experiment.environment.slope != 0;
   const auto when = [&](const si::Event& event) {
-    const double way = event.place.norm();
+    const double way = event.place.stableNorm();
     return time_in_words(event.t) +
            (way == 0 ? ""
                      : fmt::format(", {} {}", length_in_words(way), event.place.dot(velocity) < 0 ? "back" : "on"));

@@ -61,7 +61,7 @@ class Uncoupled final : public Motion::Solution {
   double path_length(double t) const override {
     if (on_slope_) return on_slope_->path_length(t);
     if (!rolls_ || t <= rolls_->t) return Solution::path_length(t);
-    return Solution::path_length(rolls_->t) + (at(t).position - rolls_->position).norm();
+    return Solution::path_length(rolls_->t) + (at(t).position - rolls_->position).stableNorm();
   }
   std::optional<Event> rest() const override {
     if (on_slope_) return on_slope_->rest();
