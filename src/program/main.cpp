@@ -52,7 +52,7 @@ std::string footer() {
   return text + "\n" +
          help_paragraph(
              "'contensou help VERB' lists the options of a verb. 'contensou help "
-             "ball|laws|picture|output|views|units|files|fields|theory' explains a topic.") +
+             "ball|laws|formulas|picture|output|views|units|files|fields|theory' explains a topic.") +
          help_paragraph(exit_statuses);
 }
 

@@ -458,9 +458,11 @@ TEST_CASE("functions and conditions have one meaning: rint, &&, ||, !, signs, as
 TEST_CASE("mistakes in a formula are named at their character", "[formulas]") {
   check_mistake("u**", "a number, a name or a bracket is missing before the end", 9);
   check_mistake("*u", "missing before '*'", 6);
-  check_mistake("", "missing before the end", 6);
-  check_mistake("2u", "an operator is missing before 'u': a product is a*b", 7);
-  check_mistake("u (v)", "an operator is missing before '('", 8);
+  check_mistake("", "missing before the end", 5);
+  check_mistake("u 2", "an operator is missing before '2': a product is a*b", 8);
+  check_mistake("1/2u", "this product behind a division has two meanings: type * or brackets", 9);
+  check_mistake("u/v(u + 1)", "this product behind a division has two meanings: type * or brackets", 9);
+  check_mistake("uv", "'uv' is no variable, parameter or function: a product is u*v", 6);
   check_mistake("u % v", "'%' is no operator", 8);
   check_mistake("u = v", "'=' is no operator", 8);
   check_mistake(std::string("u\0v", 3), "'\\x00' is no operator", 7);
@@ -469,7 +471,7 @@ TEST_CASE("mistakes in a formula are named at their character", "[formulas]") {
   check_mistake("2*|u", "'|' is not closed", 8);
   check_mistake("(|u)|", "'|' is not closed", 7);
   check_mistake("u|", "'|' closes nothing", 7);
-  check_mistake("|u|v|u|", "an operator is missing before 'v'", 9);
+  check_mistake("|u|v|u|", "'|' closes nothing", 10);
   check_mistake("u ? v", "'?' is not closed", 8);
   check_mistake("hypot(u)", "hypot takes 2 values, not 1", 6);
   check_mistake("2*sin(1, 2, 3)", "sin takes 1 value, not 3", 8);
@@ -543,10 +545,108 @@ TEST_CASE("equations of first and second order are systems in u and v", "[system
     }
     return std::string("none");
   };
-  CHECK_THAT(refusal("y' = u"), Contains("'u' is no variable") && Contains(", at character 6 of"));
-  CHECK_THAT(refusal("x'' = x''"), Contains("no variable") && Contains(", at character 7 of"));
-  CHECK_THAT(refusal("y' = x; y' = 3"), Contains("stands there twice"));
-  CHECK_THAT(refusal("y = 3"), Contains("is missing"));
+  CHECK_THAT(refusal("y' = x; y' = 3"), Contains("a second equation of y', at character 9 of"));
+  CHECK_THAT(refusal("y = 3"), Contains("no derivative stands there, at character 1 of"));
+}
+
+TEST_CASE("equations are read as people write them", "[system]") {
+  struct Row {
+    std::string text;
+    std::vector<std::string> variables;
+    std::string independent;
+    Eigen::Vector2d value;  // at (2, 3), by hand
+  };
+  const double sin2 = std::sin(2.);
+  const std::vector<Row> rows{
+      {"x' = y; y' = -x", {"x", "y"}, "t", {3, -2}},
+      {"theta'' = -sin(theta)", {"theta", "theta'"}, "t", {3, -sin2}},
+      {"S' = -b*S*I; I' = b*S*I - g*I; b = 2; g = 4", {"S", "I"}, "t", {-12, 0}},
+      {"x1' = x2; x2' = -x1", {"x1", "x2"}, "t", {3, -2}},
+      {"X' = Y; Y' = -X", {"X", "Y"}, "t", {3, -2}},
+      {"dx/dt = y; dy/dt = -x", {"x", "y"}, "t", {3, -2}},
+      {"dx/ds = y, dy/ds = -x", {"x", "y"}, "s", {3, -2}},
+      {"dy/dx = x - y", {"x", "y"}, "x", {1, -1}},
+      {"x'(t) = y(t); y'(t) = -x(t)", {"x", "y"}, "t", {3, -2}},
+      {"y'' = -y", {"y", "y'"}, "t", {3, -2}},
+      {"x'' + x = 0", {"x", "x'"}, "t", {3, -2}},
+      {"x'' + 0.5x' + x = 0", {"x", "x'"}, "t", {3, -3.5}},
+      {"m*x'' = -k x - 2 dx/dt; m = 2; k = 3", {"x", "x'"}, "t", {3, -6}},
+      {"d^2x/dt^2 = -x; ", {"x", "x'"}, "t", {3, -2}},
+      {"d2x/dt2 = -x", {"x", "x'"}, "t", {3, -2}},
+      {"y' + y = x", {"x", "y"}, "x", {1, -1}},
+      {"x*y' = y + x", {"x", "y"}, "x", {1, 2.5}},
+      {"(x + y)*y' = x - y", {"x", "y"}, "x", {1, -0.2}},
+      {"(x + y) dy/dx + y = x", {"x", "y"}, "x", {1, -0.2}},
+      {"x y'/2 - y'(1 + x) = -(y'(x) + y)", {"x", "y"}, "x", {1, 3}},
+      {"y dx - x dy = 0", {"x", "y"}, "x", {1, 1.5}},
+      {"(2x y) dx + (x^2 + 1) dy = 0", {"x", "y"}, "x", {1, -2.4}},
+      {"dy = (x - y) dx", {"x", "y"}, "x", {1, -1}},
+      {"y' = 2x y", {"x", "y"}, "x", {1, 12}},
+      {"y' = x(1-y)(1 + y)", {"x", "y"}, "x", {1, -16}},
+      {"x' = t - x", {"t", "x"}, "t", {1, -1}},
+      {"dS/dt = -k*S; k = 2", {"t", "S"}, "t", {1, -6}},
+      {"r' = r^2 - s", {"s", "r"}, "s", {1, 7}},
+      {"dx/dy = x y", {"y", "x"}, "y", {1, 6}},
+      {"y' = e^x", {"x", "y"}, "x", {1, std::pow(std::numbers::e, 2.)}},
+      {"v' = u; u' = v^2", {"u", "v"}, "t", {9, 2}},
+      {"b' = a; a' = b >= 3 ? 1 : 0", {"b", "a"}, "t", {3, 0}},
+      {"x'' = x' == 3 ? x : 0", {"x", "x'"}, "t", {3, 2}},
+      {"x'=x(1-y)\ny'=-y(1-x)", {"x", "y"}, "t", {-4, 3}},
+  };
+  for (const Row& row : rows) {
+    INFO(row.text);
+    const FormulaField field = parse_planar_system(row.text, {});
+    CHECK(field.variables == row.variables);
+    CHECK(field.independent == row.independent);
+    CHECK((field({2, 3}) - row.value).norm() <= 1e-15 * row.value.norm());
+    // The derivatives are those of the field, by central differences.
+    const double step = 1e-5;
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector2d along = step * Eigen::Vector2d::Unit(i), at(2.25, 3.25);
+      const Eigen::Vector2d slope = (field(at + along) - field(at - along)) / (2 * step);
+      CHECK((field.jacobian(at).col(i) - slope).norm() <= 1e-8 * (1 + slope.norm()));
+    }
+  }
+  // Letters with a value are no variables: the time is a parameter here, and so is x.
+  CHECK(parse_planar_system("x'' = -x + t", {{"t", 5}})({2, 3}) == Eigen::Vector2d(3, 3));
+  CHECK(parse_planar_system("y'' = -y + x", {{"x", 5}})({2, 3}) == Eigen::Vector2d(3, 3));
+  CHECK(parse_planar_system("z' = a*z + b", {{"a", 2}}).variables == std::vector<std::string>{"b", "z"});
+}
+
+TEST_CASE("a refused equation names what it lacks, and its character", "[system]") {
+  const auto check = [](const std::string& text, const std::string& words, int character, bool forms = true) {
+    INFO(text);
+    try {
+      parse_planar_system(text, {});
+      FAIL("it was read");
+    } catch (const BadInput& error) {
+      CHECK_THAT(error.what(), Contains(words) && Contains(fmt::format(", at character {} of", character)));
+      if (forms) CHECK_THAT(error.what(), Contains("type a system \"x' = F; y' = G\" or one equation"));
+    }
+  };
+  check("x' = y; y' = z; z' = x", "three equations: contensou solves two", 17);
+  check("a' = b; b' = c; c' = d; d' = a", "4 equations: contensou solves two", 17);
+  check("x'' = -x + cos(t)", "the time t stands in the right side; contensou solves equations without it", 16, false);
+  check("x' = y; y' = -x + sin(t)", "the time t stands in the right side", 23, false);
+  check("dx/ds = y; dy/ds = s", "the independent letter s stands in the right side", 20, false);
+  check("y'' = -y + x", "the independent letter x stands in the right side", 12, false);
+  check("x''' = x", "x''' has the order 3", 1);
+  check("x' = y; y'' = x", "two equations, one of them of second order", 9);
+  check("x' = y", "y' = is missing; if y is independent, type dx/dy = F", 7);
+  check("u' = v", "v' = is missing", 7);
+  check("dx/dt = y; dy/ds = x", "both t and s are independent", 12);
+  check("x' + y' = 0; x' = y", "x' and y' both stand in this equation; one is needed", 1);
+  check("x' = y; y' = x; x + 1 = 2", "no derivative stands in this equation; one is needed", 17);
+  check("y'^2 = x", "the equation is not linear in y'", 1);
+  check("1/y' = x", "the equation is not linear in y'", 1);
+  check("x'' = sin(x'')", "the equation is not linear in x''", 1);
+  check("y dx - x dy = 1", "each term must contain one of dx and dy", 1);
+  check("y dx = 0", "one more differential is needed", 3);
+  check("y'", "an equals sign is missing", 3);
+  check("", "no derivative stands there", 1);
+  check("\\dot x = y", "no derivative stands there", 1);
+  check("y' = a + b*y + x", "'a' is no variable, parameter or function: give its value with --param a=VALUE", 6, false);
+  check("z' = a + b*z", "a, b have no value; the equation of z has one independent letter", 1, false);
 }
 
 TEST_CASE("every function and operator names the places where it breaks", "[formulas]") {

@@ -20,7 +20,8 @@ struct FormulaField {
   };
   Equations equations;
   Formulas formulas;
-  std::vector<std::string> variables;
+  std::vector<std::string> variables;  ///< typed names of u and v, such as x and x'
+  std::string independent;             ///< typed letter of the time; for Equations::first the first variable
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& x) const;
 
@@ -30,10 +31,16 @@ struct FormulaField {
   operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): the field is smooth
 };
 
-/// Returns the field of "u' = F; v' = G", of "x' = F; y' = G" in x and y, of the equation "y' = F" in x and y, or of
-/// "x'' = F" in x and x'. answers/input/formulas.hpp describes the formulas.
+/// Returns the field of a typed system "x' = F; y' = G", of an equation of first order "y' = F(x, y)", or of an
+/// equation of second order "x'' = F(x, x')", in any letters. answers/input/formulas.hpp describes the formulas, and
+/// which derivatives may be typed. An equation may be linear in its highest derivative, as x*y' + y = 0, or have
+/// differentials, as y dx - x dy = 0.
 ///
-/// @throws BadInput  as Formulas
+/// The variables of a system in u and v, or in x and y, have this order; others have the order of their equations.
+/// The independent letter is the one of dx/dt or x'(t). For an equation of first order it is otherwise the other letter
+/// without a value, and t for systems and equations of second order.
+///
+/// @throws BadInput  as Formulas; for other numbers of equations, higher orders, and right sides that contain the time
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
 
 /// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)". The formulas may contain the

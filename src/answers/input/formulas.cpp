@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -196,10 +197,13 @@ constexpr Operator operators[] = {
     {quotient, 4, Kind::divide},
 };
 constexpr int tightest = 5;  ///< above the level of every operator
+/// Variables from this one on are derivatives, which only the sides of an equation contain.
+constexpr std::size_t first_derivative = 2;
 constexpr int deepest = 250;
 constexpr std::size_t longest = 20000;
 /// Each level of nesting keeps at most two values while the next level is computed. The two lowest places are unused.
-constexpr std::size_t most_values = 2 * deepest + 2;
+/// An equation that is solved for its derivative has some levels more.
+constexpr std::size_t most_values = 2 * deepest + 8;
 
 /// Computes the formula with N slopes; with N = 0 the value alone.
 template <std::size_t N>
@@ -265,10 +269,6 @@ Dual<N> run(std::span<const Step> steps, const double* values) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_of_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_'; }
-
-[[noreturn]] void reject_at(std::size_t place, const std::string& text, const std::string& message) {
-  throw BadInput("{}, at character {} of {}", message, place + 1, quotation(text));
-}
 
 /// Characters that papers and word processors use in place of ASCII, each with the ASCII text that replaces it.
 constexpr std::pair<char32_t, std::string_view> pasted[] = {
@@ -358,7 +358,17 @@ class Parser {
     const auto follows = [&](const Operator& each) {
       return each.level >= level && !(in_bars_ && each.function.name == "||") && takes(each.function.name);
     };
-    for (const Operator* found; (found = std::ranges::find_if(operators, follows)) != std::end(operators);) {
+    constexpr int level_of_products = 4;
+    bool divided = false;
+    while (true) {
+      const Operator* found = std::ranges::find_if(operators, follows);
+      if (found == std::end(operators)) {
+        const char first = next();
+        if (level > level_of_products || !(first == '(' || (is_of_word(first) && !is_digit(first)))) break;
+        if (divided) reject(at_, "this product behind a division has two meanings: type * or brackets");
+        found = std::ranges::find(operators, Kind::multiply, &Operator::kind);
+      }
+      divided = found->kind == Kind::divide;
       expression(found->level + 1);
       add({.kind = found->kind, .function = &found->function}, 2);
     }
@@ -400,13 +410,20 @@ class Parser {
       const std::string typed = quotation(text_.substr(begin, std::max<std::size_t>(at_ - begin, 1)));
       reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
     }
+    const auto derivative = derivative_at(text_, begin);
+    at_ += derivative ? derivative->characters : 0;
     while (at_ < text_.size() && is_of_word(text_[at_])) ++at_;
-    while (at_ > begin && at_ < text_.size() && text_[at_] == '\'') ++at_;  // accept the prime of x'
-    const std::string name(text_.substr(begin, at_ - begin));
-    const auto variable =
-        static_cast<std::size_t>(std::ranges::find(shape_.variables, name) - shape_.variables.begin());
-    if (variable < shape_.variables.size()) {
-      add({.kind = Kind::variable, .variable = variable}, 0);
+    const std::string name = derivative ? derivative->name() : std::string(text_.substr(begin, at_ - begin));
+    const auto place_in = [&](const std::vector<std::string>& names) {
+      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    };
+    const std::size_t state = place_in(shape_.variables), highest = place_in(shape_.derivatives);
+    if (state < shape_.variables.size() || highest < shape_.derivatives.size()) {
+      add({.kind = Kind::variable, .variable = state < shape_.variables.size() ? state : first_derivative + highest},
+          0);
+      skip_independent();
+    } else if (name == "e" && !parameters_.contains(name) && next() == '^') {
+      add({.kind = Kind::number, .number = std::numbers::e}, 0);
     } else if (const auto parameter = parameters_.find(name); parameter != parameters_.end()) {
       unused_.erase(name);
       add({.kind = Kind::number, .number = parameter->second}, 0);
@@ -417,6 +434,13 @@ class Parser {
     } else {
       reject_operand(name, begin);
     }
+  }
+
+  /// Skips "(t)" in x(t).
+  void skip_independent() {
+    const std::size_t before = at_;
+    if (shape_.independent.empty()) return;
+    if (!(takes("(") && takes(shape_.independent) && takes(")"))) at_ = before;
   }
 
   void call(const Function& function, std::size_t begin) {
@@ -452,6 +476,9 @@ class Parser {
       known.insert(known.begin(), shape_.variables.begin(), shape_.variables.end());
       for (const auto& [parameter, value] : parameters_) known.push_back(parameter);
       way_out = name.back() == '\'' ? "" : fmt::format(": give its value with --param {}=VALUE", name);
+      const auto is_letter = [&](char c) { return std::ranges::count(shape_.variables, std::string(1, c)) > 0; };
+      if (name.size() > 1 && std::ranges::all_of(name, is_letter))
+        way_out = fmt::format(": a product is {}", fmt::join(name, "*"));
     }
     reject(place, fmt::format("{} is no variable, parameter or function{}{}", quotation(name), suggestion(name, known),
                               way_out));
@@ -789,24 +816,176 @@ Factors divisors(const Steps& formula) {
   return stack.empty() ? Factors{} : stack.back().under;
 }
 
-/// Returns the text before the equals sign, without blanks; empty if there is no equals sign.
-std::string left_side(std::string_view formula) {
-  const std::size_t equals = formula.find('=');
-  std::string left(equals == std::string::npos ? "" : formula.substr(0, equals));
-  std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
-  return left;
+/// A side of an equation as rest + by[0] D + by[1] D', with the derivatives D and D'. A part without steps is 0.
+struct Linear {
+  Factor rest;
+  std::array<Factor, 2> by = {};
+
+  bool has_derivative() const { return !by[0].steps.empty() || !by[1].steps.empty(); }
+};
+
+/// Returns a part of a formula that an operator makes from one or two parts.
+Factor joined(Factor x, Kind kind, const Function& function, const Factor& y = {}) {
+  x.steps.insert(x.steps.end(), y.steps.begin(), y.steps.end());
+  const unsigned char right = kind == Kind::one ? x.variables : y.variables;
+  x.steps.push_back({.kind = kind, .left = x.variables, .right = right, .function = &function});
+  x.variables |= y.variables;
+  return x;
+}
+
+const Function& function_of(Kind kind) { return std::ranges::find(operators, kind, &Operator::kind)->function; }
+
+Factor difference(const Factor& x, const Factor& y) {
+  if (y.steps.empty()) return x;
+  if (x.steps.empty()) return joined(y, Kind::one, negative);
+  return joined(x, Kind::subtract, function_of(Kind::subtract), y);
+}
+
+Factor divided(const Factor& x, const Factor& by) {
+  const bool is_one = by.steps.size() == 1 && by.steps[0].kind == Kind::number && by.steps[0].number == 1;
+  return x.steps.empty() || is_one ? x : joined(x, Kind::divide, function_of(Kind::divide), by);
+}
+
+Factor multiplied(const Factor& x, const Factor& by) {
+  if (x.steps.size() == 1 && x.steps[0].kind == Kind::number && x.steps[0].number == 1) return by;
+  return x.steps.empty() ? x : joined(x, Kind::multiply, function_of(Kind::multiply), by);
+}
+
+/// Returns the side of an equation as a linear function of the derivatives; empty if it is not linear.
+std::optional<Linear> linear_in_derivatives(const Steps& side) {
+  std::vector<Linear> stack;
+  for (const Step& step : side) {
+    const std::vector<Linear> parts(stack.end() - operands_of(step), stack.end());
+    stack.resize(stack.size() - parts.size());
+    const auto each = [](const Linear& x, const auto& change) {
+      return Linear{change(x.rest), {change(x.by[0]), change(x.by[1])}};
+    };
+    const auto none = [&](std::size_t part) { return !parts[part].has_derivative(); };
+    Linear whole;
+    if (step.kind == Kind::variable && step.variable >= first_derivative) {
+      whole.by.at(step.variable - first_derivative) = {{{.kind = Kind::number, .number = 1}}, 0};
+    } else if (std::ranges::none_of(parts, &Linear::has_derivative)) {
+      whole.rest.variables = static_cast<unsigned char>(step.kind == Kind::variable ? 2U << step.variable : 0);
+      for (const Linear& part : parts) {
+        whole.rest.steps.insert(whole.rest.steps.end(), part.rest.steps.begin(), part.rest.steps.end());
+        whole.rest.variables |= part.rest.variables;
+      }
+      whole.rest.steps.push_back(step);
+    } else if (step.kind == Kind::one && step.function == &negative) {
+      whole = each(parts[0], [](const Factor& x) { return difference({}, x); });
+    } else if (step.kind == Kind::add || step.kind == Kind::subtract) {
+      const auto sum = [&](const Factor& x, const Factor& y) {
+        if (step.kind == Kind::subtract) return difference(x, y);
+        return x.steps.empty() ? y : y.steps.empty() ? x : joined(x, Kind::add, function_of(Kind::add), y);
+      };
+      const auto& [x, y] = std::tie(parts[0], parts[1]);
+      whole = {sum(x.rest, y.rest), {sum(x.by[0], y.by[0]), sum(x.by[1], y.by[1])}};
+    } else if (step.kind == Kind::multiply && (none(0) || none(1))) {
+      whole = each(parts[none(0) ? 1 : 0], [&](const Factor& x) { return multiplied(x, parts[none(0) ? 0 : 1].rest); });
+    } else if (step.kind == Kind::divide && none(1)) {
+      whole = each(parts[0], [&](const Factor& x) { return divided(x, parts[1].rest); });
+    } else {
+      return std::nullopt;
+    }
+    stack.push_back(std::move(whole));
+  }
+  Factor& rest = stack.back().rest;
+  if (rest.steps.size() == 1 && rest.steps[0].kind == Kind::number && rest.steps[0].number == 0) rest = {};
+  return stack.back();
+}
+
+/// Returns the place of the equals sign in [begin, end), which is none of the signs <=, >=, == and !=.
+std::size_t equals_sign(const std::string& text, std::size_t begin, std::size_t end) {
+  for (std::size_t at = begin; at < end; ++at) {
+    if (text[at] != '=') continue;
+    if (at + 1 < end && text[at + 1] == '=') {
+      ++at;
+    } else if (at == begin || std::string_view("<>!").find(text[at - 1]) == std::string_view::npos) {
+      return at;
+    }
+  }
+  return end;
 }
 
 }  // namespace formula_parts
 
-std::vector<std::string> left_sides(const std::string& text) {
-  std::vector<std::string> lefts;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    lefts.push_back(formula_parts::left_side(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
+void reject_at(std::size_t place, const std::string& text, const std::string& message, std::string_view advice) {
+  throw BadInput("{}, at character {} of {}{}{}", message, place + 1, quotation(text), advice.empty() ? "" : "; ",
+                 advice);
+}
+
+bool has_meaning(std::string_view name) { return name == "pi" || formula_parts::function_of(name) != nullptr; }
+
+std::size_t end_of_word(std::string_view text, std::size_t begin) {
+  using formula_parts::is_digit;
+  using formula_parts::is_of_word;
+  std::size_t end = begin;
+  if (is_digit(text[begin])) {
+    double value = 0;
+    const auto [after, error] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
+    return static_cast<std::size_t>(after - text.data());
   }
-  return lefts;
+  while (end < text.size() && is_of_word(text[end])) ++end;
+  return std::max(end, begin + 1);
+}
+
+std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t begin) {
+  using formula_parts::is_digit;
+  using formula_parts::is_of_word;
+  if (begin >= text.size() || !is_of_word(text[begin]) || is_digit(text[begin])) return std::nullopt;
+  std::size_t at = begin;
+  const auto takes = [&](std::string_view sign) {
+    const std::size_t there = text.find_first_not_of(" \t", at);
+    if (there == std::string_view::npos || !text.substr(there).starts_with(sign)) return false;
+    at = there + sign.size();
+    return true;
+  };
+  const auto word = [&] {
+    const std::size_t from = at;
+    while (at < text.size() && is_of_word(text[at])) ++at;
+    return std::string(text.substr(from, at - from));
+  };
+  std::string letter = word();
+  if (std::size_t primes = 0; at < text.size() && text[at] == '\'') {
+    while (at < text.size() && text[at] == '\'') ++primes, ++at;
+    return TypedDerivative{letter, primes, "", at - begin};
+  }
+  if (letter[0] != 'd') return std::nullopt;
+  std::size_t order = 1;
+  if (letter == "d" && takes("^") && at < text.size() && is_digit(text[at])) {  // d^2x/dt^2
+    order = static_cast<std::size_t>(text[at++] - '0');
+    if (takes("*") || at >= text.size()) return std::nullopt;
+    letter = "d" + word();
+  } else if (letter.size() > 2 && is_digit(letter[1])) {  // d2x/dt2
+    order = static_cast<std::size_t>(letter[1] - '0');
+    letter.erase(1, 1);
+  }
+  if (letter.size() < 2 || order < 1 || !takes("/") || !takes("d")) return std::nullopt;
+  std::string by = word();
+  if (order > 1 && !takes(fmt::format("^{}", order))) {
+    if (by.empty() || by.back() - '0' != static_cast<int>(order)) return std::nullopt;
+    by.pop_back();
+  }
+  if (by.empty() || is_digit(by[0])) return std::nullopt;
+  return TypedDerivative{letter.substr(1), order, by, at - begin};
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> statements_of(std::string_view text) {
+  std::vector<std::pair<std::size_t, std::size_t>> all;
+  std::size_t begin = 0;
+  int depth = 0;
+  for (std::size_t at = 0; at <= text.size(); ++at) {
+    const char sign = at < text.size() ? text[at] : ';';
+    depth += sign == '(' ? 1 : sign == ')' ? -1 : 0;
+    const std::size_t next = sign == ',' && depth == 0 ? text.find_first_of("=;,\n", at + 1) : text.npos;
+    const bool ends = sign == ';' || sign == '\n' || (next != text.npos && text[next] == '=');
+    if (!ends) continue;
+    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), at);
+    const std::size_t last = first < at ? text.find_last_not_of(" \t\r\n", at - 1) + 1 : at;
+    if (first < last) all.emplace_back(first, last);
+    begin = at + 1;
+  }
+  return all;
 }
 
 struct Formulas::Compiled {
@@ -815,7 +994,6 @@ struct Formulas::Compiled {
 };
 
 Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
-  using formula_parts::reject_at;
   const auto may_be_parameter = [&](const std::string& name) {
     return !name.empty() && !formula_parts::is_digit(name[0]) && std::ranges::all_of(name, formula_parts::is_of_word) &&
            name != "pi" && !formula_parts::function_of(name) && std::ranges::count(shape.variables, name) == 0 &&
@@ -827,40 +1005,76 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
                    quotation(name), fmt::join(shape.variables, ", "));
   }
   formula_parts::require_ascii(text);
+  const bool of_equations = !shape.derivatives.empty();
   std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
+  std::vector<std::array<std::size_t, 3>> equations;               // begin, equals sign and end of each equation
   std::map<std::string, double> own;                               // if a parameter is set twice, the last value counts
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
-    if (first < end || (begin == 0 && end == text.size())) {
-      const std::size_t equals = text.find('=', first);
-      const std::string left = formula_parts::left_side(text.substr(first, end - first));
-      const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
-      const bool bare = shape.left[0].empty() && equals == std::string::npos && !found[0];
-      if (!bare && (which == shape.left.size() || left.empty())) {
-        const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
-        if (!may_be_parameter(left) || !is_number(value)) {
-          const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
-          reject_at(first, text, fmt::format("{} ={} is missing: {}", shape.left[0], second, shape.sentence));
-        }
-        own[left] = parse_number(value);
-      } else if (found[which]) {
-        reject_at(first, text, fmt::format("{} stands there twice: {}", left, shape.sentence));
-      } else {
-        found[which] = {{bare ? first : equals + 1, end}};
-      }
+  auto statements = statements_of(text);
+  if (statements.empty()) statements.emplace_back(0, text.size());
+  for (const auto& [first, end] : statements) {
+    const std::size_t equals = formula_parts::equals_sign(text, first, end);
+    std::string left = text.substr(first, equals < end ? equals - first : 0);
+    std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
+    const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
+    const bool bare = shape.left[0].empty() && equals == end && !found[0] && !of_equations;
+    const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
+    if (may_be_parameter(left) && is_number(value)) {
+      own[left] = parse_number(value);
+    } else if (of_equations) {
+      if (equals == end) reject_at(end, text, "an equals sign is missing", shape.sentence);
+      equations.push_back({first, equals, end});
+    } else if (!bare && (which == shape.left.size() || left.empty())) {
+      const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
+      reject_at(first, text, fmt::format("{} ={} is missing", shape.left[0], second), shape.sentence);
+    } else if (found[which]) {
+      reject_at(first, text, fmt::format("{} stands there twice", left), shape.sentence);
+    } else {
+      found[which] = {{bare ? first : equals + 1, end}};
     }
-    begin = end + 1;
   }
   parameters.merge(own);
   std::map<std::string, double> unused = parameters;
   Compiled compiled;
-  for (std::size_t i = 0; i < 2; ++i) {
+  const auto parsed = [&](std::size_t from, std::size_t to) {
+    return formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
+  };
+  for (std::size_t i = 0; i < 2 && !of_equations; ++i) {
     if (shape.left[i].empty() && !found[i]) continue;
-    if (!found[i]) reject_at(text.size(), text, fmt::format("{} = is missing: {}", shape.left[i], shape.sentence));
+    if (!found[i]) reject_at(text.size(), text, fmt::format("{} = is missing", shape.left[i]), shape.sentence);
     const auto& [from, to] = *found[i];
-    compiled.formulas[i] = formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
+    compiled.formulas[i] = parsed(from, to);
+  }
+  for (const auto& [first, equals, end] : equations) {
+    using formula_parts::difference;
+    const auto left = linear_in_derivatives(parsed(first, equals));
+    const auto right = linear_in_derivatives(parsed(equals + 1, end));
+    const std::string names = fmt::format("{}", fmt::join(shape.derivatives, " and "));
+    if (!left || !right) reject_at(first, text, fmt::format("the equation is not linear in {}", names), shape.sentence);
+    std::array<formula_parts::Factor, 2> by;
+    for (std::size_t i = 0; i < 2; ++i) by[i] = difference(left->by[i], right->by[i]);
+    formula_parts::Factor rest = difference(right->rest, left->rest);
+    std::size_t which = by[0].steps.empty() ? 1 : 0;
+    if (shape.differentials) {
+      if (!rest.steps.empty() || by[0].steps.empty() || by[1].steps.empty())
+        reject_at(first, text, fmt::format("each term must contain one of {}", names), shape.sentence);
+      rest = difference(right->by[0], left->by[0]);
+      by[0] = std::exchange(by[1], {});
+      which = 0;
+    }
+    if (!by[1 - which].steps.empty() || by[which].steps.empty()) {
+      reject_at(first, text,
+                fmt::format("{} in this equation; one is needed",
+                            by[which].steps.empty() ? "no derivative stands" : names + " both stand"),
+                shape.sentence);
+    }
+    if (!compiled.formulas[which].empty())
+      reject_at(first, text, fmt::format("a second equation of {}", shape.derivatives[which]), shape.sentence);
+    if (rest.steps.empty()) rest.steps = {{.kind = formula_parts::Kind::number, .number = 0}};
+    compiled.formulas[which] = divided(rest, by[which]).steps;
+  }
+  for (std::size_t i = 0; i < (shape.differentials ? 1 : shape.derivatives.size()); ++i) {
+    if (compiled.formulas[i].empty())
+      reject_at(text.size(), text, fmt::format("the equation of {} is missing", shape.derivatives[i]), shape.sentence);
   }
   if (!unused.empty()) {
     throw BadInput("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first));

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,18 +23,50 @@ using Dual = std::array<double, N + 1>;
 struct FormulaShape {
   /// Names before the equals signs. For a single formula the second name is empty; without an equals sign both are.
   std::array<std::string, 2> left;
-  std::vector<std::string> variables;               ///< variables of the formulas
-  std::string sentence;                             ///< sentence for messages, such as: a system is "u' = F; v' = G"
+  std::vector<std::string> variables;  ///< variables of the formulas
+  std::string sentence;                ///< sentence for messages, such as: a law is "force = F; moment = M"
   std::map<std::string, std::string> refused = {};  ///< names that cannot be parameters, each with the reason
+  /// For equations: their one or two derivatives, such as "x'" and "y'", instead of `left`. Each equation has one and
+  /// is linear in it.
+  std::vector<std::string> derivatives = {};
+  bool differentials = false;    ///< true: the derivatives are "dx" and "dy", in one equation; the formula is dy/dx
+  std::string independent = {};  ///< for equations: x(t) is read as x, if this is "t"
 };
 
-/// Returns the names before the equals signs of a text, without blanks.
-std::vector<std::string> left_sides(const std::string& text);
+/// A derivative as people write it: x', x'', dx/dt, d^2x/dt^2 or d2x/dt2.
+struct TypedDerivative {
+  std::string letter;      ///< x
+  std::size_t order;       ///< number of primes, >= 1
+  std::string by;          ///< t; empty for primes
+  std::size_t characters;  ///< length of the text
+
+  std::string name() const { return letter + std::string(order, '\''); }
+};
+
+/// Returns the derivative that begins at a place of a text.
+std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t begin);
+
+/// Returns the statements of a text, which semicolons and line ends separate, as [begin, end) without blanks around
+/// them. Commas outside brackets separate statements, too, if an equals sign follows in the next one.
+std::vector<std::pair<std::size_t, std::size_t>> statements_of(std::string_view text);
+
+/// Returns the end of the name, number or sign that begins at a place of a text.
+std::size_t end_of_word(std::string_view text, std::size_t begin);
+
+/// Returns true for the names of functions and of the number pi.
+bool has_meaning(std::string_view name);
+
+/// Throws BadInput. The message names a character of a text; advice follows.
+[[noreturn]] void reject_at(std::size_t place, const std::string& text, const std::string& message,
+                            std::string_view advice = "");
 
 /// Two formulas, "u' = F; v' = G" in any order, that contain variables and parameters. Values of parameters may follow
 /// in the text, "; a = 2". Formulas contain these operators, from the loosest binding to the tightest:
 ///
 ///     c ? a : b    ||    &&    < > <= >= == !=    + -    * /    - + ! before a value    ^, also typed **
+///
+/// A product may be typed without its sign before a name or a bracket, as in 2x, x y and x(1 - y), except after a
+/// division: 1/2x has two meanings.
 ///
 /// They may also contain brackets, |x|, numbers, pi and functions: sin cos tan asin acos atan sinh cosh tanh asinh
 /// acosh atanh exp sqrt, ln and log (both natural), log2 log10 abs sign (sign(0) = 0), rint (halves to even); of two

@@ -184,13 +184,6 @@ std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) co
   return starts;
 }
 
-Eigen::Vector2d StartOptions::read_point() const {
-  for (const Argument* argument : {&u0_, &v0_}) {
-    if (!argument->given()) throw BadInput("{} missing: a start of --system is --u0 U --v0 V", argument->name());
-  }
-  return {*u0_, *v0_};
-}
-
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
   if (ball_.given()) return read(law).system;
   return read_system(law, "--mu M, --ball NAME|FILE.toml");

@@ -1,10 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "answers/asked/given_start.hpp"
 #include "contensou/reduction/reduced_system.hpp"
@@ -98,9 +97,8 @@ class StartOptions : public BodyOptions {
   /// @throws std::system_error  for a run file that cannot be read
   GivenStart read(const reduction::Law& law) const;
 
-  /// Reads --u0 and --v0, of either sign, as a point of a system other than (2.6).
-  /// @throws BadInput  if one is missing
-  Eigen::Vector2d read_point() const;
+  /// Returns --u0 and --v0.
+  std::array<const ArgumentOf<double>*, 2> speeds() const { return {&u0_, &v0_}; }
 
   Argument& ball() { return ball_; }
   bool ball_given() const { return ball_.given(); }

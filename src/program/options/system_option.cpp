@@ -1,5 +1,10 @@
 #include "options/system_option.hpp"
 
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
 #include "answers/asked/planar_system.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
@@ -7,13 +12,31 @@ namespace contensou::program {
 
 void SystemOption::add(CLI::App& app) {
   app.option_defaults()->group("Another system");
-  system_.add(
-      app, "--system", "\"u' = F; v' = G\"",
-      "equations in u and v, instead of (2.6); in x and y: \"y' = F(x, y)\"; in x and x': \"x'' = F(x, x')\". --u0 and "
-      "--v0 are the start of both, of either sign");
+  system_.add(app, "--system", "\"x' = F; y' = G\"",
+              "equations in any two letters, instead of (2.6); or one equation \"y' = F(x, y)\" or \"x'' = F(x, x')\". "
+              "'contensou help formulas' shows more forms");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions of u and v, for --system. Sums of them are tried as inverse integrating factor, a function V "
              "that gives a constant of the motion");
+  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", number);
+  y0_.add(app, "--y0", "Y", "value of the letter y at the start of --system", number);
+  start_.add(app, "--start", "\"x=1, x'=0\"",
+             "start of --system in its letters. The options --u0 and --v0 name the first and the second letter",
+             [](const std::string& typed) {
+               std::vector<std::pair<std::string, double>> values;
+               for (const std::string& part : split(typed, ',')) {
+                 const std::size_t equals = part.find('=');
+                 std::string letter = part.substr(0, equals);
+                 std::erase(letter, ' ');
+                 if (equals == std::string::npos || letter.empty())
+                   throw NotAllowed("two values with their letters are needed, such as \"x=1, y=0\"");
+                 values.emplace_back(letter, parse_number(part.substr(equals + 1)));
+               }
+               return values;
+             });
+  for (Argument* each : {static_cast<Argument*>(&x0_), static_cast<Argument*>(&y0_), static_cast<Argument*>(&start_)}) {
+    each->needs(system_, "is in the letters of typed equations");
+  }
 }
 
 TypedSystem SystemOption::read(const std::map<std::string, double>& parameters) const {
@@ -27,6 +50,39 @@ TypedSystem SystemOption::read(const std::map<std::string, double>& parameters) 
   } catch (const BadInput& error) {
     throw BadInput("{}: {}", reading->name(), error.what());
   }
+}
+
+std::optional<Eigen::Vector2d> SystemOption::read_start(const TypedSystem& typed, const StartOptions& options) const {
+  const auto& letters = typed.variables;
+  const std::string way_out = fmt::format("a start is --start \"{}=VALUE, {}=VALUE\"", letters[0], letters[1]);
+  std::array<std::optional<double>, 2> values;
+  const auto set = [&](const Argument& argument, std::size_t place, double value) {
+    if (place == letters.size())
+      argument.reject(fmt::format("the equations have the letters {} and {}; {}", letters[0], letters[1], way_out));
+    if (values.at(place)) argument.reject(fmt::format("{} stands there twice; {}", letters.at(place), way_out));
+    values.at(place) = value;
+  };
+  const auto place_of = [&](std::string_view letter) {
+    return static_cast<std::size_t>(std::ranges::find(letters, letter) - letters.begin());
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (const auto& speed = *options.speeds().at(i); speed.given()) set(speed, i, *speed);
+  }
+  if (x0_.given()) set(x0_, place_of("x"), *x0_);
+  if (y0_.given()) set(y0_, place_of("y"), *y0_);
+  if (start_.given()) {
+    for (const auto& [letter, value] : *start_) set(start_, place_of(letter), value);
+  }
+  if (!values[0] && !values[1]) return std::nullopt;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!values.at(i)) throw BadInput("{} missing at the start; {}", letters.at(i), way_out);
+  }
+  return Eigen::Vector2d(*values[0], *values[1]);
+}
+
+Eigen::Vector2d SystemOption::require_start(const TypedSystem& typed, const StartOptions& options) const {
+  if (const auto start = read_start(typed, options)) return *start;
+  throw BadInput("a start is missing: give --start \"{}=VALUE, {}=VALUE\"", typed.variables[0], typed.variables[1]);
 }
 
 }  // namespace contensou::program

@@ -38,6 +38,32 @@ std::string laws() {
              "second row, which shows the error of interpolation.");
 }
 
+std::string typed_formulas() {
+  std::string text = help_paragraph(
+      "Equations for --system, in any letters. A system has two equations of first order. One equation may have the "
+      "first or the second order. It may be linear in its highest derivative, as in the examples:");
+  constexpr std::pair<std::string_view, std::string_view> examples[]{
+      {"x' = y; y' = -x", "system; also dx/dt = y; dy/dt = -x, and x'(t) = y(t); y'(t) = -x(t)"},
+      {"y' = x - y", "first order; also dy/dx = x - y, y' + y = x and (x - y) dx - dy = 0"},
+      {"x'' + 0.1x' + x = 0", "second order; also d^2x/dt^2 = -x - 0.1 dx/dt"},
+      {"x' = a*x*y; y' = -y; a = 2", "parameter with its value; also --param a=2"}};
+  for (const auto& [equation, meaning] : examples) text += help_entry(equation, meaning);
+  text += "\n" + help_paragraph(
+                     "The independent letter is the one of dy/dx or y'(x). Otherwise it is t. In one equation of first "
+                     "order it is the other letter. The right sides of a system and of an equation of second order "
+                     "must not contain it. --start gives the start in the typed letters, as in \"x=1, x'=0\".");
+  text += "\n" + help_paragraph("Formulas, for --system, --law and --basis, contain numbers, pi and:");
+  constexpr std::pair<std::string_view, std::string_view> parts[]{
+      {"+ - * / ^", "operators; ** means ^. The sign * may be left out before a name or a bracket: 2x, x y, x(1 - y)"},
+      {"sin cos tan asin acos atan",
+       "functions; also sinh cosh tanh asinh acosh atanh exp sqrt, ln and log (both "
+       "natural), log2 log10, atan2(y, x), hypot(x, y)"},
+      {"abs(x) or |x|, sign rint min max", "functions with kinks or jumps; rint is the nearest whole number"},
+      {"x < y ? a : b", "choice; < > <= >= == != && || ! are 1 if true, else 0"}};
+  for (const auto& [sign, meaning] : parts) text += help_entry(sign, meaning);
+  return text;
+}
+
 std::string views() {
   std::string text = help_paragraph(
       "Views of a portrait, for --view. u is the spin omega_z times the radius R of the body, v the sliding speed, mu "
@@ -218,9 +244,10 @@ std::string output() {
   return text + help_entry("-h, --help", "print the help of the verb") + "\n" + help_paragraph(exit_statuses);
 }
 
-const Choices<std::string (*)()> topics{{"ball", ball},     {"laws", laws},         {"picture", picture},
-                                        {"output", output}, {"views", views},       {"units", units},
-                                        {"files", files},   {"fields", all_fields}, {"theory", theory}};
+const Choices<std::string (*)()> topics{{"ball", ball},       {"laws", laws},     {"formulas", typed_formulas},
+                                        {"picture", picture}, {"output", output}, {"views", views},
+                                        {"units", units},     {"files", files},   {"fields", all_fields},
+                                        {"theory", theory}};
 
 std::vector<std::string> names_of_topics() {
   std::vector<std::string> names;

@@ -200,7 +200,7 @@ class PortraitCommand final : public Verb {
   }
 
   ExitStatus run_system() {
-    const auto [field, variables] = system_.read(law_.parameters());
+    const TypedSystem typed = system_.read(law_.parameters());
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
@@ -208,15 +208,14 @@ class PortraitCommand final : public Verb {
     Vector2d around = request_.window
                           ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
                           : request_.sides.value_or(Vector2d(1, 1));
-    if (!start_.without_motion()) {
-      const Vector2d point = start_.read_point();
-      request_.highlight = {point[0], point[1]};
-      if (!point.isZero(0)) around = point;
+    if (const auto start = system_.read_start(typed, start_)) {
+      request_.highlight = {(*start)[0], (*start)[1]};
+      if (!start->isZero(0)) around = *start;
     }
     const Output output = read_output();
     portraits::PlanarPortrait portrait =
-        portraits::planar_portrait(reduction::reduce(field, around), system_.text(), request_);
-    portrait.variables = variables;
+        portraits::planar_portrait(reduction::reduce(typed.field, around), system_.text(), request_);
+    portrait.variables = typed.variables;
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 

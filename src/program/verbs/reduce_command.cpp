@@ -32,8 +32,9 @@ class ReduceCommand final : public Verb {
 
  private:
   ExitStatus run_system(const Output& output) {
-    const reduction::SmoothField field = system_.read(law_.parameters()).field;
-    const Eigen::Vector2d start = start_.read_point();
+    const TypedSystem typed = system_.read(law_.parameters());
+    const reduction::SmoothField& field = typed.field;
+    const Eigen::Vector2d start = system_.require_start(typed, start_);
     if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));
     const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
     const reduction::PlanarReduction plane = reduction::reduce(field, start, found);
