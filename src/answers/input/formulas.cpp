@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -1117,6 +1118,61 @@ std::optional<Formulas> Formulas::denominator() const {
     before |= variables;
   }
   return Formulas(std::make_shared<const Compiled>(std::move(compiled)));
+}
+
+std::optional<std::array<Expression, 2>> Formulas::expressions() const {
+  using formula_parts::Kind;
+  std::array<Expression, 2> both{0, 0};
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<Expression> stack;
+    for (const formula_parts::Step& step : compiled_->formulas[i]) {
+      const std::vector<Expression> of(stack.end() - formula_parts::operands_of(step), stack.end());
+      stack.resize(stack.size() - of.size(), 0);
+      try {
+        switch (step.kind) {
+          case Kind::number:
+            stack.emplace_back(Number(step.number));
+            break;
+          case Kind::variable:
+            stack.push_back(Expression::variable(step.variable));
+            break;
+          case Kind::one:
+            stack.push_back(
+                step.function == &formula_parts::negative ? -of[0] : Expression::function(step.function->name, of[0]));
+            break;
+          case Kind::two:
+            if (step.function == &formula_parts::power) {
+              stack.push_back(power(of[0], of[1]));
+            } else if (step.function->name == "hypot") {
+              stack.push_back(power(of[0] * of[0] + of[1] * of[1], Number(1, 2)));
+            } else if (step.function->name == "sum" || step.function->name == "avg") {
+              stack.push_back(of[0] + of[1]);
+            } else {
+              return std::nullopt;
+            }
+            break;
+          case Kind::choose:
+            return std::nullopt;
+          case Kind::add:
+            stack.push_back(of[0] + of[1]);
+            break;
+          case Kind::subtract:
+            stack.push_back(of[0] - of[1]);
+            break;
+          case Kind::multiply:
+            stack.push_back(of[0] * of[1]);
+            break;
+          case Kind::divide:
+            stack.push_back(of[0] / of[1]);
+            break;
+        }
+      } catch (const std::exception&) {
+        return std::nullopt;  // another function, or too long a formula
+      }
+    }
+    if (!stack.empty()) both[i] = stack.back();
+  }
+  return both;
 }
 
 template <std::size_t N>

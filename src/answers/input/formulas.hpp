@@ -13,6 +13,8 @@
 
 #include <Eigen/Core>
 
+#include "answers/input/expression.hpp"
+
 namespace contensou::answers {
 
 /// A value followed by its slopes, the derivatives by N variables.
@@ -113,6 +115,10 @@ class Formulas {
   /// Returns the common denominator as the first formula of the result. This denominator is the product of the
   /// divisors that depend on variables and stand outside functions, each to its highest power; empty without a divisor.
   std::optional<Formulas> denominator() const;
+
+  /// Returns both formulas as Expressions, whose variables have the indices of FormulaShape::variables; 0 for a missing
+  /// formula. Empty if a formula contains a comparison, a choice, rint, min, max or atan2.
+  std::optional<std::array<Expression, 2>> expressions() const;
 
  private:
   struct Compiled;
