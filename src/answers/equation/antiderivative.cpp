@@ -21,7 +21,8 @@ using Maybe = std::optional<Expression>;
 using Polynomial = std::vector<Number>;  ///< the coefficient of x^0 first; the last is not 0
 
 E root_of(const E& x) { return power(x, Number(1, 2)); }
-E ln(const E& x) { return E::function("ln", E::function("abs", x)); }
+/// Returns ln |x| up to a constant.
+E ln(const E& x) { return E::function("ln", term_of(E::function("abs", x)).rest); }
 bool is_function(const E& e, std::string_view name) { return e.is(Kind::function) && e.name() == name; }
 bool is_whole(const E& e) { return e.is(Kind::number) && e.number().is_whole(); }
 
@@ -235,7 +236,7 @@ class Search {
   Maybe by_trigonometry(const E& f, std::size_t x, int depth);
   Maybe by_substitution(const E& f, std::size_t x, int depth);
 
-  int left_ = 250;  ///< number of integrals that the search may still try
+  int left_ = 160;  ///< number of integrals that the search may still try
 };
 
 Maybe Search::operator()(const E& f, std::size_t x, int depth) {
@@ -263,13 +264,12 @@ Maybe Search::operator()(const E& f, std::size_t x, int depth) {
 Maybe Search::factor(const E& f, std::size_t x, int depth) {
   if (Maybe found = table(f, x)) return found;
   if (Maybe found = of_rational(f, x)) return found;
-  if (const E other = f.expanded(); other.is(Kind::sum)) {
-    if (Maybe found = (*this)(other, x, depth + 1)) return found;
-  }
+  if (Maybe found = by_trigonometry(f, x, depth)) return found;
   if (Maybe found = by_parts(f, x, depth)) return found;
   if (Maybe found = of_roots(f, x, depth)) return found;
   if (Maybe found = by_substitution(f, x, depth)) return found;
-  return by_trigonometry(f, x, depth);
+  const E other = f.expanded();
+  return other.is(Kind::sum) ? (*this)(other, x, depth + 1) : std::nullopt;
 }
 
 Maybe Search::table(const E& f, std::size_t x) {
@@ -286,6 +286,9 @@ Maybe Search::table(const E& f, std::size_t x) {
   };
   const auto call = [](std::string_view name, const E& argument) { return E::function(name, argument); };
   if (!base.has(x) && f.is(Kind::power)) return of_argument(exponent, f / call("ln", base));
+  if (is_function(base, "abs") && !exponent.has(x)) {
+    return of_argument(base.parts()[0], base.parts()[0] * f / (exponent + 1));
+  }
   if (base.is(Kind::function) && is_whole(exponent)) {
     const E& z = base.parts()[0];
     const auto n = exponent.number().above();
@@ -352,7 +355,10 @@ Maybe Search::by_parts(const E& f, std::size_t x, int depth) {
                          is_function(base, "acos") || is_function(base, "atanh");
     if (!inverse || !is_whole(exponent) || exponent.number().above() < 0) continue;
     const Maybe integral = (*this)(without(i), x, depth + 1);
-    if (!integral || integral->has(x) == false) continue;
+    if (!integral || !integral->has(x)) continue;
+    if (const auto [by, rest] = term_of(*integral); is_function(base, "ln") && rest == ln(base.parts()[0])) {
+      return by / (exponent.number() + Number(1)) * factors[i] * base;
+    }
     const Maybe later = (*this)((*integral * factors[i].derivative(x)).expanded(), x, depth + 1);
     if (later) return factors[i] * *integral - *later;
   }
@@ -403,7 +409,8 @@ Maybe Search::by_trigonometry(const E& f, std::size_t x, int depth) {
       rest = rest / each;
     }
   }
-  if (waves.size() >= 2 && waves.size() <= 6) {  // a product of two is a sum
+  const bool beside = coefficients(rest, x) || is_function(rest, "exp");
+  if (beside && waves.size() >= 2 && waves.size() <= 6) {  // a product of two is a sum
     const E &a = waves[0].parts()[0], &b = waves[1].parts()[0];
     const bool sine = is_function(waves[0], "sin"), other = is_function(waves[1], "sin");
     const auto wave = [&](const E& z) { return E::function(sine == other ? "cos" : "sin", z); };
@@ -415,7 +422,21 @@ Maybe Search::by_trigonometry(const E& f, std::size_t x, int depth) {
     for (std::size_t i = 2; i < waves.size(); ++i) rest = rest * waves[i];
     return (*this)((rest * product / 2).expanded(), x, depth + 1);
   }
-  return std::nullopt;
+  // sin(2 z) and cos(2 z) next to a function of z
+  const E doubled = f.replaced([&](const E& part) -> Maybe {
+    const bool sine = is_function(part, "sin");
+    if (!sine && !is_function(part, "cos")) return std::nullopt;
+    const E half = part.parts()[0] / 2;
+    bool next_to = false;
+    f.replaced([&](const E& other) -> Maybe {
+      next_to |= other.is(Kind::function) && other.parts()[0] == half;
+      return std::nullopt;
+    });
+    if (!next_to) return std::nullopt;
+    const E sin = E::function("sin", half), cos = E::function("cos", half);
+    return sine ? 2 * sin * cos : 1 - 2 * sin * sin;
+  });
+  return doubled == f ? std::nullopt : (*this)(doubled, x, depth + 1);
 }
 
 /// Collects the parts of a formula that contain x, the smallest first.
@@ -449,10 +470,9 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
   if (f.is(Kind::function) || f.is(Kind::power)) parts.insert(f);
   const std::size_t next = std::max<std::size_t>(x, 3) + 1;
   const E w = E::variable(next);
-  const auto attempt = [&](const E& g, const E& in_w, const E& shown) -> Maybe {
+  const auto attempt = [&](const E& in_w, const E& shown) -> Maybe {
     if (in_w.has(x)) return std::nullopt;
     const Maybe found = (*this)(in_w, next, depth + 1);
-    (void)g;
     return found ? Maybe(found->with(next, shown)) : std::nullopt;
   };
   std::vector<E> sorted(parts.begin(), parts.end());
@@ -474,13 +494,19 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
         const E small = power(base, Number(1, degree));
         const E inverse = (power(w, Number(degree)) - (*line)[1]) / (*line)[0];
         const E in_w = replaced(f, small, w).with(x, inverse) * inverse.derivative(next);
-        if (Maybe found = attempt(g, in_w, small)) return found;
+        if (Maybe found = attempt(in_w, small)) return found;
         continue;
       }
     }
+    if (is_function(g, "ln") && linear(g.parts()[0], x)) {
+      const auto line = *linear(g.parts()[0], x);
+      const E inverse = (E::function("exp", w) - line[1]) / line[0];
+      if (Maybe found = attempt(replaced(f, g, w).with(x, inverse) * inverse.derivative(next), g)) return found;
+      continue;
+    }
     if (g.is(Kind::sum) && linear(g, x)) {
       const auto line = *linear(g, x);
-      if (Maybe found = attempt(g, f.with(x, (w - line[1]) / line[0]) / line[0], g); found && depth == 0) return found;
+      if (Maybe found = attempt(f.with(x, (w - line[1]) / line[0]) / line[0], g); found && depth == 0) return found;
       continue;
     }
     const E slope = g.derivative(x);
@@ -499,7 +525,7 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
       if (g.name() == "sin") rewrite("cos", 1 - w * w);
       if (g.name() == "cos") rewrite("sin", 1 - w * w);
     }
-    if (Maybe found = attempt(g, in_w, g)) return found;
+    if (Maybe found = attempt(in_w, g)) return found;
   }
   // tan of the angle, then of its half
   const auto angle =
@@ -523,7 +549,7 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
       return power(1 + w * w, -raised / 2);
     return std::nullopt;
   });
-  if (Maybe found = attempt(z, in_w / ((*line)[0] * (1 + w * w)), E::function("tan", z))) return found;
+  if (Maybe found = attempt(in_w / ((*line)[0] * (1 + w * w)), E::function("tan", z))) return found;
   const E half = 1 + w * w;
   in_w = f.replaced([&](const E& part) -> Maybe {
     if (is_at(part, "sin")) return 2 * w / half;
@@ -531,7 +557,7 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
     if (is_at(part, "tan")) return 2 * w / (1 - w * w);
     return std::nullopt;
   });
-  return attempt(z, 2 * in_w / ((*line)[0] * half), E::function("tan", z / 2));
+  return attempt(2 * in_w / ((*line)[0] * half), E::function("tan", z / 2));
 }
 
 }  // namespace antiderivatives

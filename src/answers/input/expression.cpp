@@ -65,7 +65,7 @@ bool is_positive(const E& e) {
   if (e.is(E::Kind::number)) return e.number().value() >= 0;
   if (is_function(e, "exp") || is_function(e, "abs") || is_function(e, "cosh")) return true;
   if (e.is(E::Kind::power)) return is_even(e.parts()[1]) || !is_whole(e.parts()[1]);
-  return e.is(E::Kind::product) && std::ranges::all_of(e.parts(), is_positive);
+  return (e.is(E::Kind::product) || e.is(E::Kind::sum)) && std::ranges::all_of(e.parts(), is_positive);
 }
 
 /// Returns the number with which a sum must be multiplied so that its coefficients are whole and have no common factor.
