@@ -1,0 +1,233 @@
+// The kinds of equation, each decided by its own definition: an expression in derivatives that vanishes, or that is a
+// constant, at random points.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "answers/equation/equation.hpp"
+
+namespace contensou::answers {
+
+namespace kinds_of_equation {
+
+using E = Expression;
+constexpr std::size_t enough = 100;
+
+/// Returns the sum of the sizes of the terms of a formula, which cancel in its value.
+double size_at(const E& e, const std::array<double, 2>& x) {
+  double total = 0;
+  for (const E& term : terms_of(e)) total += std::abs(term(x));
+  return total;
+}
+
+}  // namespace kinds_of_equation
+
+using namespace kinds_of_equation;
+
+std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& formulas, bool quadrant) const {
+  std::mt19937 random(7);
+  constexpr double least = 0.2, most = 2.6;
+  std::uniform_real_distribution<double> size(std::log(least), std::log(most));
+  std::vector<Eigen::Vector2d> all;
+  constexpr int tries = 1500;
+  for (int i = 0; i < tries && all.size() < enough; ++i) {
+    Eigen::Vector2d x;
+    for (const Eigen::Index k : {0, 1}) {
+      const bool minus = quadrant ? start[k] < 0 : random() % 2 == 0;
+      const double unit = start[k] == 0 ? 1 : std::abs(start[k]);
+      x[k] = (minus ? -unit : unit) * std::exp(size(random));
+    }
+    const auto has_value = [&](const E& e) { return std::isfinite(e({x[0], x[1]})); };
+    if (std::ranges::all_of(formulas, has_value)) all.push_back(x);
+  }
+  return all;
+}
+
+bool Equation::vanishes(const Expression& formula, double error) const {
+  if (formula.is_zero()) return true;
+  const auto at = points({slope, formula});
+  constexpr std::size_t fewest = 20;
+  return at.size() >= fewest && std::ranges::all_of(at, [&](const Eigen::Vector2d& x) {
+           return std::abs(formula({x[0], x[1]})) <= error * size_at(formula, {x[0], x[1]});
+         });
+}
+
+std::optional<Number> Equation::constant(const Expression& formula) const {
+  if (formula.is(Expression::Kind::number)) return formula.number();
+  const auto at = points({slope, formula});
+  constexpr std::size_t fewest = 20;
+  constexpr double error = 1e-9;
+  if (at.size() < fewest) return std::nullopt;
+  std::vector<double> values;
+  for (const auto& x : at) values.push_back(formula({x[0], x[1]}));
+  std::ranges::nth_element(values, values.begin() + std::ssize(values) / 2);
+  const double value = values[values.size() / 2];
+  for (const double each : values) {
+    if (!(std::abs(each - value) <= error * std::max(1., std::abs(value)))) return std::nullopt;
+  }
+  constexpr long long largest = 60;
+  for (long long below = 1; below <= largest; ++below) {
+    const double above = std::rint(value * static_cast<double>(below));
+    if (std::abs(value * static_cast<double>(below) - above) <= error * 10) {
+      return Number(static_cast<long long>(above), below);
+    }
+  }
+  return Number(value);
+}
+
+bool Equation::is_integral(const Expression& H, bool quadrant) const {
+  const Expression by_x = H.derivative(0), by_y = H.derivative(1);
+  const auto at = points({H, by_x, by_y, f[0], f[1]}, quadrant);
+  constexpr double error = 1e-12;
+  double largest = 0;
+  for (const auto& x : at) {
+    const std::array<double, 2> here{x[0], x[1]};
+    const double first = f[0](here), second = f[1](here);
+    const double size = std::abs(first) * size_at(by_x, here) + std::abs(second) * size_at(by_y, here);
+    if (!(std::abs(first * by_x(here) + second * by_y(here)) <= error * size)) return false;
+    largest = std::max(largest, std::abs(by_x(here)) + std::abs(by_y(here)));
+  }
+  return at.size() >= enough && largest > 0;
+}
+
+std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vector2d& start) {
+  const auto typed = system.formulas.expressions();
+  if (!typed) return std::nullopt;
+  const auto& [first, second] = *typed;
+  Equation equation{system.equations, {first, second}, 0, system.variables, start};
+  if (system.equations == FormulaField::Equations::first) equation.f = {1, first};
+  if (system.equations == FormulaField::Equations::second) equation.f = {Expression::variable(1), first};
+  if (equation.f[0].is_zero()) return std::nullopt;
+  try {
+    equation.slope = equation.f[1] / equation.f[0];
+  } catch (const std::length_error&) {
+    return std::nullopt;
+  }
+  return equation;
+}
+
+const std::vector<EquationKind>& equation_kinds() {
+  static const std::vector<EquationKind> all{
+      {"separable", "y' = f(x) g(y)"},
+      {"linear", "y' = a(x) y + b(x)"},
+      {"Bernoulli", "y' = a(x) y + b(x) y^n with a number n other than 0 and 1"},
+      {"Riccati", "y' = a(x) + b(x) y + c(x) y^2, c not 0"},
+      {"homogeneous", "y' = f(y/x)"},
+      {"isobaric", "the equation stays the same if x is multiplied by a and y by a^m"},
+      {"shift along a direction", "y' = f(y - c x) with a number c"},
+      {"exact", "M dx + N dy = 0 with dM/dy = dN/dx, as typed"},
+      {"integrating factor of x", "M dx + N dy = 0 becomes exact if it is multiplied by a function of x alone"},
+      {"integrating factor of y", "M dx + N dy = 0 becomes exact if it is multiplied by a function of y alone"},
+      {"autonomous", "the right side does not contain x; for x'' = f(x, x') it does not contain the time"},
+      {"conservative", "x'' = f(x): the energy is constant"},
+      {"linear of the second order", "x'' = a x + b x' + c with numbers a, b and c"},
+      {"linear system", "x' and y' are linear functions of x and y"},
+      {"Hamiltonian", "x' = dH/dy and y' = -dH/dx: the divergence is 0"},
+      {"gradient", "x' = dP/dx and y' = dP/dy: the curl is 0"},
+      {"rotation", "the equation stays the same if the plane is turned about the origin"},
+      {"Darboux", "the inverse integrating factor V is a product of curves that consist of orbits"},
+  };
+  return all;
+}
+
+std::vector<std::string> kinds_of(const Equation& equation) {
+  using Type = FormulaField::Equations;
+  const Type type = equation.type;
+  const auto& f = equation.f;
+  const auto& names = equation.names;
+  const E& R = equation.slope;
+  const E x = E::variable(0), y = E::variable(1);
+  std::vector<std::string> kinds;
+  // A formula that becomes too long leaves its kind undecided, so the kind is not listed.
+  const auto holds = [](const std::function<bool()>& condition) {
+    try {
+      return condition();
+    } catch (const std::length_error&) {
+      return false;
+    }
+  };
+  const auto add = [&](const std::string& name, const std::function<bool()>& condition) {
+    const bool found = holds(condition);
+    if (found) kinds.push_back(name);
+    return found;
+  };
+  const auto vanishes = [&](const E& e) { return equation.vanishes(e); };
+  const bool first = type == Type::first, second = type == Type::second;
+  if (second) {
+    kinds.emplace_back("autonomous");
+    add("conservative", [&] { return vanishes(f[1].derivative(1)); });
+    const E by_x = f[1].derivative(0), by_v = f[1].derivative(1);
+    add("linear of the second order",
+        [&] { return equation.constant(by_x).has_value() && equation.constant(by_v).has_value(); });
+  }
+  if (type == Type::system) {
+    add("linear system", [&] {
+      return std::ranges::all_of(
+          std::array{f[0].derivative(0), f[0].derivative(1), f[1].derivative(0), f[1].derivative(1)},
+          [&](const E& e) { return equation.constant(e).has_value(); });
+    });
+    add("conservative", [&] { return f[0] == y && vanishes(f[1].derivative(1)); });
+    add("Hamiltonian", [&] { return vanishes(f[0].derivative(0) + f[1].derivative(1)); });
+    add("gradient", [&] { return vanishes(f[0].derivative(1) - f[1].derivative(0)); });
+  }
+  if (second) add("Hamiltonian", [&] { return vanishes(f[1].derivative(1)); });
+  if (R.is_zero()) return kinds;
+  add("rotation", [&] { return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R); });
+  const E by_x = R.derivative(0), by_y = R.derivative(1);
+  if (first) add("autonomous", [&] { return vanishes(by_x); });
+  add("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
+  const bool linear = add("linear", [&] { return vanishes(by_y.derivative(1)); });
+  if (!linear) {
+    std::optional<Number> n;
+    holds([&] {
+      const E W = y * by_y - R;
+      if (!vanishes(W)) n = equation.constant(y * W.derivative(1) / W);
+      return true;
+    });
+    if (n && !(*n == Number(1)) && !(*n == Number(0)))
+      kinds.push_back(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
+    add("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)); });
+  }
+  const bool homogeneous = add("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
+  if (!homogeneous) {
+    std::optional<Number> m;
+    holds([&] {
+      const E below = R - y * by_y;
+      if (!vanishes(below)) m = equation.constant((R + x * by_x) / below);
+      return true;
+    });
+    if (m) {
+      kinds.push_back(
+          fmt::format("isobaric ({0} -> a*{0}, {1} -> a^({2})*{1})", names[0], names[1], E(*m).text({}, 6)));
+    }
+  }
+  std::optional<Number> c;
+  holds([&] {
+    if (!vanishes(by_y)) c = equation.constant(-by_x / by_y);
+    return true;
+  });
+  if (c && !(*c == Number(0))) {
+    kinds.push_back(fmt::format("shift along a direction (1, {})", E(*c).text({}, 6)));
+  }
+  if (second) return kinds;
+  holds([&] {
+    const auto [above, below] = fraction_of(R);
+    const E M = first ? -above : f[1], N = first ? below : -f[0];
+    const E curl = M.derivative(1) - N.derivative(0);
+    if (vanishes(curl)) {
+      if (first) kinds.emplace_back("exact");
+      return true;
+    }
+    const E of_x = curl / N, of_y = curl / M;
+    if (vanishes(of_x.derivative(1))) kinds.push_back("integrating factor of " + names[0]);
+    if (vanishes(of_y.derivative(0))) kinds.push_back("integrating factor of " + names[1]);
+    return true;
+  });
+  return kinds;
+}
+
+}  // namespace contensou::answers

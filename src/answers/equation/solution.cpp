@@ -1,0 +1,516 @@
+#include "answers/equation/solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "answers/equation/antiderivative.hpp"
+
+namespace contensou::answers {
+
+namespace solution_formulas {
+
+using E = Expression;
+using Kind = E::Kind;
+using Maybe = std::optional<Expression>;
+
+const E x = E::variable(0), y = E::variable(1), q = E::variable(2), p = E::variable(3);
+
+E ln(const E& e) { return E::function("ln", E::function("abs", e)); }
+
+/// Returns the shortest of a formula, its expansion and its form as one fraction.
+E tidied(const E& e) {
+  E best = e;
+  const auto offer = [&](const std::function<E()>& other) {
+    try {
+      const E each = other();
+      if (each.size() < best.size()) best = each;
+    } catch (const std::length_error&) {
+      // too long a form is not offered
+    }
+  };
+  offer([&] { return e.expanded(); });
+  offer([&] {
+    const auto [above, below] = fraction_of(e);
+    return above.expanded() / below;
+  });
+  offer([&] {
+    const auto [above, below] = fraction_of(e);
+    return above.expanded() / below.expanded();
+  });
+  return best;
+}
+
+/// Splits R = X(x) Y(y) into its factors.
+std::optional<std::array<E, 2>> separated(const Equation& equation) {
+  const E& R = equation.slope;
+  std::vector<E> factors, of_x, of_y;
+  for (const E& each : factors_of(R)) {
+    if (each.is(Kind::function) && each.name() == "exp") {
+      const E exponent = each.parts()[0].expanded();
+      for (const E& term : terms_of(exponent)) factors.push_back(E::function("exp", term));
+    } else {
+      factors.push_back(each);
+    }
+  }
+  bool mixed = false;
+  for (const E& each : factors) {
+    mixed |= each.has(0) && each.has(1);
+    (each.has(1) ? of_y : of_x).push_back(each);
+  }
+  if (!mixed) return {{E::product(of_x), E::product(of_y)}};
+  if (!equation.vanishes(R * R.derivative(0).derivative(1) - R.derivative(0) * R.derivative(1))) return std::nullopt;
+  for (const Number& a : {Number(0), Number(1), Number(2), Number(1, 2), Number(-1)}) {
+    for (const Number& b : {Number(0), Number(1), Number(2), Number(1, 2), Number(-1)}) {
+      const E corner = R.with(0, a).with(1, b);
+      const double value = corner({});
+      if (!std::isfinite(value) || value == 0) continue;
+      return {{tidied(R.with(1, b) / corner), tidied(R.with(0, a))}};
+    }
+  }
+  return std::nullopt;
+}
+
+/// H of the linear equation y' = a y + b in the variable z of the place of y: H = z m - integral of b m, m = exp(-A).
+Maybe of_linear(const E& a, const E& b, const E& z, std::size_t variable) {
+  const Maybe A = antiderivative(tidied(a), variable);
+  if (!A) return A;
+  const E m = E::function("exp", -*A);
+  if (b.is_zero()) return z * m;
+  const Maybe rest = antiderivative(tidied(b * m), variable);
+  return rest ? Maybe(z * m - *rest) : rest;
+}
+
+/// Returns H of an equation dz/ds = R that is linear in z or of Bernoulli's kind; s and z are the variables' indices.
+Maybe of_bernoulli(const Equation& equation, const E& R, std::size_t s, std::size_t z) {
+  const E at = E::variable(z), by = R.derivative(z);
+  if (equation.vanishes(by.derivative(z))) {
+    const E a = tidied(by.with(z, 0)), b = tidied(R.with(z, 0));
+    // A formula without a value at z = 0 is expanded first.
+    if (std::isfinite(a({0.37, 0.59})) && !a.has(z)) return of_linear(a, b, at, s);
+    const auto all = coefficients(R, z, 1);
+    return all && all->size() == 2 ? of_linear((*all)[1], (*all)[0], at, s) : std::nullopt;
+  }
+  const E W = at * by - R;
+  const auto n = equation.constant(at * W.derivative(z) / W);
+  if (!n || *n == Number(1) || *n == Number(0)) return std::nullopt;
+  const E b = tidied(W.with(z, 1) / (E(*n) - 1)), a = tidied(R.with(z, 1) - b), k = 1 - E(*n);
+  return of_linear(k * a, k * b, power(at, k), s);
+}
+
+/// Returns H with dH = (M dx + N dy), a closed form.
+Maybe of_closed(const E& M, const E& N) {
+  const auto attempt = [](const E& first, std::size_t a, const E& second, std::size_t b) -> Maybe {
+    const Maybe part = antiderivative(first, a);
+    if (!part) return part;
+    const E rest = tidied(second - part->derivative(b));
+    if (rest.has(a)) return std::nullopt;
+    const Maybe other = antiderivative(rest, b);
+    return other ? Maybe(*part + *other) : other;
+  };
+  if (Maybe found = attempt(M, 0, N, 1)) return found;
+  return attempt(N, 1, M, 0);
+}
+
+/// Returns H of Riccati's equation y' = a + b y + c y^2, of which y = u(x) is a solution: with y = u + 1/z, z is
+/// linear.
+Maybe of_riccati(const E& b, const E& c, const E& u) { return of_linear(-(2 * c * u + b), -c, 1 / (y - u), 0); }
+
+/// Returns functions that are tried as solutions of Riccati's equation, without their factor.
+std::vector<E> candidates(const std::vector<E>& coefficients_) {
+  std::vector<E> all{1};
+  for (const int k : {1, -1, 2, -2, 3, -3}) all.push_back(power(x, k));
+  for (const E& each : coefficients_) {
+    if (each.is_zero() || !each.has(0)) continue;
+    for (const E& term : terms_of(each)) all.push_back(term_of(term).rest);
+  }
+  for (const auto* name : {"exp", "sin", "cos", "tan", "ln"}) {
+    const bool occurs = std::ranges::any_of(coefficients_, [&](const E& each) {
+      bool found = false;
+      each.replaced([&](const E& part) -> Maybe {
+        found |= part.is(Kind::function) && (part.name() == name || part.name() == "sin" || part.name() == "cos");
+        return std::nullopt;
+      });
+      return found;
+    });
+    if (!occurs) continue;
+    all.push_back(E::function(name, x));
+    all.push_back(1 / E::function(name, x));
+  }
+  return all;
+}
+
+/// Returns Riccati solutions u = r g(x) + s h(x) with numbers r and s and functions g, h.
+Maybe particular(const Equation& equation, const std::array<E, 3>& of) {
+  const E &a = of[0], &b = of[1], &c = of[2];
+  std::vector<E> all = candidates({a, b, c});
+  constexpr std::size_t most = 16;
+  if (all.size() > most) all.erase(all.begin() + most, all.end());
+  const auto is_solution = [&](const E& u) {
+    return equation.vanishes(u.derivative(0) - a - b * u - c * u * u, 1e-11);
+  };
+  constexpr double at[]{0.83, 1.31};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const E& g = all[i];
+    // c g^2 r^2 + (b g - g') r + a = 0 at one x
+    const double here[]{at[0], 0};
+    const double two = (c * g * g)(here), one = (b * g - g.derivative(0))(here), none = a(here);
+    const double D = one * one - 4 * two * none;
+    if (!(D >= 0) || two == 0) continue;
+    for (const double sign : {1., -1.}) {
+      const double r = (-one + sign * std::sqrt(D)) / (2 * two), next[]{at[1], 0};
+      if (std::abs((a + (b * g - g.derivative(0)) * E(Number(r)) + c * g * g * E(Number(r * r)))(next)) > 1e-9)
+        continue;
+      const auto snapped = equation.constant(E(Number(r)) + 0 * x);
+      const Number factor = std::abs(r * 60 - std::rint(r * 60)) < 1e-8
+                                ? Number(static_cast<long long>(std::rint(r * 60)), 60)
+                                : Number(r);
+      if (is_solution(factor * g)) return factor * g;
+      (void)snapped;
+    }
+  }
+  // Two functions: Newton's method for r and s at two x, from a few starts.
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = i + 1; k < all.size(); ++k) {
+      const E &g = all[i], &h = all[k];
+      for (const double start : {1., -1., 2.5}) {
+        Eigen::Vector2d r(start, -0.7 * start + 0.4);
+        bool converged = false;
+        for (int step = 0; step < 25 && r.allFinite(); ++step) {
+          Eigen::Vector2d misfit;
+          Eigen::Matrix2d slopes;
+          for (int row = 0; row < 2; ++row) {
+            const double here[]{at[row], 0};
+            const double gv = g(here), hv = h(here), u = r[0] * gv + r[1] * hv, B = b(here), C = c(here);
+            const double dg = g.derivative(0)(here), dh = h.derivative(0)(here);
+            misfit[row] = a(here) + B * u + C * u * u - r[0] * dg - r[1] * dh;
+            slopes.row(row) << (B + 2 * C * u) * gv - dg, (B + 2 * C * u) * hv - dh;
+          }
+          if (misfit.norm() < 1e-13) {
+            converged = true;
+            break;
+          }
+          r -= slopes.inverse() * misfit;
+        }
+        if (!converged) continue;
+        const Eigen::Vector2d twelfths = (r * 12).array().rint();
+        if (!((r * 12 - twelfths).norm() < 1e-9) || r.norm() > 100) continue;
+        const E u =
+            Number(static_cast<long long>(twelfths[0]), 12) * g + Number(static_cast<long long>(twelfths[1]), 12) * h;
+        if (is_solution(u)) return u;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Returns the generator as text, such as "x d/dx + 2 y d/dy".
+std::string field_text(const std::array<E, 2>& X, const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::size_t i : {0U, 1U}) {
+    if (X[i].is_zero()) continue;
+    std::string factor = X[i].text(names);
+    if (X[i].is(Kind::sum)) factor = "(" + factor + ")";
+    const bool minus = factor.starts_with('-');
+    if (minus) factor.erase(0, 1);
+    text += text.empty() ? (minus ? "-" : "") : minus ? " - " : " + ";
+    text += (factor == "1" ? "" : factor + " ") + "d/d" + names[i];
+  }
+  return text;
+}
+
+/// Returns true if a formula in q, after q is replaced, equals dq/dp along orbits.
+bool agrees(const Equation& equation, const Coordinates& c) {
+  const auto rate = [&](const E& e) { return e.derivative(0) + equation.slope * e.derivative(1); };
+  const E of_q = rate(c.q), of_p = rate(c.p);
+  const E difference = c.dq_dp ? of_q - c.dq_dp->with(2, c.q) * of_p : of_p - c.dp_dq->with(2, c.q) * of_q;
+  const auto at = equation.points({equation.slope, of_q, of_p, difference}, true);
+  constexpr std::size_t fewest = 20;
+  return at.size() >= fewest && std::ranges::all_of(at, [&](const Eigen::Vector2d& point) {
+           const double here[]{point[0], point[1]};
+           const double size = std::abs(of_q(here)) + std::abs(of_p(here));
+           return std::abs(difference(here)) <= 1e-9 * (1 + size);
+         });
+}
+
+/// Returns a number as a fraction with a small denominator, if it is close to one.
+Number snapped(double value) {
+  constexpr double least = 1e-9;
+  constexpr long long largest = 60;
+  for (long long below = 1; below <= largest; ++below) {
+    const double above = std::rint(value * static_cast<double>(below));
+    if (std::abs(value * static_cast<double>(below) - above) < least && std::abs(above) < 1e9) {
+      return Number(static_cast<long long>(above), below);
+    }
+  }
+  return Number(value);
+}
+
+}  // namespace solution_formulas
+
+using namespace solution_formulas;
+
+std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found) {
+  const auto& f = equation.f;
+  const auto& names = equation.names;
+  const E& R = equation.slope;
+  const E by_x = R.derivative(0), by_y = R.derivative(1);
+  const auto accepted = [&](Coordinates c, const std::array<E, 2>& X,
+                            const std::string& map) -> std::optional<Coordinates> {
+    if (c.dq_dp) c.dq_dp = tidied(*c.dq_dp);
+    if (c.dp_dq) c.dp_dq = tidied(*c.dp_dq);
+    if (!agrees(equation, c)) return std::nullopt;
+    c.symmetry = map + ";  X = " + field_text(X, names);
+    return c;
+  };
+  const auto of_scaling = [&](const Number& m, const Number& x0, const Number& y0) -> std::optional<Coordinates> {
+    const E dx = x - x0, dy = y - y0;
+    if (!equation.vanishes(dx * by_x + m * dy * by_y - (m - Number(1)) * R)) return std::nullopt;
+    const bool whole = m.is_whole();
+    const Number side = equation.start[0] < x0.value() ? -1 : 1;
+    const E s = side, raised = whole ? power(s, m) : E(1);
+    const E at = R.with(0, s + x0).with(1, q * raised + y0);
+    Coordinates c{"", dy / power(whole ? dx : E::function("abs", dx), m), ln(dx), s * at / raised - m * q, {}, {}};
+    if (equation.type == FormulaField::Equations::system) {
+      // dt/dp = x/x'; x' = x^(1 - c) f(1, q) with the time's weight c
+      const E first = f[0].with(0, s + x0).with(1, q * raised + y0);
+      const E rate = (dx * f[0].derivative(0) + m * dy * f[0].derivative(1)) / f[0];
+      if (const auto weight = equation.constant(rate); weight && std::isfinite(first({0, 0, 0.713}))) {
+        c.dt_dp = tidied(E::function("exp", (Number(1) - *weight) * p) * s / first);
+      }
+    }
+    const std::string of_m = E(m).text(names), x_name = dx.text(names), y_name = dy.text(names);
+    const auto bracketed = [](const std::string& text) {
+      return text.find(' ') == std::string::npos ? text : "(" + text + ")";
+    };
+    const std::string map = fmt::format("{0} -> a*{0}, {1} -> {2}{3}", bracketed(x_name), bracketed(y_name),
+                                        m == Number(1)                  ? "a*"
+                                        : m == Number(0)                ? ""
+                                        : m.is_whole() && m.value() > 0 ? "a^" + of_m + "*"
+                                                                        : "a^(" + of_m + ")*",
+                                        bracketed(y_name));
+    return accepted(c, {dx, m * dy}, map);
+  };
+  std::vector<std::array<Number, 3>> scalings;  // m and the centre
+  scalings.push_back({1, 0, 0});
+  const E below = R - y * by_y;
+  if (!equation.vanishes(below)) {
+    if (const auto m = equation.constant((R + x * by_x) / below)) scalings.push_back({*m, 0, 0});
+  }
+  if (found.scaling) {
+    const auto& [time, A, b, everywhere] = *found.scaling;
+    const double size = A.lpNorm<Eigen::Infinity>();
+    if (std::abs(A(0, 1)) + std::abs(A(1, 0)) < 1e-9 * size && A(0, 0) != 0) {
+      const Eigen::Vector2d centre = found.scaling->centre();
+      scalings.push_back({snapped(A(1, 1) / A(0, 0)), snapped(centre[0]), snapped(centre[1])});
+    }
+  }
+  if (equation.type == FormulaField::Equations::first && equation.vanishes(by_x)) {
+    return accepted({"", y, x, R.with(1, q), {}, {}}, {1, 0}, fmt::format("{0} -> {0} + a", names[0]));
+  }
+  if (equation.vanishes(by_y)) {
+    return accepted({"", x, y, {}, R.with(0, q), {}}, {0, 1}, fmt::format("{0} -> {0} + a", names[1]));
+  }
+  for (const auto& [m, x0, y0] : scalings) {
+    if (auto c = of_scaling(m, x0, y0)) return c;
+  }
+  if (equation.vanishes(below)) {
+    return accepted({"", x, ln(y), {}, (R / y).with(1, 1).with(0, q), {}}, {0, y},
+                    fmt::format("{0} -> a*{0}", names[1]));
+  }
+  if (const auto c = equation.constant(-by_x / by_y)) {
+    const E slope = E(*c);
+    return accepted({"", y - slope * x, x, R.with(0, 0).with(1, q) - slope, {}, {}}, {1, slope},
+                    fmt::format("{0} -> {0} + a, {1} -> {1} + {2}", names[0], names[1],
+                                *c == Number(1) ? "a" : E(*c).text(names) + "*a"));
+  }
+  const E r = power(x * x + y * y, Number(1, 2)), angle = E::function("atan", y / x);
+  if (equation.vanishes(x * by_y - y * by_x - 1 - R * R)) {
+    // at (q, 0) the angle changes by y'/q, and r by x'
+    Coordinates c{"", r, angle, {}, tidied(f[1] / f[0] / x).with(1, 0).with(0, q), {}};
+    return accepted(c, {-y, x}, "turns of the plane about the origin");
+  }
+  for (const reduction::Generator& X : found.generators) {
+    const auto& A = X.matrix;
+    const double s = A(0, 0), w = A(1, 0), error = 1e-9 * A.lpNorm<Eigen::Infinity>();
+    if (s == 0 || w == 0 || std::abs(A(1, 1) - s) > error || std::abs(A(0, 1) + w) > error || X.shift.norm() > error)
+      continue;
+    const E k = snapped(w / s), cos = E::function("cos", q), sin = E::function("sin", q);
+    const E F = f[0].with(0, cos).with(1, sin), G = f[1].with(0, cos).with(1, sin);
+    Coordinates c{"", angle - k * ln(r), ln(r), (G * cos - F * sin) / (F * cos + G * sin) - k, {}, {}};
+    if (auto spiral = accepted(c, {x - k * y, k * x + y}, "spirals: the plane is turned and magnified")) return spiral;
+  }
+  return std::nullopt;
+}
+
+std::optional<IntegralFormula> integral_of(const Equation& equation, const std::optional<Coordinates>& coordinates,
+                                           const std::optional<Expression>& factor) {
+  const auto& f = equation.f;
+  const E& R = equation.slope;
+  std::optional<IntegralFormula> result;
+  const auto attempt = [&](const std::function<Maybe()>& way) {
+    if (result) return;
+    try {
+      const Maybe H = way();
+      if (!H || !(H->has(0) || H->has(1))) return;
+      if (equation.is_integral(*H)) {
+        result = {*H, false};
+      } else if (equation.is_integral(*H, true)) {
+        result = {*H, true};
+      }
+    } catch (const std::exception&) {
+      // a formula became too long, or has no value
+    }
+  };
+  attempt([&]() -> Maybe {
+    const auto parts = separated(equation);
+    if (!parts) return std::nullopt;
+    const Maybe of_y = antiderivative(tidied(1 / (*parts)[1]), 1), of_x = antiderivative(tidied((*parts)[0]), 0);
+    return of_x && of_y ? Maybe(*of_y - *of_x) : std::nullopt;
+  });
+  attempt([&] { return of_bernoulli(equation, R, 0, 1); });
+  attempt([&]() -> Maybe {
+    if (!coordinates) return std::nullopt;
+    const auto& c = *coordinates;
+    if (c.dq_dp && c.dq_dp->is_zero()) return c.q;
+    const E rate = c.dp_dq ? *c.dp_dq : tidied(1 / *c.dq_dp);
+    const Maybe found = antiderivative(rate, 2);
+    return found ? Maybe(c.p - found->with(2, c.q)) : found;
+  });
+  attempt([&] { return of_bernoulli(equation, 1 / R, 1, 0); });
+  attempt([&]() -> Maybe {
+    const auto [above, below] = fraction_of(R);
+    for (const auto& [M, N] : {std::pair(-above, below), std::pair(-f[1], f[0])}) {
+      const E curl = M.derivative(1) - N.derivative(0);
+      if (equation.vanishes(curl)) return of_closed(M, N);
+      const E of_x = curl / N, of_y = -curl / M;
+      Maybe exponent;
+      if (equation.vanishes(of_x.derivative(1)))
+        exponent = antiderivative(tidied(of_x.with(1, Number(13, 10))), 0);
+      else if (equation.vanishes(of_y.derivative(0)))
+        exponent = antiderivative(tidied(of_y.with(0, Number(13, 10))), 1);
+      if (!exponent) continue;
+      const E m = E::function("exp", *exponent);
+      if (Maybe found = of_closed((M * m).expanded(), (N * m).expanded())) return found;
+    }
+    return std::nullopt;
+  });
+  attempt([&]() -> Maybe {
+    const auto all = coefficients(R, 1, 2);
+    if (!all || all->size() != 3) return std::nullopt;
+    const Maybe u = particular(equation, {(*all)[0], (*all)[1], (*all)[2]});
+    return u ? of_riccati((*all)[1], (*all)[2], *u) : u;
+  });
+  attempt([&]() -> Maybe {
+    if (!factor) return std::nullopt;
+    return of_closed(-f[1] / *factor, f[0] / *factor);
+  });
+  if (result) {
+    if (const E expanded = tidied(result->H);
+        expanded.size() < result->H.size() && equation.is_integral(expanded, result->quadrant)) {
+      result->H = expanded;
+    }
+  }
+  return result;
+}
+
+std::optional<Expression> solved_for_y(const Equation& equation, const Expression& H) {
+  const double x0 = equation.start[0], y0 = equation.start[1];
+  const double C = H({x0, y0});
+  if (!std::isfinite(C)) return std::nullopt;
+  try {
+    E left = H, right = Number(C);
+    constexpr int most_steps = 30;
+    for (int step = 0; step < most_steps && !(left == y); ++step) {
+      if (!left.has(1)) return std::nullopt;
+      const double here = left({x0, y0});
+      if (left.is(Kind::sum)) {
+        std::vector<E> with_y, others;
+        for (const E& term : left.parts()) (term.has(1) ? with_y : others).push_back(term);
+        right = right - E::sum(others);
+        left = E::sum(with_y);
+        if (with_y.size() == 1) continue;
+        if (const auto all = coefficients(left, 1, 1); all && all->size() == 2) {
+          right = (right - (*all)[0]) / (*all)[1];
+          left = y;
+          continue;
+        }
+        // c (ln |a| - ln |b|) is ln |a/b|; then (a y + b)/(c y + d) is solved
+        if (with_y.size() != 2) return std::nullopt;
+        const auto [c, first] = term_of(with_y[0]);
+        const auto [d, second] = term_of(with_y[1]);
+        if (!(c == -d) || !first.is(Kind::function) || !second.is(Kind::function) || first.name() != "ln" ||
+            second.name() != "ln")
+          return std::nullopt;
+        const E a = first.parts()[0], b = second.parts()[0];
+        const auto inner = [](const E& e) { return e.is(Kind::function) && e.name() == "abs" ? e.parts()[0] : e; };
+        const auto above = coefficients(inner(a), 1, 1), below = coefficients(inner(b), 1, 1);
+        if (!above || !below || above->size() != 2 || below->size() != 2) return std::nullopt;
+        const double sign = (inner(a) / inner(b))({x0, y0}) < 0 ? -1 : 1;
+        const E ratio = Number(sign) * E::function("exp", (right / E(c)).expanded());
+        right = ((*below)[0] * ratio - (*above)[0]) / ((*above)[1] - (*below)[1] * ratio);
+        left = y;
+      } else if (left.is(Kind::product)) {
+        std::vector<E> with_y, others;
+        for (const E& each : left.parts()) (each.has(1) ? with_y : others).push_back(each);
+        if (others.empty()) return std::nullopt;
+        right = (right / E::product(others)).expanded();
+        left = E::product(with_y);
+      } else if (left.is(Kind::power)) {
+        const auto [base, exponent] = base_and_exponent(left);
+        if (!exponent.is(Kind::number)) return std::nullopt;
+        const bool even = exponent.number().is_whole() && exponent.number().above() % 2 == 0;
+        const bool minus = base({x0, y0}) < 0;
+        if (minus && !even && !(exponent == E(-1))) return std::nullopt;
+        right = power(right, 1 / exponent);
+        if (minus && even) right = -right;
+        left = base;
+      } else {
+        const E argument = left.parts()[0];
+        const auto name = left.name();
+        const double at = argument({x0, y0});
+        if (name == "ln")
+          right = E::function("exp", right.expanded());
+        else if (name == "exp")
+          right = E::function("ln", right);
+        else if (name == "abs")
+          right = at < 0 ? -right : right;
+        else if (name == "atan")
+          right = E::function("tan", right);
+        else if (name == "asin")
+          right = E::function("sin", right);
+        else if (name == "sin" && std::abs(at) < std::acos(0.))
+          right = E::function("asin", right);
+        else if (name == "tan" && std::abs(at) < std::acos(0.))
+          right = E::function("atan", right);
+        else if (name == "sinh")
+          right = E::function("asinh", right);
+        else if (name == "asinh")
+          right = E::function("sinh", right);
+        else
+          return std::nullopt;
+        left = argument;
+      }
+      (void)here;
+    }
+    if (!(left == y) || right.has(1)) return std::nullopt;
+    const E solution = tidied(right), slope = solution.derivative(0);
+    constexpr double step = 1e-3, error = 1e-9;
+    for (const double at : {x0, x0 * (1 + step), x0 + step}) {
+      const double value = solution({at});
+      if (at == x0 && !(std::abs(value - y0) <= error * (1 + std::abs(y0)))) return std::nullopt;
+      const double expected = equation.slope({at, value}), found = slope({at});
+      if (!(std::abs(found - expected) <= 1e-8 * (1 + std::abs(expected)))) return std::nullopt;
+    }
+    return solution;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace contensou::answers

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/equation/equation.hpp"
+#include "contensou/reduction/symmetries.hpp"
+
+namespace contensou::answers {
+
+/// Coordinates in which a symmetry of the equation only shifts p, and the equation in them. Formulas contain x and y
+/// with the indices 0 and 1, and q with the index 2.
+struct Coordinates {
+  std::string symmetry;                    ///< the map and its generator as text
+  Expression q, p;                         ///< as formulas in x and y
+  std::optional<Expression> dq_dp, dp_dq;  ///< one of them, as a formula in q
+  std::optional<Expression> dt_dp;         ///< for a system, as a formula in q and p (index 3)
+};
+
+/// Returns the coordinates of the first symmetry that the equation has: scaling, shift or turn of the plane.
+/// @param found  symmetries of the field, from which a centre and a matrix are taken as fractions
+std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found);
+
+/// A function H of x and y that is constant along orbits, as a formula.
+struct IntegralFormula {
+  Expression H;
+  bool quadrant = false;  ///< true: checked only in the quadrant of the start
+};
+
+/// Returns H as a formula if one is found and checked; the search is bounded.
+/// @param factor  inverse integrating factor V as a formula, if it is known
+std::optional<IntegralFormula> integral_of(const Equation& equation, const std::optional<Coordinates>& coordinates,
+                                           const std::optional<Expression>& factor);
+
+/// Returns y as a formula in x along the orbit through the start, solved from H = C; empty if H has no such branch.
+std::optional<Expression> solved_for_y(const Equation& equation, const Expression& H);
+
+}  // namespace contensou::answers
