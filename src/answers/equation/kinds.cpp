@@ -180,17 +180,31 @@ std::vector<std::string> kinds_of(const Equation& equation) {
   const E by_x = R.derivative(0), by_y = R.derivative(1);
   if (first) add("autonomous", [&] { return vanishes(by_x); });
   add("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
-  const bool linear = add("linear", [&] { return vanishes(by_y.derivative(1)); });
+  // A polynomial of a degree below n is determined by n values. Derivatives alone do not see kinks, as of |y|.
+  const auto is_polynomial = [&](const std::vector<int>& at) {
+    std::vector<E> terms{R};
+    for (const int i : at) {
+      E term = -R.with(1, i);
+      for (const int k : at) term = k == i ? term : term * (y - k) / (i - k);
+      terms.push_back(term);
+    }
+    return vanishes(E::sum(terms));
+  };
+  const bool linear = add("linear", [&] { return vanishes(by_y.derivative(1)) && is_polynomial({1, -2}); });
   if (!linear) {
     std::optional<Number> n;
     holds([&] {
       const E W = y * by_y - R;
       if (!vanishes(W)) n = equation.constant(y * W.derivative(1) / W);
+      if (n && !(*n == Number(1))) {
+        const E rest = (R - W / (E(*n) - 1)) / y;
+        if (!vanishes(rest - rest.with(1, 1))) n.reset();
+      }
       return true;
     });
     if (n && !(*n == Number(1)) && !(*n == Number(0)))
       kinds.push_back(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
-    add("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)); });
+    add("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
   }
   const bool homogeneous = add("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
   if (!homogeneous) {

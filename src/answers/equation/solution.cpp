@@ -46,6 +46,55 @@ E tidied(const E& e) {
   return best;
 }
 
+/// Returns the formula with each |z|^n, n whole, replaced by z^n. Both differ by a sign between the zeros of z.
+E without_sizes(const E& e) {
+  return e.replaced([](const E& part) -> Maybe {
+    const auto [base, exponent] = base_and_exponent(part);
+    const bool whole = exponent.is(Kind::number) && exponent.number().is_whole();
+    if (!base.is(Kind::function) || base.name() != "abs" || !whole) return std::nullopt;
+    return power(base.parts()[0], exponent);
+  });
+}
+
+/// Joins the factors a^k b^k with the same fraction k.
+E joined(const E& e) {
+  std::vector<E> factors(factors_of(e).begin(), factors_of(e).end());
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const auto [base, exponent] = base_and_exponent(factors[i]);
+    if (!exponent.is(Kind::number) || exponent.number().is_whole()) continue;
+    for (std::size_t k = factors.size(); --k > i;) {
+      const auto [other, same] = base_and_exponent(factors[k]);
+      if (!(same == exponent)) continue;
+      factors[i] = power((base_and_exponent(factors[i]).first * other).expanded(), exponent);
+      factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+  return E::product(factors);
+}
+
+/// Returns the formula with the logarithms of products, powers and fractions as sums.
+E with_sums_of_logarithms(const E& e) {
+  return e.replaced([](const E& part) -> Maybe {
+    if (!part.is(Kind::function) || part.name() != "ln") return std::nullopt;
+    const E& z = part.parts()[0];
+    const E inner = z.is(Kind::function) && z.name() == "abs" ? z.parts()[0] : z;
+    const auto [above, below] = fraction_of(inner);
+    std::vector<E> terms;
+    for (const auto& [side, sign] : {std::pair(above, 1), std::pair(below, -1)}) {
+      for (const E& factor : factors_of(side)) {
+        if (factor.is_constant()) continue;
+        const auto [base, exponent] = base_and_exponent(factor);
+        if (exponent.is(Kind::number)) {
+          terms.push_back(sign * exponent * ln(base));
+        } else {
+          terms.push_back(sign * ln(factor));
+        }
+      }
+    }
+    return E::sum(terms);
+  });
+}
+
 /// Splits R = X(x) Y(y) into its factors.
 std::optional<std::array<E, 2>> separated(const Equation& equation) {
   const E& R = equation.slope;
@@ -76,14 +125,30 @@ std::optional<std::array<E, 2>> separated(const Equation& equation) {
   return std::nullopt;
 }
 
-/// H of the linear equation y' = a y + b in the variable z of the place of y: H = z m - integral of b m, m = exp(-A).
-Maybe of_linear(const E& a, const E& b, const E& z, std::size_t variable) {
+/// Returns H of a separable equation.
+Maybe of_separable(const Equation& equation) {
+  const auto parts = separated(equation);
+  if (!parts) return std::nullopt;
+  const Maybe of_y = antiderivative(tidied(1 / (*parts)[1]), 1);
+  const Maybe of_x = of_y ? antiderivative(tidied((*parts)[0]), 0) : of_y;
+  return of_x ? Maybe(*of_y - *of_x) : of_x;
+}
+
+/// H of the linear equation z' = a z + b: z m - integral of b m, m = exp(-integral of a).
+Maybe of_linear(const Equation& equation, const E& a, const E& b, const E& z, std::size_t variable) {
   const Maybe A = antiderivative(tidied(a), variable);
   if (!A) return A;
-  const E m = E::function("exp", -*A);
+  const E sized = E::function("exp", -*A), m = without_sizes(sized);
   if (b.is_zero()) return z * m;
-  const Maybe rest = antiderivative(tidied(b * m), variable);
-  return rest ? Maybe(z * m - *rest) : rest;
+  if (const Maybe rest = antiderivative(tidied(b * m), variable)) return z * m - *rest;
+  // |x - 1|^(1/2) |x + 1|^(1/2) is the root of a quadratic, with the sign that it has next to the start
+  const E root = joined(sized.replaced([&](const E& part) -> Maybe {
+    if (!part.is(Kind::function) || part.name() != "abs") return std::nullopt;
+    const E& inner = part.parts()[0];
+    return inner({equation.start[0], equation.start[1]}) < 0 ? -inner : inner;
+  }));
+  const Maybe rest = antiderivative(tidied(joined(b * root)), variable);
+  return rest ? Maybe(z * root - *rest) : rest;
 }
 
 /// Returns H of an equation dz/ds = R that is linear in z or of Bernoulli's kind; s and z are the variables' indices.
@@ -92,15 +157,59 @@ Maybe of_bernoulli(const Equation& equation, const E& R, std::size_t s, std::siz
   if (equation.vanishes(by.derivative(z))) {
     const E a = tidied(by.with(z, 0)), b = tidied(R.with(z, 0));
     // A formula without a value at z = 0 is expanded first.
-    if (std::isfinite(a({0.37, 0.59})) && !a.has(z)) return of_linear(a, b, at, s);
+    if (std::isfinite(a({0.37, 0.59})) && !a.has(z)) return of_linear(equation, a, b, at, s);
     const auto all = coefficients(R, z, 1);
-    return all && all->size() == 2 ? of_linear((*all)[1], (*all)[0], at, s) : std::nullopt;
+    return all && all->size() == 2 ? of_linear(equation, (*all)[1], (*all)[0], at, s) : std::nullopt;
   }
   const E W = at * by - R;
   const auto n = equation.constant(at * W.derivative(z) / W);
   if (!n || *n == Number(1) || *n == Number(0)) return std::nullopt;
   const E b = tidied(W.with(z, 1) / (E(*n) - 1)), a = tidied(R.with(z, 1) - b), k = 1 - E(*n);
-  return of_linear(k * a, k * b, power(at, k), s);
+  return of_linear(equation, k * a, k * b, power(at, k), s);
+}
+
+/// Returns H of an equation that is separable after y = x^m z.
+Maybe of_powers(const Equation& equation, const Number& m) {
+  const E raised = power(x, m);
+  const E T = tidied((equation.slope.with(1, raised * y) / raised - m * y / x).expanded());
+  const Equation other{FormulaField::Equations::first,
+                       {1, T},
+                       T,
+                       equation.names,
+                       {equation.start[0], equation.start[1] / raised({equation.start[0]})}};
+  const Maybe H = of_separable(other);
+  return H ? Maybe(H->with(1, y / raised)) : H;
+}
+
+/// Returns H of an equation that is linear or of Bernoulli's kind in z = tan(y), exp(y) or ln(y).
+Maybe of_function(const Equation& equation, std::string_view name) {
+  bool occurs = false;
+  const bool of_tan = name == "tan";
+  const auto is_at = [](const E& part, std::string_view of) {
+    return part.is(Kind::function) && part.name() == of && part.parts()[0] == y;
+  };
+  const E marked = equation.slope.replaced([&](const E& part) -> Maybe {
+    occurs |= is_at(part, name) || (of_tan && (is_at(part, "sin") || is_at(part, "cos")));
+    if (is_at(part, "sin") && of_tan) return E::function("tan", y) * E::function("cos", y);
+    return std::nullopt;
+  });
+  if (!occurs) return std::nullopt;
+  const E z = E::function(name, y);
+  E T = of_tan ? (marked / power(E::function("cos", y), 2)).expanded() : marked * z.derivative(1);
+  T = T.replaced([&](const E& part) -> Maybe {
+    const auto [base, exponent] = base_and_exponent(part);
+    if (is_at(part, name)) return y;
+    if (of_tan && is_at(base, "cos") && (exponent / 2).is(Kind::number) && (exponent / 2).number().is_whole()) {
+      return power(1 + y * y, -exponent / 2);
+    }
+    if (part == y && !of_tan) return name == "exp" ? E::function("ln", y) : E::function("exp", y);
+    return std::nullopt;
+  });
+  T = tidied(T);
+  const Equation other{
+      FormulaField::Equations::first, {1, T}, T, equation.names, {equation.start[0], z({0, equation.start[1]})}};
+  const Maybe H = of_bernoulli(other, T, 0, 1);
+  return H ? Maybe(H->with(1, z)) : H;
 }
 
 /// Returns H with dH = (M dx + N dy), a closed form.
@@ -119,12 +228,16 @@ Maybe of_closed(const E& M, const E& N) {
 
 /// Returns H of Riccati's equation y' = a + b y + c y^2, of which y = u(x) is a solution: with y = u + 1/z, z is
 /// linear.
-Maybe of_riccati(const E& b, const E& c, const E& u) { return of_linear(-(2 * c * u + b), -c, 1 / (y - u), 0); }
+Maybe of_riccati(const Equation& equation, const E& b, const E& c, const E& u) {
+  return of_linear(equation, -(2 * c * u + b), -c, 1 / (y - u), 0);
+}
 
 /// Returns functions that are tried as solutions of Riccati's equation, without their factor.
 std::vector<E> candidates(const std::vector<E>& coefficients_) {
   std::vector<E> all{1};
-  for (const int k : {1, -1, 2, -2, 3, -3}) all.push_back(power(x, k));
+  for (const Number& k : {Number(1), Number(-1), Number(2), Number(-2), Number(1, 2), Number(-1, 2), Number(3)}) {
+    all.push_back(power(x, k));
+  }
   for (const E& each : coefficients_) {
     if (each.is_zero() || !each.has(0)) continue;
     for (const E& term : terms_of(each)) all.push_back(term_of(term).rest);
@@ -166,12 +279,10 @@ Maybe particular(const Equation& equation, const std::array<E, 3>& of) {
       const double r = (-one + sign * std::sqrt(D)) / (2 * two), next[]{at[1], 0};
       if (std::abs((a + (b * g - g.derivative(0)) * E(Number(r)) + c * g * g * E(Number(r * r)))(next)) > 1e-9)
         continue;
-      const auto snapped = equation.constant(E(Number(r)) + 0 * x);
       const Number factor = std::abs(r * 60 - std::rint(r * 60)) < 1e-8
                                 ? Number(static_cast<long long>(std::rint(r * 60)), 60)
                                 : Number(r);
       if (is_solution(factor * g)) return factor * g;
-      (void)snapped;
     }
   }
   // Two functions: Newton's method for r and s at two x, from a few starts.
@@ -260,12 +371,22 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
   const auto& names = equation.names;
   const E& R = equation.slope;
   const E by_x = R.derivative(0), by_y = R.derivative(1);
-  const auto accepted = [&](Coordinates c, const std::array<E, 2>& X,
-                            const std::string& map) -> std::optional<Coordinates> {
+  const bool has_time = equation.type != FormulaField::Equations::first;
+  /// @param place  x and y as formulas in q and p
+  const auto accepted = [&](Coordinates c, const std::array<E, 2>& X, const std::string& map,
+                            const std::array<E, 2>& place) -> std::optional<Coordinates> {
     if (c.dq_dp) c.dq_dp = tidied(*c.dq_dp);
     if (c.dp_dq) c.dp_dq = tidied(*c.dp_dq);
     if (!agrees(equation, c)) return std::nullopt;
     c.symmetry = map + ";  X = " + field_text(X, names);
+    if (!has_time) return c;
+    const E rate = f[0] * c.p.derivative(0) + f[1] * c.p.derivative(1);
+    if (!c.dt_dp) c.dt_dp = 1 / tidied(rate.with(0, place[0]).with(1, place[1]));
+    c.dt_dp = tidied(*c.dt_dp);
+    const E error = c.dt_dp->with(2, c.q).with(3, c.p) * rate - 1;
+    const auto at = equation.points({equation.slope, error}, true);
+    const auto vanishes = [&](const Eigen::Vector2d& here) { return std::abs(error({here[0], here[1]})) < 1e-9; };
+    if (at.empty() || !std::ranges::all_of(at, vanishes)) c.dt_dp.reset();
     return c;
   };
   const auto of_scaling = [&](const Number& m, const Number& x0, const Number& y0) -> std::optional<Coordinates> {
@@ -276,25 +397,21 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     const E s = side, raised = whole ? power(s, m) : E(1);
     const E at = R.with(0, s + x0).with(1, q * raised + y0);
     Coordinates c{"", dy / power(whole ? dx : E::function("abs", dx), m), ln(dx), s * at / raised - m * q, {}, {}};
-    if (equation.type == FormulaField::Equations::system) {
+    if (has_time) {
       // dt/dp = x/x'; x' = x^(1 - c) f(1, q) with the time's weight c
       const E first = f[0].with(0, s + x0).with(1, q * raised + y0);
       const E rate = (dx * f[0].derivative(0) + m * dy * f[0].derivative(1)) / f[0];
       if (const auto weight = equation.constant(rate); weight && std::isfinite(first({0, 0, 0.713}))) {
-        c.dt_dp = tidied(E::function("exp", (Number(1) - *weight) * p) * s / first);
+        c.dt_dp = E::function("exp", (Number(1) - *weight) * p) * s / first;
       }
     }
-    const std::string of_m = E(m).text(names), x_name = dx.text(names), y_name = dy.text(names);
-    const auto bracketed = [](const std::string& text) {
-      return text.find(' ') == std::string::npos ? text : "(" + text + ")";
+    const auto scaled = [&](const E& e, const Number& by) {
+      const std::string text = e.text(names), shown = e.is(Kind::sum) ? "(" + text + ")" : text;
+      const std::string factor = power(q, by).text(std::array{names[0], names[1], std::string("a")});
+      return by == Number(0) ? "" : fmt::format("{0} -> {1}*{0}", shown, factor);
     };
-    const std::string map = fmt::format("{0} -> a*{0}, {1} -> {2}{3}", bracketed(x_name), bracketed(y_name),
-                                        m == Number(1)                  ? "a*"
-                                        : m == Number(0)                ? ""
-                                        : m.is_whole() && m.value() > 0 ? "a^" + of_m + "*"
-                                                                        : "a^(" + of_m + ")*",
-                                        bracketed(y_name));
-    return accepted(c, {dx, m * dy}, map);
+    const std::string second = scaled(dy, m);
+    return accepted(c, {dx, m * dy}, scaled(dx, 1) + (second.empty() ? "" : ", " + second), {0, 0});
   };
   std::vector<std::array<Number, 3>> scalings;  // m and the centre
   scalings.push_back({1, 0, 0});
@@ -310,30 +427,32 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
       scalings.push_back({snapped(A(1, 1) / A(0, 0)), snapped(centre[0]), snapped(centre[1])});
     }
   }
-  if (equation.type == FormulaField::Equations::first && equation.vanishes(by_x)) {
-    return accepted({"", y, x, R.with(1, q), {}, {}}, {1, 0}, fmt::format("{0} -> {0} + a", names[0]));
+  if (equation.vanishes(by_x)) {
+    return accepted({"", y, x, R.with(1, q), {}, {}}, {1, 0}, fmt::format("{0} -> {0} + a", names[0]), {p, q});
   }
   if (equation.vanishes(by_y)) {
-    return accepted({"", x, y, {}, R.with(0, q), {}}, {0, 1}, fmt::format("{0} -> {0} + a", names[1]));
+    return accepted({"", x, y, {}, R.with(0, q), {}}, {0, 1}, fmt::format("{0} -> {0} + a", names[1]), {q, p});
   }
   for (const auto& [m, x0, y0] : scalings) {
     if (auto c = of_scaling(m, x0, y0)) return c;
   }
   if (equation.vanishes(below)) {
     return accepted({"", x, ln(y), {}, (R / y).with(1, 1).with(0, q), {}}, {0, y},
-                    fmt::format("{0} -> a*{0}", names[1]));
+                    fmt::format("{0} -> a*{0}", names[1]),
+                    {q, (equation.start[1] < 0 ? -1 : 1) * E::function("exp", p)});
   }
   if (const auto c = equation.constant(-by_x / by_y)) {
     const E slope = E(*c);
     return accepted({"", y - slope * x, x, R.with(0, 0).with(1, q) - slope, {}, {}}, {1, slope},
-                    fmt::format("{0} -> {0} + a, {1} -> {1} + {2}", names[0], names[1],
-                                *c == Number(1) ? "a" : E(*c).text(names) + "*a"));
+                    fmt::format("{0} -> {0} + a, {1} -> {2}", names[0], names[1],
+                                (y + slope * q).text(std::array{names[0], names[1], std::string("a")})),
+                    {p, q + slope * p});
   }
   const E r = power(x * x + y * y, Number(1, 2)), angle = E::function("atan", y / x);
   if (equation.vanishes(x * by_y - y * by_x - 1 - R * R)) {
     // at (q, 0) the angle changes by y'/q, and r by x'
     Coordinates c{"", r, angle, {}, tidied(f[1] / f[0] / x).with(1, 0).with(0, q), {}};
-    return accepted(c, {-y, x}, "turns of the plane about the origin");
+    return accepted(c, {-y, x}, "turns of the plane about the origin", {q, 0});
   }
   for (const reduction::Generator& X : found.generators) {
     const auto& A = X.matrix;
@@ -343,7 +462,8 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     const E k = snapped(w / s), cos = E::function("cos", q), sin = E::function("sin", q);
     const E F = f[0].with(0, cos).with(1, sin), G = f[1].with(0, cos).with(1, sin);
     Coordinates c{"", angle - k * ln(r), ln(r), (G * cos - F * sin) / (F * cos + G * sin) - k, {}, {}};
-    if (auto spiral = accepted(c, {x - k * y, k * x + y}, "spirals: the plane is turned and magnified")) return spiral;
+    if (auto spiral = accepted(c, {x - k * y, k * x + y}, "spirals: the plane is turned and magnified", {cos, sin}))
+      return spiral;
   }
   return std::nullopt;
 }
@@ -359,19 +479,18 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
       const Maybe H = way();
       if (!H || !(H->has(0) || H->has(1))) return;
       if (equation.is_integral(*H)) {
-        result = {*H, false};
+        result = {*H, *H};
       } else if (equation.is_integral(*H, true)) {
-        result = {*H, true};
+        result = {*H, *H, {}, true};
       }
     } catch (const std::exception&) {
       // a formula became too long, or has no value
     }
   };
+  attempt([&] { return of_separable(equation); });
   attempt([&]() -> Maybe {
-    const auto parts = separated(equation);
-    if (!parts) return std::nullopt;
-    const Maybe of_y = antiderivative(tidied(1 / (*parts)[1]), 1), of_x = antiderivative(tidied((*parts)[0]), 0);
-    return of_x && of_y ? Maybe(*of_y - *of_x) : std::nullopt;
+    if (!equation.vanishes(f[0].derivative(0) + f[1].derivative(1))) return std::nullopt;
+    return of_closed(-f[1], f[0]);
   });
   attempt([&] { return of_bernoulli(equation, R, 0, 1); });
   attempt([&]() -> Maybe {
@@ -404,17 +523,30 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
     const auto all = coefficients(R, 1, 2);
     if (!all || all->size() != 3) return std::nullopt;
     const Maybe u = particular(equation, {(*all)[0], (*all)[1], (*all)[2]});
-    return u ? of_riccati((*all)[1], (*all)[2], *u) : u;
+    return u ? of_riccati(equation, (*all)[1], (*all)[2], *u) : u;
   });
+  constexpr std::size_t long_formula = 150;
+  const bool is_short = R.size() < long_formula;
+  for (const Number& m :
+       {Number(1), Number(-1), Number(2), Number(-2), Number(1, 2), Number(3), Number(-1, 2), Number(3, 2)}) {
+    if (!is_short || result) break;
+    attempt([&] { return of_powers(equation, m); });
+    if (result) result->after = fmt::format("separable after q = {}", (y / power(x, m)).text(equation.names));
+  }
+  for (const auto* name : {"tan", "exp", "ln"}) {
+    if (is_short) attempt([&] { return of_function(equation, name); });
+  }
   attempt([&]() -> Maybe {
     if (!factor) return std::nullopt;
     return of_closed(-f[1] / *factor, f[0] / *factor);
   });
-  if (result) {
-    if (const E expanded = tidied(result->H);
-        expanded.size() < result->H.size() && equation.is_integral(expanded, result->quadrant)) {
-      result->H = expanded;
-    }
+  if (!result) return result;
+  constexpr std::size_t longest = 250;
+  if (result->H.size() > longest) return std::nullopt;
+  const E summed = with_sums_of_logarithms(result->H);
+  result->solvable = result->H;
+  for (const E& other : {summed, tidied(summed), tidied(result->H)}) {
+    if (other.size() < result->H.size() && equation.is_integral(other, result->quadrant)) result->H = other;
   }
   return result;
 }
@@ -424,11 +556,11 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
   const double C = H({x0, y0});
   if (!std::isfinite(C)) return std::nullopt;
   try {
-    E left = H, right = Number(C);
+    const Number simple = snapped(C);
+    E left = H, right = simple.is_exact() && simple.below() <= 12 ? simple : Number::inexact(C);
     constexpr int most_steps = 30;
     for (int step = 0; step < most_steps && !(left == y); ++step) {
       if (!left.has(1)) return std::nullopt;
-      const double here = left({x0, y0});
       if (left.is(Kind::sum)) {
         std::vector<E> with_y, others;
         for (const E& term : left.parts()) (term.has(1) ? with_y : others).push_back(term);
@@ -451,8 +583,8 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
         const auto inner = [](const E& e) { return e.is(Kind::function) && e.name() == "abs" ? e.parts()[0] : e; };
         const auto above = coefficients(inner(a), 1, 1), below = coefficients(inner(b), 1, 1);
         if (!above || !below || above->size() != 2 || below->size() != 2) return std::nullopt;
-        const double sign = (inner(a) / inner(b))({x0, y0}) < 0 ? -1 : 1;
-        const E ratio = Number(sign) * E::function("exp", (right / E(c)).expanded());
+        const int sign = (inner(a) / inner(b))({x0, y0}) < 0 ? -1 : 1;
+        const E ratio = sign * E::function("exp", (right / E(c)).expanded());
         right = ((*below)[0] * ratio - (*above)[0]) / ((*above)[1] - (*below)[1] * ratio);
         left = y;
       } else if (left.is(Kind::product)) {
@@ -496,10 +628,12 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
           return std::nullopt;
         left = argument;
       }
-      (void)here;
     }
     if (!(left == y) || right.has(1)) return std::nullopt;
-    const E solution = tidied(right), slope = solution.derivative(0);
+    const E solution = tidied(right);
+    constexpr std::size_t longest = 80;
+    if (solution.size() > longest) return std::nullopt;
+    const E slope = solution.derivative(0);
     constexpr double step = 1e-3, error = 1e-9;
     for (const double at : {x0, x0 * (1 + step), x0 + step}) {
       const double value = solution({at});

@@ -25,7 +25,9 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
 /// A function H of x and y that is constant along orbits, as a formula.
 struct IntegralFormula {
   Expression H;
-  bool quadrant = false;  ///< true: checked only in the quadrant of the start
+  Expression solvable;     ///< H in the form that was found, which solved_for_y solves
+  std::string after = {};  ///< "separable after q = ...", if the equation has no symmetry with this q
+  bool quadrant = false;   ///< true: checked only in the quadrant of the start
 };
 
 /// Returns H as a formula if one is found and checked; the search is bounded.

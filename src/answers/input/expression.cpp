@@ -103,7 +103,7 @@ Whole square_in(Whole x) {
 std::optional<E> power_of_number(const Number& base, const Number& exponent) {
   if (!base.is_exact() || !exponent.is_exact()) {
     const double value = std::pow(base.value(), exponent.value());
-    return std::isfinite(value) ? std::optional<E>(Number(value)) : std::nullopt;
+    return std::isfinite(value) ? std::optional<E>(Number::inexact(value)) : std::nullopt;
   }
   if (exponent.is_whole() && std::abs(exponent.above()) <= 64) {
     if (base == Number(0) && exponent.value() < 0) return std::nullopt;
@@ -185,7 +185,7 @@ Number operator+(const Number& a, const Number& b) {
       !__builtin_mul_overflow(a.below_, b.below_, &below)) {
     return Number(above, below);
   }
-  return Number(a.value_ + b.value_);
+  return Number::inexact(a.value_ + b.value_);
 }
 
 Number operator*(const Number& a, const Number& b) {
@@ -198,11 +198,12 @@ Number operator*(const Number& a, const Number& b) {
       return Number(above, below);
     }
   }
-  return Number(a.value_ * b.value_);
+  return Number::inexact(a.value_ * b.value_);
 }
 
 Number Number::operator-() const { return *this * Number(-1); }
-Number Number::inverse() const { return is_exact() && above_ != 0 ? Number(below_, above_) : Number(1 / value_); }
+Number Number::inverse() const { return is_exact() && above_ != 0 ? Number(below_, above_) : inexact(1 / value_); }
+Number Number::inexact(double value) { return {value, 0, 0}; }
 
 struct Expression::Node {
   Kind kind;
@@ -415,7 +416,8 @@ Expression Expression::function(std::string_view name, const Expression& x) {
     const double value = rows[*row].value(x.number().value());
     const bool known =
         x.is_zero() || (x.is_one() && (name == "ln" || name == "acosh")) || name == "abs" || name == "sign";
-    if (std::isfinite(value) && (known || !x.number().is_exact())) return Number(value);
+    if (std::isfinite(value) && !x.number().is_exact()) return Number::inexact(value);
+    if (known) return Number(value);
   }
   if (rows[*row].parity != 0 && is_negative(x)) {
     const Expression turned = function(name, -x);

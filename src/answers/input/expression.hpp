@@ -22,6 +22,9 @@ class Number {
   /// Takes the fraction with a denominator of at most a million that rounds to the value; else the value itself.
   Number(double value);  // NOLINT(google-explicit-constructor)
 
+  /// Takes the value itself, as a number that is not exact.
+  static Number inexact(double value);
+
   double value() const { return value_; }
   bool is_exact() const { return below_ != 0; }
   bool is_whole() const { return below_ == 1; }
@@ -36,6 +39,8 @@ class Number {
   Number inverse() const;
 
  private:
+  Number(double value, long long above, long long below) : value_(value), above_(above), below_(below) {}
+
   double value_;
   long long above_ = 0, below_ = 0;
 };
