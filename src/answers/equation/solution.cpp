@@ -134,38 +134,57 @@ Maybe of_separable(const Equation& equation) {
   return of_x ? Maybe(*of_y - *of_x) : of_x;
 }
 
-/// H of the linear equation z' = a z + b: z m - integral of b m, m = exp(-integral of a).
-Maybe of_linear(const Equation& equation, const E& a, const E& b, const E& z, std::size_t variable) {
+/// The integrating factor m of a linear equation z' = a z + b, and m b: (m z)' = m b.
+struct Multiplied {
+  E factor, rest;
+};
+std::optional<Multiplied> multiplied(const Equation& equation, const E& a, const E& b, std::size_t variable) {
   const Maybe A = antiderivative(tidied(a), variable);
-  if (!A) return A;
+  if (!A) return std::nullopt;
   const E sized = E::function("exp", -*A), m = without_sizes(sized);
-  if (b.is_zero()) return z * m;
-  if (const Maybe rest = antiderivative(tidied(b * m), variable)) return z * m - *rest;
+  if (b.is_zero() || antiderivative(tidied(b * m), variable)) return {{m, tidied(b * m)}};
   // |x - 1|^(1/2) |x + 1|^(1/2) is the root of a quadratic, with the sign that it has next to the start
   const E root = joined(sized.replaced([&](const E& part) -> Maybe {
     if (!part.is(Kind::function) || part.name() != "abs") return std::nullopt;
     const E& inner = part.parts()[0];
     return inner({equation.start[0], equation.start[1]}) < 0 ? -inner : inner;
   }));
-  const Maybe rest = antiderivative(tidied(joined(b * root)), variable);
-  return rest ? Maybe(z * root - *rest) : rest;
+  return {{root, tidied(joined(b * root))}};
 }
 
-/// Returns H of an equation dz/ds = R that is linear in z or of Bernoulli's kind; s and z are the variables' indices.
-Maybe of_bernoulli(const Equation& equation, const E& R, std::size_t s, std::size_t z) {
+Maybe of_linear(const Equation& equation, const E& a, const E& b, const E& z, std::size_t variable) {
+  const auto found = multiplied(equation, a, b, variable);
+  if (!found) return std::nullopt;
+  const Maybe rest = antiderivative(found->rest, variable);
+  return rest ? Maybe(z * found->factor - *rest) : rest;
+}
+
+/// A linear equation dz/ds = a z + b that an equation of y becomes with z = y^k.
+struct Linear {
+  E a, b, k;
+};
+/// Returns the linear equation of an equation dz/ds = R that is linear in z or of Bernoulli's kind.
+std::optional<Linear> linear_form(const Equation& equation, const E& R, std::size_t z) {
   const E at = E::variable(z), by = R.derivative(z);
   if (equation.vanishes(by.derivative(z))) {
     const E a = tidied(by.with(z, 0)), b = tidied(R.with(z, 0));
     // A formula without a value at z = 0 is expanded first.
-    if (std::isfinite(a({0.37, 0.59})) && !a.has(z)) return of_linear(equation, a, b, at, s);
+    if (std::isfinite(a({0.37, 0.59})) && !a.has(z)) return {{a, b, 1}};
     const auto all = coefficients(R, z, 1);
-    return all && all->size() == 2 ? of_linear(equation, (*all)[1], (*all)[0], at, s) : std::nullopt;
+    if (!all || all->size() != 2) return std::nullopt;
+    return {{(*all)[1], (*all)[0], 1}};
   }
   const E W = at * by - R;
   const auto n = equation.constant(at * W.derivative(z) / W);
   if (!n || *n == Number(1) || *n == Number(0)) return std::nullopt;
   const E b = tidied(W.with(z, 1) / (E(*n) - 1)), a = tidied(R.with(z, 1) - b), k = 1 - E(*n);
-  return of_linear(equation, k * a, k * b, power(at, k), s);
+  return {{k * a, k * b, k}};
+}
+
+/// Returns H of an equation dz/ds = R that is linear in z or of Bernoulli's kind; s and z are the variables' indices.
+Maybe of_bernoulli(const Equation& equation, const E& R, std::size_t s, std::size_t z) {
+  const auto form = linear_form(equation, R, z);
+  return form ? of_linear(equation, form->a, form->b, power(E::variable(z), form->k), s) : std::nullopt;
 }
 
 /// Returns H of an equation that is separable after y = x^m z.
@@ -379,7 +398,7 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     if (c.dp_dq) c.dp_dq = tidied(*c.dp_dq);
     if (!agrees(equation, c)) return std::nullopt;
     c.symmetry = map + ";  X = " + field_text(X, names);
-    if (!has_time) return c;
+    if (!has_time || (place[0].is_zero() && !c.dt_dp)) return c;
     const E rate = f[0] * c.p.derivative(0) + f[1] * c.p.derivative(1);
     if (!c.dt_dp) c.dt_dp = 1 / tidied(rate.with(0, place[0]).with(1, place[1]));
     c.dt_dp = tidied(*c.dt_dp);
@@ -431,13 +450,13 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     return accepted({"", y, x, R.with(1, q), {}, {}}, {1, 0}, fmt::format("{0} -> {0} + a", names[0]), {p, q});
   }
   if (equation.vanishes(by_y)) {
-    return accepted({"", x, y, {}, R.with(0, q), {}}, {0, 1}, fmt::format("{0} -> {0} + a", names[1]), {q, p});
+    return accepted({"", x, y, {}, R.with(0, q), {}, false}, {0, 1}, fmt::format("{0} -> {0} + a", names[1]), {q, p});
   }
   for (const auto& [m, x0, y0] : scalings) {
     if (auto c = of_scaling(m, x0, y0)) return c;
   }
   if (equation.vanishes(below)) {
-    return accepted({"", x, ln(y), {}, (R / y).with(1, 1).with(0, q), {}}, {0, y},
+    return accepted({"", x, ln(y), {}, (R / y).with(1, 1).with(0, q), {}, false}, {0, y},
                     fmt::format("{0} -> a*{0}", names[1]),
                     {q, (equation.start[1] < 0 ? -1 : 1) * E::function("exp", p)});
   }
@@ -465,7 +484,15 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     if (auto spiral = accepted(c, {x - k * y, k * x + y}, "spirals: the plane is turned and magnified", {cos, sin}))
       return spiral;
   }
-  return std::nullopt;
+  // (m z)' = m b with z = y^k
+  const auto form = linear_form(equation, R, 1);
+  const auto found_m = form ? multiplied(equation, form->a, form->b, 0) : std::nullopt;
+  if (!found_m) return std::nullopt;
+  const E z = power(y, form->k), step = tidied(1 / found_m->factor);
+  Coordinates c{"", x, z * found_m->factor, {}, found_m->rest.with(0, q), {}, false};
+  const std::array letters{names[0], names[1], std::string("a")};
+  return accepted(c, {0, tidied(step / z.derivative(1))},
+                  fmt::format("{} -> {}", z.text(names), (z + q * step).text(letters)), {0, 0});
 }
 
 std::optional<IntegralFormula> integral_of(const Equation& equation, const std::optional<Coordinates>& coordinates,

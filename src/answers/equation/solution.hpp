@@ -16,9 +16,11 @@ struct Coordinates {
   Expression q, p;                         ///< as formulas in x and y
   std::optional<Expression> dq_dp, dp_dq;  ///< one of them, as a formula in q
   std::optional<Expression> dt_dp;         ///< for a system, as a formula in q and p (index 3)
+  bool changes_q = true;                   ///< false for q = x, in which the equation is separated by p alone
 };
 
-/// Returns the coordinates of the first symmetry that the equation has: scaling, shift or turn of the plane.
+/// Returns the coordinates of the first symmetry that the equation has: a scaling, a shift or a turn of the plane, or
+/// the symmetry of a linear equation or of Bernoulli's.
 /// @param found  symmetries of the field, from which a centre and a matrix are taken as fractions
 std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found);
 

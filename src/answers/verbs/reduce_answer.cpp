@@ -1,18 +1,21 @@
 #include "answers/verbs/reduce_answer.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/asked/planar_system.hpp"
+#include "answers/equation/steps.hpp"
 #include "answers/input/message.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
@@ -258,9 +261,23 @@ PlanarCanonical shown_canonical(const PlanarReduction& plane, const Vector2d& x)
   return {q, std::log(x[1]), limit ? infinity : reduction::separated_slope(flow->system(), q)};
 }
 
+/// The names of rays and coordinates in an answer.
+struct ScalingNames {
+  const char* ray;           ///< member of JSON
+  std::string_view on_ray;   ///< before the number of a ray
+  std::string_view q, of_q;  ///< before and after the value of q
+  std::string_view p, integral;
+  double PlanarRay::*number;
+  double least_ray, largest_ray;  ///< range of q of the rays that are shown
+};
+constexpr ScalingNames names_of_motion{"k",           "k = ", "v/u = ", "", "ln v = ", "ln |u| - ln w(k)",
+                                       &PlanarRay::k, 0,      pi / 2};
+constexpr ScalingNames names_of_system{"angle",    "at the angle ", "",        " (angle)", "",
+                                       "p - L(q)", &PlanarRay::q,   -infinity, infinity};
+
 /// Adds to the answer a solution by a scaling.
-void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& start, bool at_centre) {
-  const bool is_paper = plane.flow() != nullptr;
+void add_scaling(Answer& answer, const ScalingNames& names, const PlanarReduction& plane, const Vector2d& start,
+                 bool at_centre) {
   const auto canonical = shown_canonical(plane, start);
   std::optional<double> integral;
   try {
@@ -269,11 +286,11 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
     // a start on a ray has no first integral, so `integral` stays empty
   }
   std::vector<PlanarRay> shown = plane.rays();
-  if (is_paper) std::erase_if(shown, [](const PlanarRay& ray) { return ray.q < 0 || ray.q > pi / 2; });
+  std::erase_if(shown, [&](const PlanarRay& ray) { return ray.q < names.least_ray || ray.q > names.largest_ray; });
   Json rays = Json::array();
   for (const PlanarRay& ray : shown) {
-    rays.push_back({{is_paper ? "k" : "angle", is_paper ? ray.k : ray.q}, {"attracts", ray.attracts}});
-    if (is_paper) continue;
+    rays.push_back({{names.ray, ray.*names.number}, {"attracts", ray.attracts}});
+    if (plane.flow() != nullptr) continue;
     rays.back().update({{"to_centre", ray.to_centre},
                         {"radial", ray.radial},
                         {"angular", or_infinity(ray.angular)},
@@ -290,7 +307,7 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   if (plane.turn()) members["turn"] = {{"factor", plane.turn()->factor}, {"sigma", plane.turn()->sigma}};
   const bool rests = at_centre && plane.end(plane.centre()) == PlanarEnd::centre;
   if (rests) members.update({{"end", name(PlanarEnd::centre)}, {"tau_stop", 0.0}});
-  if (integral && (is_paper || (!kind.empty() && kind != "bordered"))) {
+  if (integral && (plane.flow() != nullptr || (!kind.empty() && kind != "bordered"))) {
     answer.numbers = [=] { return Answer{.members = strip_members(plane, start)}; };
   }
   add_text(answer, [=](const Digits& digits) {
@@ -298,39 +315,64 @@ void add_scaling(Answer& answer, const PlanarReduction& plane, const Vector2d& s
         fmt::format("centre      ({}, {}): {}\n", digits(plane.centre()[0]), digits(plane.centre()[1]),
                     plane.kind().empty() ? "not decided, as " + plane.undecided() : std::string(plane.kind()));
     for (const PlanarRay& ray : shown) {
-      lines += fmt::format("ray         {}{}{}: {}, the motion on it goes {}\n", is_paper ? "k = " : "at the angle ",
-                           digits(is_paper ? ray.k : ray.q),
-                           ray.order == 2   ? ", double"
-                           : ray.order == 3 ? ", triple"
-                                            : "",
-                           ray.attracts ? "attracts" : "repels",
-                           ray.radial == 0 ? "nowhere: its points are at rest"
-                           : ray.to_centre ? "to the centre"
-                                           : "away");
+      lines +=
+          fmt::format("ray         {}{}{}: {}, the motion on it goes {}\n", names.on_ray, digits(ray.*names.number),
+                      ray.order == 2   ? ", double"
+                      : ray.order == 3 ? ", triple"
+                                       : "",
+                      ray.attracts ? "attracts" : "repels",
+                      ray.radial == 0 ? "nowhere: its points are at rest"
+                      : ray.to_centre ? "to the centre"
+                                      : "away");
     }
     if (plane.turn()) {
       lines += fmt::format("a turn      multiplies exp(p) by {} in {} of sigma, d sigma = exp(-c p) dt\n",
                            digits(plane.turn()->factor), digits(plane.turn()->sigma));
     }
     if (at_centre) return lines + (rests ? "tau_stop    0: the start is the centre\n" : "");
-    lines += fmt::format("canonical   q = {}{}{}, p = {}{}, dp/dq = {}\n", is_paper ? "v/u = " : "",
-                         digits(canonical.q), is_paper ? "" : " (angle)", is_paper ? "ln v = " : "",
-                         digits(canonical.p), digits(canonical.dp_dq));
+    lines += fmt::format("canonical   q = {}{}{}, p = {}{}, dp/dq = {}\n", names.q, digits(canonical.q), names.of_q,
+                         names.p, digits(canonical.p), digits(canonical.dp_dq));
     if (!integral) {
       return lines +
              "integral    none: the start is on the ray, which the symmetry moves along itself, or on a border\n";
     }
-    return lines + fmt::format("integral    {} = {}\n", is_paper ? "ln |u| - ln w(k)" : "p - L(q)", digits(*integral));
+    return lines + fmt::format("integral    {} = {}\n", names.integral, digits(*integral));
   });
 }
 
+/// Returns a formula in u and v in the typed letters.
+std::string in_letters(const std::string& formula, const std::vector<std::string>& letters) {
+  std::string text;
+  for (std::size_t at = 0; at < formula.size();) {
+    std::size_t end = at;
+    while (end < formula.size() && std::isalnum(static_cast<unsigned char>(formula[end])) != 0) ++end;
+    const std::string word = formula.substr(at, std::max<std::size_t>(end - at, 1));
+    text += word == "u" ? letters[0] : word == "v" ? letters[1] : word;
+    at += word.size();
+  }
+  return text;
+}
+
+/// Adds to the answer the reduction as formulas.
+void add_steps(Answer& answer, const Steps& steps) {
+  const auto& c = steps.coordinates;
+  answer.members.update({{"variables", {steps.names[0], steps.names[1]}},
+                         {"equation", steps.kinds},
+                         {"steps",
+                          {{"q", c ? Json(steps.text(c->q)) : Json()},
+                           {"p", c ? Json(steps.text(c->p)) : Json()},
+                           {"separated", c ? Json(steps.separated()) : Json()}}},
+                         {"integral_formula", steps.integral ? Json(steps.text(steps.integral->H)) : Json()}});
+}
+
 /// Adds to the answer a solution by the inverse integrating factor V, for a system without a scaling.
-void add_factor(Answer& answer, const PlanarReduction& plane) {
+void add_factor(Answer& answer, const PlanarReduction& plane, const Steps& steps) {
   const std::string_view divided = plane.tried().back().cleared ? " divided by the denominator" : "";
   const std::string_view form = plane.form();
   const std::string_view shown = form == "basis" ? "a sum of the basis" : form == "affine" ? "f ^ X, X affine" : form;
   const std::string v = fmt::format("{}{}", shown, divided);
-  const auto [factor, integral] = plane.formula();
+  const std::string factor = plane.formula().factor;
+  const std::string integral = steps.integral ? steps.integral->H.text(std::array<std::string, 2>{"u", "v"}) : "";
   Json& members = answer.members;
   members["factor"] = factor.empty() ? v + ", 1 at the start" : fmt::format("{}{}", factor, divided);
   if (!integral.empty()) members["integral"] = integral;
@@ -374,9 +416,17 @@ std::optional<BySteps> by_steps(const PlanarReduction& plane, const PlanarOrbit&
   return std::nullopt;
 }
 
+/// The orbit of the start, its end, and the comparison with steps in time.
+struct Followed {
+  PlanarOrbit orbit;
+  double error;  ///< relative error of the end time or of the period; 0 for an end that is not known
+  std::optional<BySteps> stepped;
+
+  bool refuted() const { return stepped && !stepped->confirms(); }
+};
+
 /// Adds to the answer the end of the orbit, and the comparison with steps in time.
-/// @return false if steps in time contradict the solution
-bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start) {
+Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start) {
   Json& members = answer.members;
   const PlanarOrbit orbit = plane.orbit(start);
   const PlanarEnd end = orbit.end();
@@ -434,8 +484,155 @@ bool add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& start
     }
     return end_text(digits) + text;
   });
-  return !refuted;
+  return {orbit, error, stepped};
 }
+
+/// Writes the reduction as it stands on a blackboard, in the letters of the equation.
+class Blackboard {
+ public:
+  Blackboard(const FormulaField& system, const Steps& steps, const Digits& digits)
+      : type_(system.equations), steps_(steps), digits_(digits) {}
+
+  void add(std::string_view name, const std::string& line) { text_ += fmt::format("{:<13}{}\n", name, line); }
+
+  void add_kinds() {
+    if (steps_.kinds.empty()) return;
+    const bool second = type_ == FormulaField::Equations::second;
+    add("equation", fmt::format("{}{}", fmt::join(steps_.kinds, "; "), second ? "; of the second order" : ""));
+  }
+
+  /// @param X  the generator as text, for a symmetry without coordinates; empty if there is none
+  void add_coordinates(const std::string& X) {
+    if (!steps_.coordinates) {
+      if (X.empty()) return;
+      add("symmetry", "X = " + X);
+      add("coordinates", "q is the angle about the centre, p the logarithm of the distance, both scaled by X");
+      return;
+    }
+    const Coordinates& c = *steps_.coordinates;
+    add("symmetry", c.symmetry);
+    add("coordinates", fmt::format("{} = {},  {} = {}", steps_.names[2], shown(c.q), steps_.names[3], shown(c.p)));
+    add("separated", steps_.separated(digits_.count));
+    if (c.dt_dp) add("time", fmt::format("dt/d{} = {}", steps_.names[3], shown(*c.dt_dp)));
+  }
+
+  /// @param V       inverse integrating factor as text; empty if it is not the method
+  /// @param method  words for a solution without a formula
+  void add_solution(const std::optional<Vector2d>& start, const std::string& V, const std::string& method) {
+    if (steps_.integral) {
+      const double C = start ? steps_.integral->H({(*start)[0], (*start)[1]}) : infinity;
+      add("solution", fmt::format("{} = C{}", shown(steps_.integral->H),
+                                  std::isfinite(C) ? ",  C = " + digits_(C) : std::string()));
+      if (steps_.branch) add("", fmt::format("{} = {}", steps_.names[1], shown(*steps_.branch)));
+    } else if (!method.empty()) {
+      add("solution", method);
+    }
+    if (!V.empty()) add("factor", fmt::format("V = {};  dH = {}", V, differential()));
+  }
+
+  void add_orbit(const Followed& followed, const Vector2d& start) {
+    const auto& [orbit, error, stepped] = followed;
+    if (!stepped) {
+      add("check", "not compared: the solution or the steps give no state");
+    } else {
+      add("check", fmt::format("by steps to {}: differs by {:.0e}{}", at(start, stepped->time), stepped->difference,
+                               followed.refuted() ? ", not confirmed" : ""));
+    }
+    add("end", end_of(orbit, start));
+  }
+
+  /// Adds the places at which both right sides vanish.
+  void add_equilibria(const reduction::Equilibria& equilibria) {
+    if (type_ == FormulaField::Equations::first) return;
+    for (const reduction::Equilibrium& each : equilibria.points) {
+      add("equilibrium", fmt::format("{}: {}", place(each.x), each.kind));
+    }
+  }
+
+  /// Returns how far H of the integral changes along steps in time; empty if the steps give no state.
+  void add_constancy(const PlanarReduction& plane, const Vector2d& start) {
+    if (!steps_.integral) return;
+    const Expression& H = steps_.integral->H;
+    const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
+    const double C = H({start[0], start[1]});
+    constexpr double longest = 4, shortest = 1e-3;
+    for (double time = longest; time > shortest; time /= 2) {
+      try {
+        const Vector2d x = steps.at(time);
+        const double difference = std::abs(H({x[0], x[1]}) - C) / std::max(1., std::abs(C));
+        if (!std::isfinite(difference)) continue;
+        add("check", fmt::format("by steps to {}: C differs by {:.0e}", at(start, time), difference));
+        return;
+      } catch (const std::domain_error&) {
+        // The steps do not reach this time.
+      }
+    }
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string shown(const Expression& e) const { return steps_.text(e, digits_.count); }
+
+  std::string place(const Vector2d& x) const {
+    return fmt::format("{} = {}, {} = {}", steps_.names[0], digits_(x[0] + 0.0), steps_.names[1], digits_(x[1] + 0.0));
+  }
+
+  /// Returns the time as text; for y' = F(x, y) the time is x.
+  std::string at(const Vector2d& start, double time) const {
+    if (type_ == FormulaField::Equations::first) return steps_.names[0] + " = " + digits_(start[0] + time);
+    return "t = " + digits_(time);
+  }
+
+  std::string differential() const {
+    const auto& [x, y] = std::tie(steps_.names[0], steps_.names[1]);
+    if (type_ == FormulaField::Equations::first) return fmt::format("(d{1} - {1}' d{0})/V", x, y);
+    return fmt::format("({0}' d{1} - {1}' d{0})/V", x, y);
+  }
+
+  std::string end_of(const PlanarOrbit& orbit, const Vector2d& start) const {
+    const bool first = type_ == FormulaField::Equations::first;
+    const double time = orbit.end_time();
+    const std::string when = std::isfinite(time) ? "at " + at(start, time) : "";
+    switch (orbit.end()) {
+      case PlanarEnd::centre:
+        return std::isfinite(time) ? when + ": it reaches the centre" : "it nears the centre for ever";
+      case PlanarEnd::periodic:
+        return "none: the orbit is closed, with the period " + digits_(orbit.period().value());
+      case PlanarEnd::rest:
+        return (when.empty() ? "" : when + ": ") + "it comes to rest";
+      case PlanarEnd::equilibrium:
+        return "it nears an equilibrium for ever";
+      case PlanarEnd::cycle:
+        return "it nears a closed orbit for ever";
+      case PlanarEnd::infinity:
+        if (first && !std::isfinite(time)) return steps_.names[0] + " grows for ever";
+        return first ? fmt::format("{}: {} is infinite", when, steps_.names[1])
+                     : when + (when.empty() ? "it goes to infinity, for ever" : ": it is at infinity");
+      case PlanarEnd::border: {
+        if (!std::isfinite(time)) return "it comes to a border of the equation, a pole or a jump";
+        constexpr double before = 1e-9;
+        Vector2d x = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+        try {
+          x = orbit.at(time * (1 - before));
+        } catch (const std::domain_error&) {
+          // The last state is not known.
+        }
+        const std::string reason = x.allFinite() ? steps_.broken_at(x) : "";
+        return fmt::format("at {}{}: {}", first ? "" : "t = " + digits_(time) + ", ",
+                           x.allFinite() ? place(x) : at(start, time),
+                           reason.empty() ? "a pole or a jump of the equation" : reason);
+      }
+      default:
+        return "not decided: " + orbit.undecided();
+    }
+  }
+
+  FormulaField::Equations type_;
+  const Steps& steps_;
+  Digits digits_;
+  std::string text_;
+};
 
 }  // namespace
 
@@ -449,28 +646,36 @@ std::vector<std::string_view> named_ends() {
   return names;
 }
 
-Answer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Vector2d& start) {
-  const auto has_value = [&] {
+Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& field, const std::string& text,
+                     const std::optional<Vector2d>& given, bool details) {
+  const auto has_value = [&](const Vector2d& x) {
     try {
-      return field.value(start).allFinite();
+      return field.value(x).allFinite();
     } catch (const std::exception&) {
       return false;
     }
   };
-  if (!has_value()) {
-    throw BadInput("the field has no value at the start u = {}, v = {}: give a start where it has one", start[0],
-                   start[1]);
+  if (given && !has_value(*given)) {
+    throw BadInput("the field has no value at the start {} = {}, {} = {}: give a start where it has one",
+                   system.variables[0], (*given)[0], system.variables[1], (*given)[1]);
   }
+  // Without a start the equation is sampled about the first of these points at which it has a value.
+  Vector2d start(1.3, 0.7);
+  for (const Vector2d& each : {start, Vector2d(0.6, 0.45), Vector2d(1.7, 2.3), Vector2d(-0.6, 0.45)}) {
+    if (!has_value(start)) start = each;
+  }
+  if (given) start = *given;
   const Vector2d around = reduction::sampled_about(field, start);
   const double size = around.lpNorm<Eigen::Infinity>();
   const PlanarSymmetries found = reduction::find_symmetries(field, around);
-  Answer answer{.members = {{"system", text}, {"u0", start[0]}, {"v0", start[1]}, {"size", size}},
-                .text = [=](const Digits& digits) {
+  Answer answer{.members = {{"system", text}}, .text = [=](const Digits& digits) {
                   const std::string sampled =
                       around == start ? "" : fmt::format("; the field is sampled at distances about {}", digits(size));
                   return fmt::format("system      {}\nstart       u = {}, v = {}{}\n", text, digits(start[0]),
                                      digits(start[1]), sampled);
                 }};
+  if (given) answer.members.update({{"u0", start[0]}, {"v0", start[1]}});
+  answer.members["size"] = size;
   add_symmetries(answer, found, "t");
   const PlanarReduction plane = reduce(field, start, found);
   answer.members["form"] = plane.solved() ? Json(plane.form()) : Json();
@@ -486,21 +691,50 @@ Answer reduce_answer(const reduction::SmoothField& field, const std::string& tex
   compare_kinds(equilibria, plane);
   answer.members.update(members_of_plane(equilibria));
   add_text(answer, [=](const Digits& digits) { return text_of(plane.tried()) + text_of(equilibria, digits); });
-  bool confirmed = true;
+
+  const bool by_factor = plane.solved() && !plane.scaling();
+  const bool cleared = by_factor && plane.tried().back().cleared;
+  const std::string factor = by_factor && !cleared ? plane.formula().factor : "";
+  const Steps steps = steps_of(system, found, factor, given, around);
+  const std::string V = factor.empty() ? "" : in_letters(factor, system.variables);
+  add_steps(answer, steps);
+  std::optional<Followed> followed;
+  bool at_rest = false;
   if (plane.scaling()) {
     const bool at_centre = plane.scaling()->fixes(start);
-    add_scaling(answer, plane, start, at_centre);
-    if (!answer.members.contains("end")) confirmed = add_end(answer, plane, at_centre ? plane.centre() : start);
+    add_scaling(answer, names_of_system, plane, start, at_centre);
+    at_rest = answer.members.contains("end");
+    if (given && !at_rest) followed = add_end(answer, plane, at_centre ? plane.centre() : start);
   } else if (plane.solved()) {
-    add_factor(answer, plane);
-    confirmed = add_end(answer, plane, start);
+    add_factor(answer, plane, steps);
+    if (given) followed = add_end(answer, plane, start);
   } else if (!found.generators.empty()) {
     add_text(answer, [why = words_of(plane.why_not())](const Digits&) {
       return fmt::format("solution    none by quadrature: {}\n", why);
     });
   }
-  answer = finished(answer, found, plane.solved());
-  answer.passed &= confirmed;
+  answer.text = [=, numbers = answer.text](const Digits& digits) {
+    Blackboard board(system, steps, digits);
+    board.add_kinds();
+    const bool has_centre = plane.scaling() != nullptr;
+    const std::string X = found.generators.empty() || !has_centre ? "" : text_of(found.generators.front(), "t", digits);
+    board.add_coordinates(X);
+    const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
+                               : plane.solved() ? "by quadrature along H = C"
+                                                : "none by quadrature: " + words_of(plane.why_not());
+    board.add_solution(given, V, method);
+    if (at_rest) {
+      board.add("end", "the start is the centre");
+    } else if (followed) {
+      board.add_orbit(*followed, start);
+    } else if (given) {
+      board.add_constancy(plane, start);
+    }
+    board.add_equilibria(equilibria);
+    return board.text() + (details ? numbers(digits) : "");
+  };
+  answer = finished(answer, found, plane.solved() || steps.integral);
+  answer.passed &= !followed || !followed->refuted();
   return answer;
 }
 
@@ -546,7 +780,7 @@ Answer reduce_answer(const GivenStart& given) {
     return text + fmt::format("start       u = {}, v = {}, k = {}\n", digits(state.u), digits(state.v), digits(k));
   });
   add_symmetries(answer, found, "tau");
-  add_scaling(answer, plane, start, false);
+  add_scaling(answer, names_of_motion, plane, start, false);
 
   Json routes = Json::array();
   const auto add_route = [&](std::string_view name, const std::function<double()>& time) {
@@ -649,7 +883,13 @@ std::vector<FieldText> reduce_system_fields() {
        {{"`form`, `factor`", "",
          "type of the solution: scaling, or the form of the inverse integrating factor V, or null without a solution. "
          "factor: V as a formula, up to a constant factor, or in words"},
-        {"`integral`", "", "constant of the motion H as a formula, if a formula is found"},
+        {"JSON `variables` [x, y]", "", "letters of the equations; u and v stand for them in the other fields"},
+        {"JSON `equation` [...]", "", "all kinds of equation that hold, in the words of textbooks"},
+        {"JSON `steps` {`q`, `p`, `separated`}", "",
+         "coordinates q and p as formulas in the typed letters, and the separated equation, such as dq/dp = tan(q); "
+         "null if the equation has no such symmetry"},
+        {"JSON `integral_formula`, `integral`", "",
+         "constant of the motion H as a formula in the typed letters, and in u and v; null if no formula is found"},
         {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
          "forms of V in the order of the search, each with the smallest singular value of its equations and its gap. "
          "cleared: true if V was multiplied by the denominator of the equations"},

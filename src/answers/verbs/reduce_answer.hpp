@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "answers/asked/given_start.hpp"
+#include "answers/asked/planar_system.hpp"
 #include "answers/input/errors.hpp"
 #include "answers/table/record.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
@@ -18,10 +20,15 @@ namespace contensou::answers {
 /// @throws BadInput  for a start at rest
 Answer reduce_answer(const GivenStart& given);
 
-/// Reduces any planar field. The answer has not passed if neither a generator nor an inverse integrating factor was
-/// found.
-/// @param text  formulas of the field, for the answer
-Answer reduce_answer(const reduction::SmoothField& field, const std::string& text, const Eigen::Vector2d& start);
+/// Reduces a typed system. The text shows the steps as formulas: kinds of equation, symmetry, coordinates, separated
+/// equation, solution, check and end. The answer has not passed if neither a generator, nor an inverse integrating
+/// factor, nor a formula of H was found, or if steps in time contradict the solution.
+/// @param field    field of the system, perhaps with a basis
+/// @param text     formulas of the field, for the answer
+/// @param start    if empty, the answer explains the equation alone
+/// @param details  true: the text also shows the numbers of the search
+Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& field, const std::string& text,
+                     const std::optional<Eigen::Vector2d>& start, bool details);
 
 /// Returns every name that the member `end` of an answer can contain. For an orbit whose end has no name, it is null.
 std::vector<std::string_view> named_ends();

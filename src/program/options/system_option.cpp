@@ -43,7 +43,7 @@ TypedSystem SystemOption::read(const std::map<std::string, double>& parameters) 
   const Argument* reading = &system_;
   try {
     const FormulaField field = parse_planar_system(system_.text(), parameters);
-    TypedSystem typed{field, {field.variables.at(0), field.variables.at(1)}};
+    TypedSystem typed{field, {field.variables.at(0), field.variables.at(1)}, field};
     reading = &basis_;
     if (basis_.given()) typed.field.basis = parse_basis(basis_.text(), field, parameters);
     return typed;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "answers/asked/planar_system.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "options/argument.hpp"
 #include "options/start_options.hpp"
@@ -19,6 +20,7 @@ namespace contensou::program {
 struct TypedSystem {
   reduction::SmoothField field;
   std::array<std::string, 2> variables;
+  FormulaField formulas;
 };
 
 /// The option --system: a planar system, given by formulas, in place of the equations of motion (2.6).

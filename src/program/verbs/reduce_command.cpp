@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "answers/verbs/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
 #include "options/figure_options.hpp"
@@ -18,6 +20,9 @@ class ReduceCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app);
     output_.add(app);
+    app.option_defaults()->group("Another system");
+    app.add_flag("--details", details_,
+                 "also print the numbers of the search, for --system: singular values and tried forms");
     system_.argument().excludes({&law_.argument()}, "friction is in the formulas");
     system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
   }
@@ -34,8 +39,11 @@ class ReduceCommand final : public Verb {
   ExitStatus run_system(const Output& output) {
     const TypedSystem typed = system_.read(law_.parameters());
     const reduction::SmoothField& field = typed.field;
+    if (!output.picture) {
+      return output.write(
+          reduce_answer(typed.formulas, field, system_.text(), system_.read_start(typed, start_), details_));
+    }
     const Eigen::Vector2d start = system_.require_start(typed, start_);
-    if (!output.picture) return output.write(reduce_answer(field, system_.text(), start));
     const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
     const reduction::PlanarReduction plane = reduction::reduce(field, start, found);
     if (!plane.scaling()) {
@@ -52,6 +60,7 @@ class ReduceCommand final : public Verb {
   }
 
   SystemOption system_;
+  bool details_ = false;
   StartOptions start_;
   LawOption law_;
   PictureOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};

@@ -1,0 +1,80 @@
+#include "answers/equation/steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <functional>
+
+#include <fmt/format.h>
+
+namespace contensou::answers {
+
+std::string Steps::separated(int digits) const {
+  if (!coordinates) return "";
+  const bool of_q = coordinates->dq_dp.has_value();
+  return fmt::format("d{0}/d{1} = {2}", names[of_q ? 2 : 3], names[of_q ? 3 : 2],
+                     text(of_q ? *coordinates->dq_dp : *coordinates->dp_dq, digits));
+}
+
+std::string Steps::broken_at(const Eigen::Vector2d& x) const {
+  constexpr double large = 1e4;
+  const double here[]{x[0], x[1]};
+  std::string reason;
+  const auto look = [&](const Expression& part) -> std::optional<Expression> {
+    if (part.parts().empty()) return part;
+    const auto [base, exponent] = base_and_exponent(part);
+    const bool is_below = exponent.is(Expression::Kind::number) && exponent.number().value() < 0;
+    const bool is_root = exponent.is(Expression::Kind::number) && !exponent.number().is_whole();
+    if (part.is(Expression::Kind::function) && part.name() == "tan" && std::abs(part(here)) > large) {
+      reason = text(part) + " has a pole";
+    } else if ((is_below || is_root || (part.is(Expression::Kind::function) && part.name() == "ln")) &&
+               std::abs((part.is(Expression::Kind::function) ? part.parts()[0] : base)(here)) < 1 / large) {
+      reason = text(part.is(Expression::Kind::function) ? part.parts()[0] : base) + " = 0";
+    }
+    return std::nullopt;
+  };
+  for (const Expression& part : parts) part.replaced(look);
+  return reason;
+}
+
+Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
+               const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around) {
+  Steps steps{system.variables};
+  const auto is_taken = [&](const std::string& name) { return std::ranges::count(system.variables, name) > 0; };
+  const bool taken = is_taken("q") || is_taken("p");
+  steps.names.insert(steps.names.end(), {taken ? "Q" : "q", taken ? "P" : "p"});
+  const auto equation = equation_of(system, around);
+  if (!equation) return steps;
+  steps.parts = {equation->f[0], equation->f[1]};
+  const auto attempt = [](const std::function<void()>& part) {
+    try {
+      part();
+    } catch (const std::exception&) {
+      // A formula became too long, and its part stays empty.
+    }
+  };
+  std::optional<Expression> V;
+  attempt([&] {
+    if (factor.empty()) return;
+    const Formulas typed({{}, {"u", "v"}, "V"}, factor, {});
+    if (const auto both = typed.expressions()) V = (*both)[0];
+  });
+  attempt([&] { steps.kinds = kinds_of(*equation); });
+  attempt([&] { steps.coordinates = coordinates_of(*equation, found); });
+  attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, V); });
+  const bool separable = std::ranges::count(steps.kinds, "separable") > 0;
+  if (steps.coordinates && !separable && steps.coordinates->changes_q) {
+    steps.kinds.push_back(fmt::format("separable after {} = {}", steps.names[2], steps.text(steps.coordinates->q)));
+  }
+  if (steps.integral && !steps.integral->after.empty()) steps.kinds.push_back(steps.integral->after);
+  if (V && !V->is_constant() && coefficients(*V, 0) && coefficients(*V, 1)) steps.kinds.emplace_back("Darboux");
+  if (start && steps.integral && system.equations == FormulaField::Equations::first) {
+    Equation of_start = *equation;
+    of_start.start = *start;
+    attempt([&] { steps.branch = solved_for_y(of_start, steps.integral->solvable); });
+    if (!steps.branch) attempt([&] { steps.branch = solved_for_y(of_start, steps.integral->H); });
+  }
+  return steps;
+}
+
+}  // namespace contensou::answers
