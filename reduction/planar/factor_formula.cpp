@@ -1,4 +1,4 @@
-// V and H as formulas. The functions of V's form have names. The null vectors of README (R64) in these functions
+// V as a formula. The functions of V's form have names. The null vectors of README (R64) in these functions
 // are brought to row echelon form. The entries are rational if V has rational coefficients. They are rounded to
 // fractions, and the misfit (R66) is computed with the fractions.
 #include "planar/inverse_factor.hpp"
@@ -60,11 +60,11 @@ std::optional<Coefficients> rational(const VectorXd& values, double error) {
   return result;
 }
 
-/// Returns a term of a sum without its sign, such as "3 u^2/4" for 3, "u^2" and 4.
+/// Returns a term of a sum without its sign, such as "3*u^2/4" for 3, "u^2" and 4.
 std::string term(Whole above, const std::string& name, Whole below) {
   const Whole divisor = std::gcd(above, below), size = std::abs(above) / divisor;
   const bool bare = name.empty() || name == "1";
-  std::string text = bare ? fmt::to_string(size) : size == 1 ? name : fmt::format("{} {}", size, name);
+  std::string text = bare ? fmt::to_string(size) : size == 1 ? name : fmt::format("{}*{}", size, name);
   if (below != divisor) text += fmt::format("/{}", below / divisor);
   return text;
 }
@@ -145,7 +145,7 @@ class Polynomial {
         const int j = total - i;
         if (at(i, j) == 0) continue;
         const std::string of_u = power('u', i), of_v = power('v', j);
-        names.push_back(fmt::format("{}{}{}", of_u, of_u.empty() || of_v.empty() ? "" : " ", of_v));
+        names.push_back(fmt::format("{}{}{}", of_u, of_u.empty() || of_v.empty() ? "" : "*", of_v));
         factors.above.push_back(at(i, j));
       }
     }
@@ -196,7 +196,7 @@ std::string factorised(Polynomial rest) {
   std::string text;
   for (const auto& [factor, times] : found) {
     const bool bare = factor.find(' ') == std::string::npos;
-    text += (text.empty() ? "" : " ") + (bare ? factor : "(" + factor + ")");
+    text += (text.empty() ? "" : "*") + (bare ? factor : "(" + factor + ")");
     if (times > 1) text += fmt::format("^{}", times);
   }
   return text;
@@ -279,101 +279,9 @@ Functions monomials(int degree) {
   };
 }
 
-/// A function of one variable and the text of its integral.
-struct Known {
-  const char* integral;  ///< text with {} in place of the variable
-  Whole below;
-  double (*value)(double);
-};
-constexpr Known known[]{{"{}", 1, [](double) { return 1.; }},
-                        {"{}^2", 2, [](double x) { return x; }},
-                        {"ln|{}|", 1, [](double x) { return 1 / x; }},
-                        {"cos({})", -1, [](double x) { return std::sin(x); }},
-                        {"sin({})", 1, [](double x) { return std::cos(x); }},
-                        {"exp({})", 1, [](double x) { return std::exp(x); }},
-                        {"exp(-{})", -1, [](double x) { return std::exp(-x); }},
-                        {"{}^3", 3, [](double x) { return x * x; }},
-                        {"{}^4", 4, [](double x) { return x * x * x; }},
-                        {"{}^5", 5, [](double x) { return x * x * x * x; }},
-                        {"{}^6", 6, [](double x) { return x * x * x * x * x; }},
-                        {"{}^-1", -1, [](double x) { return 1 / (x * x); }},
-                        {"{}^-2", -2, [](double x) { return 1 / (x * x * x); }}};
-constexpr std::size_t known_count = std::size(known);
-
-/// Returns the integral of a function of one variable as text, if the function is a sum of at most three of `Known`.
-std::optional<std::string> integral(const VectorXd& x, const VectorXd& values, char name) {
-  if (values.isZero(0)) return "";
-  MatrixXd columns(x.size(), static_cast<Index>(known_count));
-  for (std::size_t i = 0; i < known_count; ++i) {
-    for (Index k = 0; k < x.size(); ++k) columns(k, static_cast<Index>(i)) = known[i].value(x[k]);
-  }
-  const auto fit = [&](const std::vector<std::size_t>& chosen) -> std::optional<std::string> {
-    MatrixXd part(x.size(), std::ssize(chosen));
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      part.col(static_cast<Index>(i)) = columns.col(static_cast<Index>(chosen[i]));
-    if (!part.allFinite()) return std::nullopt;
-    const VectorXd factors = least_squares(part, values);
-    const double size = values.lpNorm<Eigen::Infinity>();
-    const auto found = rational(factors, exact * std::max(1., factors.lpNorm<Eigen::Infinity>()));
-    if (!found || std::ranges::count(found->above, 0) > 0) return std::nullopt;
-    VectorXd rounded(factors.size());
-    std::string text;
-    for (Index i = 0; i < rounded.size(); ++i) {
-      const Whole above = found->above[static_cast<std::size_t>(i)];
-      rounded[i] = static_cast<double>(above) / static_cast<double>(found->below);
-      const auto& [form, below, value] = known[chosen[static_cast<std::size_t>(i)]];
-      const Whole divisor = found->below * below, sign = (above > 0) == (divisor > 0) ? 1 : -1;
-      text += sign < 0 ? " - " : " + ";
-      text += term(std::abs(above), fmt::format(fmt::runtime(form), name), std::abs(divisor));
-    }
-    if ((part * rounded - values).lpNorm<Eigen::Infinity>() > exact * size) return std::nullopt;
-    return text;
-  };
-  for (std::size_t count = 1; count <= 3; ++count) {
-    std::array<bool, known_count> chosen{};
-    std::fill_n(chosen.begin(), count, true);
-    do {
-      std::vector<std::size_t> places;
-      for (std::size_t i = 0; i < known_count; ++i) {
-        if (chosen[i]) places.push_back(i);
-      }
-      if (auto found = fit(places)) return found;
-    } while (std::ranges::prev_permutation(chosen).found);
-  }
-  return std::nullopt;
-}
-
-/// Returns H of a field f = (F, G) with F/V = a(v) and G/V = b(u).
-std::string separated_integral(const SmoothField& field, const Polynomial& v, const FieldSamples& samples) {
-  const Index count = 40;
-  VectorXd us(count), vs(count), of_u(count), of_v(count);
-  const auto divided = [&](const Vector2d& x) -> std::optional<Vector2d> {
-    const auto f = value_of(field.value, x);
-    if (!f || v(x) == 0) return std::nullopt;
-    return Vector2d(*f / v(x));
-  };
-  const Vector2d& start = samples.box.centre;
-  for (Index k = 0; k < count; ++k) {
-    const Vector2d& x = samples.points[static_cast<std::size_t>(k)];
-    const auto here = divided(x), across = divided({x[0], start[1]}), beside = divided({start[0], x[1]});
-    if (!here || !across || !beside) return "";
-    us[k] = x[0];
-    vs[k] = x[1];
-    of_u[k] = (*across)[1];
-    of_v[k] = (*beside)[0];
-    const double size = here->norm();
-    if (!(std::abs(of_u[k] - (*here)[1]) <= exact * size) || !(std::abs(of_v[k] - (*here)[0]) <= exact * size))
-      return "";
-  }
-  const auto first = integral(us, -of_u, 'u'), second = integral(vs, of_v, 'v');
-  if (!first || !second) return "";
-  const std::string text = *first + *second;
-  return text.starts_with(" + ") ? text.substr(3) : text.starts_with(" - ") ? "-" + text.substr(3) : text;
-}
-
 }  // namespace
 
-FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
+std::string recognised(const SmoothField& field, const Vector2d& start) {
   const Box about = box_about(start);
   const double scale = start.lpNorm<Eigen::Infinity>();
   // Prefer the box in which powers of u and v differ most. If the field has no values there, take the next box.
@@ -382,11 +290,9 @@ FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
     if (!samples) samples = sample(field, box);
   }
   if (!samples) return {};
-  FactorFormula formula;
   if (field.basis.values) {
     const auto found = null_combination(terms_of(FactorForm::basis), *samples);
-    if (found) formula.factor = sum(field.basis.names, *found);
-    return formula;
+    return found ? sum(field.basis.names, *found) : "";
   }
   for (int degree = 0; degree <= Polynomial::degree; ++degree) {
     const auto found = null_combination(monomials(degree), *samples);
@@ -396,15 +302,13 @@ FactorFormula recognised(const SmoothField& field, const Vector2d& start) {
     for (int i = 0; i <= degree; ++i) {
       for (int j = 0; i + j <= degree; ++j) v.at(i, j) = found->above[term++];
     }
-    formula.factor = factorised(v);
-    formula.integral = separated_integral(field, v, *samples);
-    return formula;
+    return factorised(v);
   }
   if (const auto found = null_combination(terms_of(FactorForm::affine), *samples)) {
-    const std::vector<std::string> names{"u'", "v'", "v u'", "v v'", "u u'", "u v'"};
-    formula.factor = sum(names, *found);
+    const std::vector<std::string> names{"u'", "v'", "v*u'", "v*v'", "u*u'", "u*v'"};
+    return sum(names, *found);
   }
-  return formula;
+  return "";
 }
 
 }  // namespace contensou::reduction

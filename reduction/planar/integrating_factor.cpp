@@ -134,7 +134,7 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
   std::optional<double> first_integral(const Vector2d& x) const override { return unit * unit * integral(x / unit); }
   std::shared_ptr<const Solution> reversed() const override;
 
-  FactorFormula formula() const override {
+  std::string formula() const override {
     const Vector2d from = unit * (start.isZero(0) ? Vector2d(1, 1) : start);
     return recognised(cleared ? with_cleared_denominator(field) : field, from);
   }

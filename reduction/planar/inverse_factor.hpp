@@ -134,12 +134,11 @@ struct FactorFit {
 /// Returns the best V of this form; empty if all functions of the form vanish.
 std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples);
 
-/// Returns the inverse integrating factor V and the first integral H of a system as formulas. V is a sum with rational
-/// coefficients of monomials in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of
-/// the field's own basis.
+/// Returns the inverse integrating factor V of a system as a formula. V is a sum with rational coefficients of monomials
+/// in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of the field's own basis.
 ///
 /// @param field  field whose V is such a sum
-FactorFormula recognised(const SmoothField& field, const Eigen::Vector2d& start);
+std::string recognised(const SmoothField& field, const Eigen::Vector2d& start);
 
 /// Follows the orbit through the start, a level line of the first integral H, to its end.
 /// @param cleared  true if V was fitted for the product of the field and its denominator

@@ -97,7 +97,7 @@ std::string_view PlanarReduction::kind() const { return solution_->kind; }
 const std::string& PlanarReduction::undecided() const { return solution_->undecided; }
 const std::string& PlanarReduction::why_not() const { return solution_->why_not; }
 const std::vector<TriedForm>& PlanarReduction::tried() const { return solution_->tried; }
-FactorFormula PlanarReduction::formula() const { return solution_->formula(); }
+std::string PlanarReduction::formula() const { return solution_->formula(); }
 
 double PlanarReduction::factor(const Vector2d& x) const {
   require_point(x);

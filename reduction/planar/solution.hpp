@@ -33,7 +33,7 @@ struct PlanarReduction::Solution {
   virtual double end_time_error(const Eigen::Vector2d& x, const PlanarOrbit& orbit) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
-  virtual FactorFormula formula() const { return {}; }
+  virtual std::string formula() const { return {}; }
 
   /// Returns the canonical coordinates of the scaling. A solution without a scaling throws here, and in `point`.
   /// @param x  finite, and not the centre

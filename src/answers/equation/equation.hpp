@@ -41,6 +41,9 @@ std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vec
 /// Returns the words of textbooks for all kinds of equation that hold, such as "homogeneous", "Bernoulli (n = 3)".
 std::vector<std::string> kinds_of(const Equation& equation);
 
+/// Returns the map x -> a^k x, y -> a^m y as text.
+std::string scaling_text(const std::string& x, const Number& k, const std::string& y, const Number& m);
+
 /// The kinds of equation, each with one sentence for help.
 struct EquationKind {
   std::string_view name, meaning;

@@ -110,6 +110,17 @@ std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vec
   return equation;
 }
 
+std::string scaling_text(const std::string& x, const Number& k, const std::string& y, const Number& m) {
+  const auto scaled = [](const std::string& name, const Number& by) {
+    const std::string exponent = Expression(by).text({});
+    const std::string_view open = by.is_whole() && by.value() > 0 ? "" : "(", close = open.empty() ? "" : ")";
+    const std::string power = by == Number(1) ? "" : fmt::format("^{}{}{}", open, exponent, close);
+    return by == Number(0) ? "" : fmt::format("{0} -> a{1}*{0}", name, power);
+  };
+  const std::string first = scaled(x, k), second = scaled(y, m);
+  return first + (first.empty() || second.empty() ? "" : ", ") + second;
+}
+
 const std::vector<EquationKind>& equation_kinds() {
   static const std::vector<EquationKind> all{
       {"separable", "y' = f(x) g(y)"},
@@ -176,10 +187,12 @@ std::vector<std::string> kinds_of(const Equation& equation) {
   }
   if (second) add("Hamiltonian", [&] { return vanishes(f[1].derivative(1)); });
   if (R.is_zero()) return kinds;
+  // The equation of the orbits of x'' = F is not the typed one. Its kinds are listed for equations of first order and
+  // for systems.
   add("rotation", [&] { return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R); });
   const E by_x = R.derivative(0), by_y = R.derivative(1);
   if (first) add("autonomous", [&] { return vanishes(by_x); });
-  add("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
+  if (!second) add("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
   // A polynomial of a degree below n is determined by n values. Derivatives alone do not see kinks, as of |y|.
   const auto is_polynomial = [&](const std::vector<int>& at) {
     std::vector<E> terms{R};
@@ -190,7 +203,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     }
     return vanishes(E::sum(terms));
   };
-  const bool linear = add("linear", [&] { return vanishes(by_y.derivative(1)) && is_polynomial({1, -2}); });
+  const bool linear = second || add("linear", [&] { return vanishes(by_y.derivative(1)) && is_polynomial({1, -2}); });
   if (!linear) {
     std::optional<Number> n;
     holds([&] {
@@ -206,7 +219,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       kinds.push_back(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
     add("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
   }
-  const bool homogeneous = add("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
+  const bool homogeneous = !second && add("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
   if (!homogeneous) {
     std::optional<Number> m;
     holds([&] {
@@ -215,8 +228,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       return true;
     });
     if (m) {
-      kinds.push_back(
-          fmt::format("isobaric ({0} -> a*{0}, {1} -> a^({2})*{1})", names[0], names[1], E(*m).text({}, 6)));
+      kinds.push_back(fmt::format("isobaric ({})", scaling_text(names[0], 1, names[1], *m)));
     }
   }
   std::optional<Number> c;

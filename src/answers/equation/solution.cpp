@@ -23,29 +23,6 @@ const E x = E::variable(0), y = E::variable(1), q = E::variable(2), p = E::varia
 
 E ln(const E& e) { return E::function("ln", E::function("abs", e)); }
 
-/// Returns the shortest of a formula, its expansion and its form as one fraction.
-E tidied(const E& e) {
-  E best = e;
-  const auto offer = [&](const std::function<E()>& other) {
-    try {
-      const E each = other();
-      if (each.size() < best.size()) best = each;
-    } catch (const std::length_error&) {
-      // too long a form is not offered
-    }
-  };
-  offer([&] { return e.expanded(); });
-  offer([&] {
-    const auto [above, below] = fraction_of(e);
-    return above.expanded() / below;
-  });
-  offer([&] {
-    const auto [above, below] = fraction_of(e);
-    return above.expanded() / below.expanded();
-  });
-  return best;
-}
-
 /// Returns the formula with each |z|^n, n whole, replaced by z^n. Both differ by a sign between the zeros of z.
 E without_sizes(const E& e) {
   return e.replaced([](const E& part) -> Maybe {
@@ -385,6 +362,41 @@ Number snapped(double value) {
 
 using namespace solution_formulas;
 
+Expression tidied(const Expression& e) {
+  E best = e;
+  const auto offer = [&](const std::function<E()>& other) {
+    try {
+      const E each = other();
+      if (each.size() < best.size()) best = each;
+    } catch (const std::length_error&) {
+      // too long a form is not offered
+    }
+  };
+  offer([&] { return e.expanded(); });
+  offer([&] {
+    const auto [above, below] = fraction_of(e);
+    return above.expanded() / below;
+  });
+  offer([&] {
+    const auto [above, below] = fraction_of(e);
+    return above.expanded() / below.expanded();
+  });
+  offer([&] {
+    const E sum = best.expanded();
+    if (!sum.is(Kind::sum)) return sum;
+    std::vector<E> common(factors_of(sum.parts()[0]).begin(), factors_of(sum.parts()[0]).end()), terms;
+    std::erase_if(common, [&](const E& factor) {
+      return factor.is(Kind::number) || !std::ranges::all_of(sum.parts(), [&](const E& term) {
+               return std::ranges::count(factors_of(term), factor) > 0;
+             });
+    });
+    const E outside = E::product(common);
+    for (const E& term : sum.parts()) terms.push_back(term / outside);
+    return outside * E::sum(terms);
+  });
+  return best;
+}
+
 std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found) {
   const auto& f = equation.f;
   const auto& names = equation.names;
@@ -424,13 +436,8 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
         c.dt_dp = E::function("exp", (Number(1) - *weight) * p) * s / first;
       }
     }
-    const auto scaled = [&](const E& e, const Number& by) {
-      const std::string text = e.text(names), shown = e.is(Kind::sum) ? "(" + text + ")" : text;
-      const std::string factor = power(q, by).text(std::array{names[0], names[1], std::string("a")});
-      return by == Number(0) ? "" : fmt::format("{0} -> {1}*{0}", shown, factor);
-    };
-    const std::string second = scaled(dy, m);
-    return accepted(c, {dx, m * dy}, scaled(dx, 1) + (second.empty() ? "" : ", " + second), {0, 0});
+    const auto shown = [&](const E& e) { return e.is(Kind::sum) ? "(" + e.text(names) + ")" : e.text(names); };
+    return accepted(c, {dx, m * dy}, scaling_text(shown(dx), 1, shown(dy), m), {0, 0});
   };
   std::vector<std::array<Number, 3>> scalings;  // m and the centre
   scalings.push_back({1, 0, 0});
@@ -457,8 +464,7 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
   }
   if (equation.vanishes(below)) {
     return accepted({"", x, ln(y), {}, (R / y).with(1, 1).with(0, q), {}, false}, {0, y},
-                    fmt::format("{0} -> a*{0}", names[1]),
-                    {q, (equation.start[1] < 0 ? -1 : 1) * E::function("exp", p)});
+                    scaling_text("", 0, names[1], 1), {q, (equation.start[1] < 0 ? -1 : 1) * E::function("exp", p)});
   }
   if (const auto c = equation.constant(-by_x / by_y)) {
     const E slope = E(*c);
@@ -484,13 +490,19 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     if (auto spiral = accepted(c, {x - k * y, k * x + y}, "spirals: the plane is turned and magnified", {cos, sin}))
       return spiral;
   }
+  const std::array letters{names[0], names[1], std::string("a")};
+  if (const auto parts = separated(equation)) {
+    const Maybe P = antiderivative(tidied(1 / (*parts)[1]), 1);
+    if (!P) return std::nullopt;
+    Coordinates c{"", x, *P, {}, (*parts)[0].with(0, q), {}, false};
+    return accepted(c, {0, (*parts)[1]}, fmt::format("{0} -> {0} + a", P->text(names)), {0, 0});
+  }
   // (m z)' = m b with z = y^k
   const auto form = linear_form(equation, R, 1);
   const auto found_m = form ? multiplied(equation, form->a, form->b, 0) : std::nullopt;
   if (!found_m) return std::nullopt;
   const E z = power(y, form->k), step = tidied(1 / found_m->factor);
   Coordinates c{"", x, z * found_m->factor, {}, found_m->rest.with(0, q), {}, false};
-  const std::array letters{names[0], names[1], std::string("a")};
   return accepted(c, {0, tidied(step / z.derivative(1))},
                   fmt::format("{} -> {}", z.text(names), (z + q * step).text(letters)), {0, 0});
 }
@@ -498,6 +510,7 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
 std::optional<IntegralFormula> integral_of(const Equation& equation, const std::optional<Coordinates>& coordinates,
                                            const std::optional<Expression>& factor) {
   const auto& f = equation.f;
+  const auto& names = equation.names;
   const E& R = equation.slope;
   std::optional<IntegralFormula> result;
   const auto attempt = [&](const std::function<Maybe()>& way) {
@@ -568,12 +581,15 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
     return of_closed(-f[1] / *factor, f[0] / *factor);
   });
   if (!result) return result;
+  if (result->H.text(names).starts_with('-')) result->H = -result->H;
   constexpr std::size_t longest = 250;
   if (result->H.size() > longest) return std::nullopt;
   const E summed = with_sums_of_logarithms(result->H);
   result->solvable = result->H;
   for (const E& other : {summed, tidied(summed), tidied(result->H)}) {
-    if (other.size() < result->H.size() && equation.is_integral(other, result->quadrant)) result->H = other;
+    if (other.size() < result->H.size() && !other.text(names).starts_with('-') &&
+        equation.is_integral(other, result->quadrant))
+      result->H = other;
   }
   return result;
 }
@@ -657,7 +673,12 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
       }
     }
     if (!(left == y) || right.has(1)) return std::nullopt;
-    const E solution = tidied(right);
+    // |z| is z or -z up to the next zero of z
+    const E signed_right = right.replaced([&](const E& part) -> Maybe {
+      if (!part.is(Kind::function) || part.name() != "abs") return std::nullopt;
+      return part.parts()[0]({x0, y0}) < 0 ? -part.parts()[0] : part.parts()[0];
+    });
+    const E solution = tidied(signed_right);
     constexpr std::size_t longest = 80;
     if (solution.size() > longest) return std::nullopt;
     const E slope = solution.derivative(0);

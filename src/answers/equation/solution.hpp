@@ -24,6 +24,9 @@ struct Coordinates {
 /// @param found  symmetries of the field, from which a centre and a matrix are taken as fractions
 std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found);
 
+/// Returns the shortest of a formula, its expansion, its form as one fraction, and a product with common factors.
+Expression tidied(const Expression& e);
+
 /// A function H of x and y that is constant along orbits, as a formula.
 struct IntegralFormula {
   Expression H;

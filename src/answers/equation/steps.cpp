@@ -38,7 +38,7 @@ std::string Steps::broken_at(const Eigen::Vector2d& x) const {
 }
 
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
-               const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around) {
+               bool cleared, const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around) {
   Steps steps{system.variables};
   const auto is_taken = [&](const std::string& name) { return std::ranges::count(system.variables, name) > 0; };
   const bool taken = is_taken("q") || is_taken("p");
@@ -53,21 +53,32 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
       // A formula became too long, and its part stays empty.
     }
   };
-  std::optional<Expression> V;
   attempt([&] {
     if (factor.empty()) return;
-    const Formulas typed({{}, {"u", "v"}, "V"}, factor, {});
-    if (const auto both = typed.expressions()) V = (*both)[0];
+    const Formulas typed({{}, {"u", "v", "u'", "v'"}, "V"}, factor, {});
+    const auto both = typed.expressions();
+    if (!both) return;
+    Expression D = 1;
+    if (const auto divisors = cleared ? system.formulas.denominator() : std::nullopt) {
+      const auto below = divisors->expressions();
+      if (!below) return;
+      D = (*below)[0];
+    }
+    steps.factor = tidied((*both)[0].with(2, D * equation->f[0]).with(3, D * equation->f[1]) / D);
   });
   attempt([&] { steps.kinds = kinds_of(*equation); });
   attempt([&] { steps.coordinates = coordinates_of(*equation, found); });
-  attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, V); });
+  attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, steps.factor); });
   const bool separable = std::ranges::count(steps.kinds, "separable") > 0;
   if (steps.coordinates && !separable && steps.coordinates->changes_q) {
     steps.kinds.push_back(fmt::format("separable after {} = {}", steps.names[2], steps.text(steps.coordinates->q)));
   }
   if (steps.integral && !steps.integral->after.empty()) steps.kinds.push_back(steps.integral->after);
-  if (V && !V->is_constant() && coefficients(*V, 0) && coefficients(*V, 1)) steps.kinds.emplace_back("Darboux");
+  const auto is_polynomial = [](const Expression& e) { return coefficients(e, 0) && coefficients(e, 1); };
+  const bool is_system = system.equations == FormulaField::Equations::system;
+  if (is_system && steps.factor && !steps.factor->is_constant() && is_polynomial(*steps.factor)) {
+    steps.kinds.emplace_back("Darboux");
+  }
   if (start && steps.integral && system.equations == FormulaField::Equations::first) {
     Equation of_start = *equation;
     of_start.start = *start;

@@ -15,6 +15,7 @@ struct Steps {
   std::optional<Coordinates> coordinates = {};
   std::optional<IntegralFormula> integral = {};
   std::optional<Expression> branch = {};  ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
+  std::optional<Expression> factor = {};  ///< inverse integrating factor V
   std::vector<Expression> parts = {};     ///< the right sides
 
   std::string text(const Expression& e, int digits = 0) const { return e.text(names, digits); }
@@ -27,10 +28,11 @@ struct Steps {
   std::string broken_at(const Eigen::Vector2d& x) const;
 };
 
-/// @param factor  inverse integrating factor as FactorFormula::factor, in u and v; empty if none is known
+/// @param factor   inverse integrating factor as PlanarReduction::formula; empty if none is known
+/// @param cleared  true if `factor` still has to be divided by the denominator of the field
 /// @param start   start of the orbit; if empty, the branch of the solution stays empty
 /// @param around  point that sets the scale of the points at which formulas are compared
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
-               const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around);
+               bool cleared, const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around);
 
 }  // namespace contensou::answers

@@ -340,19 +340,6 @@ void add_scaling(Answer& answer, const ScalingNames& names, const PlanarReductio
   });
 }
 
-/// Returns a formula in u and v in the typed letters.
-std::string in_letters(const std::string& formula, const std::vector<std::string>& letters) {
-  std::string text;
-  for (std::size_t at = 0; at < formula.size();) {
-    std::size_t end = at;
-    while (end < formula.size() && std::isalnum(static_cast<unsigned char>(formula[end])) != 0) ++end;
-    const std::string word = formula.substr(at, std::max<std::size_t>(end - at, 1));
-    text += word == "u" ? letters[0] : word == "v" ? letters[1] : word;
-    at += word.size();
-  }
-  return text;
-}
-
 /// Adds to the answer the reduction as formulas.
 void add_steps(Answer& answer, const Steps& steps) {
   const auto& c = steps.coordinates;
@@ -371,7 +358,7 @@ void add_factor(Answer& answer, const PlanarReduction& plane, const Steps& steps
   const std::string_view form = plane.form();
   const std::string_view shown = form == "basis" ? "a sum of the basis" : form == "affine" ? "f ^ X, X affine" : form;
   const std::string v = fmt::format("{}{}", shown, divided);
-  const std::string factor = plane.formula().factor;
+  const std::string factor = plane.formula();
   const std::string integral = steps.integral ? steps.integral->H.text(std::array<std::string, 2>{"u", "v"}) : "";
   Json& members = answer.members;
   members["factor"] = factor.empty() ? v + ", 1 at the start" : fmt::format("{}{}", factor, divided);
@@ -496,9 +483,11 @@ class Blackboard {
   void add(std::string_view name, const std::string& line) { text_ += fmt::format("{:<13}{}\n", name, line); }
 
   void add_kinds() {
-    if (steps_.kinds.empty()) return;
-    const bool second = type_ == FormulaField::Equations::second;
-    add("equation", fmt::format("{}{}", fmt::join(steps_.kinds, "; "), second ? "; of the second order" : ""));
+    using Type = FormulaField::Equations;
+    const std::string_view order = type_ == Type::first    ? "first order"
+                                   : type_ == Type::second ? "second order"
+                                                           : "system";
+    add("equation", fmt::format("{}{}{}", order, steps_.kinds.empty() ? "" : ": ", fmt::join(steps_.kinds, "; ")));
   }
 
   /// @param X  the generator as text, for a symmetry without coordinates; empty if there is none
@@ -516,18 +505,26 @@ class Blackboard {
     if (c.dt_dp) add("time", fmt::format("dt/d{} = {}", steps_.names[3], shown(*c.dt_dp)));
   }
 
-  /// @param V       inverse integrating factor as text; empty if it is not the method
   /// @param method  words for a solution without a formula
-  void add_solution(const std::optional<Vector2d>& start, const std::string& V, const std::string& method) {
+  /// @param form    form of the inverse integrating factor, if this is the method
+  void add_solution(const std::optional<Vector2d>& start, const std::string& method, std::string_view form) {
     if (steps_.integral) {
       const double C = start ? steps_.integral->H({(*start)[0], (*start)[1]}) : infinity;
       add("solution", fmt::format("{} = C{}", shown(steps_.integral->H),
                                   std::isfinite(C) ? ",  C = " + digits_(C) : std::string()));
       if (steps_.branch) add("", fmt::format("{} = {}", steps_.names[1], shown(*steps_.branch)));
-    } else if (!method.empty()) {
+    } else {
       add("solution", method);
     }
-    if (!V.empty()) add("factor", fmt::format("V = {};  dH = {}", V, differential()));
+    if (steps_.factor) {
+      if (!steps_.coordinates || !steps_.integral)
+        add("factor", fmt::format("V = {};  dH = {}", shown(*steps_.factor), differential()));
+    } else if (!steps_.integral && !form.empty() && form != "scaling") {
+      const bool of_u = form.ends_with(" u"), of_v = form.ends_with(" v");  // such as "quadratic in v"
+      const std::string letter = of_u ? steps_.names[0] : of_v ? steps_.names[1] : "";
+      add("factor", fmt::format("V is {}{}, as numbers;  dH = {}", form.substr(0, form.size() - (of_u || of_v)), letter,
+                                differential()));
+    }
   }
 
   void add_orbit(const Followed& followed, const Vector2d& start) {
@@ -694,9 +691,9 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
 
   const bool by_factor = plane.solved() && !plane.scaling();
   const bool cleared = by_factor && plane.tried().back().cleared;
-  const std::string factor = by_factor && !cleared ? plane.formula().factor : "";
-  const Steps steps = steps_of(system, found, factor, given, around);
-  const std::string V = factor.empty() ? "" : in_letters(factor, system.variables);
+  const bool of_basis = plane.form() == "basis";
+  const std::string factor = by_factor && !of_basis ? plane.formula() : "";
+  const Steps steps = steps_of(system, found, factor, cleared, given, around);
   add_steps(answer, steps);
   std::optional<Followed> followed;
   bool at_rest = false;
@@ -722,7 +719,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
                                : plane.solved() ? "by quadrature along H = C"
                                                 : "none by quadrature: " + words_of(plane.why_not());
-    board.add_solution(given, V, method);
+    board.add_solution(given, method, plane.form());
     if (at_rest) {
       board.add("end", "the start is the centre");
     } else if (followed) {

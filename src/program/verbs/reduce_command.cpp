@@ -21,8 +21,8 @@ class ReduceCommand final : public Verb {
     law_.add(app);
     output_.add(app);
     app.option_defaults()->group("Another system");
-    app.add_flag("--details", details_,
-                 "also print the numbers of the search, for --system: singular values and tried forms");
+    details_.add(app, "--details", "print also the numbers of the search: singular values and tried forms");
+    details_.needs(system_.argument(), "is for typed equations");
     system_.argument().excludes({&law_.argument()}, "friction is in the formulas");
     system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
   }
@@ -60,7 +60,7 @@ class ReduceCommand final : public Verb {
   }
 
   SystemOption system_;
-  bool details_ = false;
+  Flag details_;
   StartOptions start_;
   LawOption law_;
   PictureOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};

@@ -93,11 +93,6 @@ struct TriedForm {
   bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
 };
 
-/// V and the first integral H as formulas in u and v; empty if the coefficients are not recognised as rational numbers.
-struct FactorFormula {
-  std::string factor, integral;
-};
-
 /// A planar system x' = f(x) reduced to quadratures. The reduction uses a scaling X = c t d/dt + A (x - x_0) . d/dx, so
 /// that f on one closed curve about x_0 determines f everywhere. If there is no scaling, the reduction uses an inverse
 /// integrating factor V. Orbits of a system without both are integrated by steps.
@@ -134,10 +129,9 @@ class PlanarReduction {
   /// Returns the forms of V in the order in which they were tried; empty for a scaling.
   const std::vector<TriedForm>& tried() const;
 
-  /// Returns V, up to a constant factor, and H, up to constants. Both are empty unless V solves the system and has
-  /// rational coefficients with which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised. H is a sum
-  /// of functions of u and of v.
-  FactorFormula formula() const;
+  /// Returns V up to a constant factor, as a formula in u, v, u' and v'; empty unless V solves the system and has
+  /// rational coefficients with which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised.
+  std::string formula() const;
 
   const SmoothField& field() const;
 
