@@ -117,10 +117,8 @@ void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::strin
         if (verb->get_option_no_throw(option) != nullptr) others.push_back(verb->get_name());
       }
     }
-    const bool in_letters = (option == "--x0" || option == "--y0") && app.get_option_no_throw("--u0") != nullptr;
-    const std::string hint = in_letters       ? ": --u0 and --v0 are the start, also of a system in x and y"
-                             : others.empty() ? suggestion(option, options)
-                                              : fmt::format(": it is an option of {}", fmt::join(others, ", "));
+    const std::string hint = others.empty() ? suggestion(option, options)
+                                            : fmt::format(": it is an option of {}", fmt::join(others, ", "));
     throw BadInput("unknown option {}{}", quotation(option), hint);
   }
   if (names.empty()) throw BadInput("unexpected argument {}", quotation(typed));

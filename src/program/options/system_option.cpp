@@ -43,7 +43,7 @@ TypedSystem SystemOption::read(const std::map<std::string, double>& parameters) 
   const Argument* reading = &system_;
   try {
     const FormulaField field = parse_planar_system(system_.text(), parameters);
-    TypedSystem typed{field, {field.variables.at(0), field.variables.at(1)}, field};
+    TypedSystem typed{field, field};
     reading = &basis_;
     if (basis_.given()) typed.field.basis = parse_basis(basis_.text(), field, parameters);
     return typed;
@@ -53,7 +53,7 @@ TypedSystem SystemOption::read(const std::map<std::string, double>& parameters) 
 }
 
 std::optional<Eigen::Vector2d> SystemOption::read_start(const TypedSystem& typed, const StartOptions& options) const {
-  const auto& letters = typed.variables;
+  const auto letters = typed.variables();
   const std::string way_out = fmt::format("a start is --start \"{}=VALUE, {}=VALUE\"", letters[0], letters[1]);
   std::array<std::optional<double>, 2> values;
   const auto set = [&](const Argument& argument, std::size_t place, double value) {
@@ -82,7 +82,7 @@ std::optional<Eigen::Vector2d> SystemOption::read_start(const TypedSystem& typed
 
 Eigen::Vector2d SystemOption::require_start(const TypedSystem& typed, const StartOptions& options) const {
   if (const auto start = read_start(typed, options)) return *start;
-  throw BadInput("a start is missing: give --start \"{}=VALUE, {}=VALUE\"", typed.variables[0], typed.variables[1]);
+  throw BadInput("a start is missing: give --start \"{}=VALUE, {}=VALUE\"", typed.variables()[0], typed.variables()[1]);
 }
 
 }  // namespace contensou::program

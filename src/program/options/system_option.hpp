@@ -16,11 +16,13 @@
 
 namespace contensou::program {
 
-/// A field that was typed, and the two letters of its equations, such as x and x'.
+/// A field that was typed, perhaps with a basis, and its formulas.
 struct TypedSystem {
   reduction::SmoothField field;
-  std::array<std::string, 2> variables;
   FormulaField formulas;
+
+  /// Returns the two letters of the equations, such as x and x'.
+  std::array<std::string, 2> variables() const { return {formulas.variables.at(0), formulas.variables.at(1)}; }
 };
 
 /// The option --system: a planar system, given by formulas, in place of the equations of motion (2.6).

@@ -215,7 +215,7 @@ class PortraitCommand final : public Verb {
     const Output output = read_output();
     portraits::PlanarPortrait portrait =
         portraits::planar_portrait(reduction::reduce(typed.field, around), system_.text(), request_);
-    portrait.variables = typed.variables;
+    portrait.variables = typed.variables();
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 
