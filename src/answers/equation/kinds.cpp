@@ -249,8 +249,12 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       return true;
     }
     const E of_x = curl / N, of_y = curl / M;
-    if (vanishes(of_x.derivative(1))) kinds.push_back("integrating factor of " + names[0]);
-    if (vanishes(of_y.derivative(0))) kinds.push_back("integrating factor of " + names[1]);
+    // Derivatives alone do not see kinks, as of |y|.
+    const auto is_of = [&](const E& e, std::size_t other) {
+      return vanishes(e.derivative(other)) && vanishes(e - e.with(other, Number(13, 10)));
+    };
+    if (is_of(of_x, 1)) kinds.push_back("integrating factor of " + names[0]);
+    if (is_of(of_y, 0)) kinds.push_back("integrating factor of " + names[1]);
     return true;
   });
   return kinds;

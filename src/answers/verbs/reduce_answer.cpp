@@ -881,7 +881,7 @@ std::vector<FieldText> reduce_system_fields() {
          "type of the solution: scaling, or the form of the inverse integrating factor V, or null without a solution. "
          "factor: V as a formula, up to a constant factor, or in words"},
         {"JSON `variables` [x, y]", "", "letters of the equations; u and v stand for them in the other fields"},
-        {"JSON `equation` [...]", "", "all kinds of equation that hold, in the words of textbooks"},
+        {"JSON `equation` [...]", "", "all kinds of equation that hold; 'contensou help reduce' explains them"},
         {"JSON `steps` {`q`, `p`, `separated`}", "",
          "coordinates q and p as formulas in the typed letters, and the separated equation, such as dq/dp = tan(q); "
          "null if the equation has no such symmetry"},

@@ -1,11 +1,13 @@
 #include <optional>
 
+#include "answers/equation/equation.hpp"
 #include "answers/verbs/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/start_options.hpp"
 #include "options/system_option.hpp"
+#include "output/help.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -23,6 +25,11 @@ class ReduceCommand final : public Verb {
     app.option_defaults()->group("Another system");
     details_.add(app, "--details", "print also the numbers of the search: singular values and tried forms");
     details_.needs(system_.argument(), "is for typed equations");
+    app.footer([] {
+      std::string text = "Kinds of equations that the answer names:\n";
+      for (const auto& [name, meaning] : equation_kinds()) text += help_entry(name, meaning);
+      return text;
+    });
     system_.argument().excludes({&law_.argument()}, "friction is in the formulas");
     system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
   }
