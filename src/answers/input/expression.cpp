@@ -417,7 +417,7 @@ Expression Expression::function(std::string_view name, const Expression& x) {
     const bool known =
         x.is_zero() || (x.is_one() && (name == "ln" || name == "acosh")) || name == "abs" || name == "sign";
     if (std::isfinite(value) && !x.number().is_exact()) return Number::inexact(value);
-    if (known) return Number(value);
+    if (std::isfinite(value) && known) return Number(value);
   }
   if (rows[*row].parity != 0 && is_negative(x)) {
     const Expression turned = function(name, -x);

@@ -885,7 +885,7 @@ std::vector<FieldText> reduce_system_fields() {
         {"JSON `steps` {`q`, `p`, `separated`}", "",
          "coordinates q and p as formulas in the typed letters, and the separated equation, such as dq/dp = tan(q); "
          "null if the equation has no such symmetry"},
-        {"JSON `integral_formula`, `integral`", "",
+        {"`integral_formula`, `integral`", "",
          "constant of the motion H as a formula in the typed letters, and in u and v; null if no formula is found"},
         {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
          "forms of V in the order of the search, each with the smallest singular value of its equations and its gap. "
