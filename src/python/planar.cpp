@@ -10,6 +10,7 @@
 #include <pybind11/eigen.h>
 
 #include "answers/asked/planar_system.hpp"
+#include "answers/verbs/reduce_answer.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "planar.hpp"
@@ -75,8 +76,17 @@ void bind_planar(py::module_& module) {
                     const answers::FormulaField field = answers::parse_planar_system(text, parameters);
                     Planar planar(with_signals(field, std::make_shared<Interruption>()), {u, v});
                     planar.variables = {field.variables.at(0), field.variables.at(1)};
+                    planar.answer = [=, smooth = planar.field] {
+                      return answers::reduce_answer(field, smooth, text, Vector2d(u, v), false);
+                    };
                     return planar;
                   })
+      .def("answer",
+           [](const Planar& planar) {
+             const answers::Answer answer = interruptible([&] { return planar.answer(); });
+             constexpr answers::Digits digits{6};
+             return std::pair(answer.text(digits), answer.members.dump());
+           })
       .def_static("of_flow",
                   [](const reduction::Flow& flow) {
                     return Planar({reduction::planar_field(flow.system())}, {1, flow.system().mu()}, reduced(flow));

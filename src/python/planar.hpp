@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "answers/input/message.hpp"
+#include "answers/table/answer.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"
 
@@ -85,6 +87,7 @@ class Planar {
   reduction::PlanarSymmetries symmetries;
   reduction::PlanarReduction plane;
   std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
+  std::function<answers::Answer()> answer = {};    ///< answer of the program; empty for a function
 
  private:
   mutable std::optional<reduction::Equilibria> equilibria_;

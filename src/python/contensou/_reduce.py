@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
@@ -63,6 +64,9 @@ class Reduction:
     tried:            forms of the factor that were tried: (form, least singular value, gap, residual, cleared); cleared:
                       V was multiplied by the denominator of the field
 
+    For typed equations, print shows the steps as `contensou reduce` does. equation, variables, steps and
+    integral_formula are parts of this answer.
+
     orbit and portrait show the motions of the system. Points are numbers, or arrays of shapes that broadcast; results
     without a value are NaN.
     """
@@ -77,6 +81,42 @@ class Reduction:
         self.solved = core.solved
         self.form: Optional[str] = core.form
         self.tried: tuple[tuple[str, float, float, float, bool], ...] = tuple(core.tried)
+        self._typed = isinstance(again[1][0], str)
+        self._answer: Optional[tuple[str, dict[str, Any]]] = None
+
+    def _answered(self) -> tuple[str, dict[str, Any]]:
+        """Returns the answer of `contensou reduce` as text and as the members of its JSON."""
+        if not self._typed:
+            raise ValueError("reduce: only typed equations are explained as formulas, not a function")
+        if self._answer is None:
+            text, members = self._core.answer()
+            self._answer = text, json.loads(members)
+        return self._answer
+
+    @property
+    def equation(self) -> tuple[str, ...]:
+        """The kinds of the equation in the words of textbooks, such as ("homogeneous", "separable after q = y/x")."""
+        return tuple(self._answered()[1]["equation"])
+
+    @property
+    def variables(self) -> tuple[str, str]:
+        """The typed letters of u and v, such as ("x", "x'")."""
+        first, second = self._answered()[1]["variables"]
+        return first, second
+
+    @property
+    def steps(self) -> dict[str, Optional[str]]:
+        """The coordinates q and p and the separated equation as formulas; None for a part that was not found."""
+        return dict(self._answered()[1]["steps"])
+
+    @property
+    def integral_formula(self) -> Optional[str]:
+        """The constant of the motion H as a formula; None if none was found."""
+        formula: Optional[str] = self._answered()[1]["integral_formula"]
+        return formula
+
+    def __str__(self) -> str:
+        return self._answered()[0] if self._typed else repr(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._again
@@ -93,6 +133,9 @@ class Reduction:
             return None
 
     def _repr_html_(self) -> str:
+        if self._typed:
+            lines = [(line[:12].strip(), line[12:]) for line in str(self).splitlines()]
+            return with_picture(table(self._system, ("", ""), lines), self._repr_svg_())
         rows: list[tuple[str, Any]] = [("solved by", self.form or "no quadrature"), ("verdict on symmetries", self.verdict)]
         if self.form == "scaling":
             rows.append(("kind of the centre", self.kind))
@@ -281,9 +324,9 @@ def reduce(
 ) -> Reduction:
     """Finds the symmetries of u' = F(u, v), v' = G(u, v), and solves the system by quadrature, without steps in time.
 
-    system:      a function (u, v) -> (u', v'), or formulas "u' = F; v' = G", "y' = F(x, y)" or "x'' = F(x, x')", in
-                 which u, v are x, y or x, x'; an exception, NaN or inf marks a point without a value
-    u, v:        a start, not 0; its size is the scale at which the field is sampled
+    system:      a function (u, v) -> (u', v'), or equations in any letters as `contensou help formulas` shows them, such
+                 as "x' = y; y' = -x"; an exception, NaN or inf marks a point without a value
+    u, v:        a start; u is the first letter of the equations. Its size is the scale at which the field is sampled
     parameters:  parameters of the formulas
     """
     if not (isinstance(system, str) or callable(system)):
