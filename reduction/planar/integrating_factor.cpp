@@ -162,12 +162,13 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
     return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
   }
 
-  /// Returns the integral of dH along a straight line from the start.
-  double integral(const Vector2d& to) const {
-    const double sign = at(start).first;
-    const Vector2d way = to - start;
+  /// Returns the integral of dH along the straight line between two points.
+  /// @param value  V and the field at a point
+  template <class Value>
+  static double line_integral(const Vector2d& from, const Vector2d& to, double sign, const Value& value) {
+    const Vector2d way = to - from;
     const auto rate = [&](double share) {
-      const auto [here, f] = at(start + share * way);
+      const auto [here, f] = value(Vector2d(from + share * way));
       if (here * sign > 0) return cross(f, way) / here;
       throw std::domain_error("PlanarReduction: V = 0 between the start and the point, where H is infinite");
     };
@@ -175,7 +176,103 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
     constexpr unsigned halvings = 12;
     return Rule::integrate(rate, 0, 1, halvings, 1e-14);
   }
+
+  double integral(const Vector2d& to) const {
+    return line_integral(start, to, at(start).first, [this](const Vector2d& x) { return at(x); });
+  }
+
+  std::vector<LevelPoint> levels(const std::vector<Vector2d>& path) const override;
 };
+
+/// A walk along a path on which dH is integrated. Where the walk leaves the box of V, V is fitted anew.
+class FactorWalk {
+ public:
+  FactorWalk(const FactorSolution& solution)  // NOLINT(google-explicit-constructor): used at one place
+      : solution_(solution), factor_(*solution.v), box_(solution.v->box()), x_(solution.start) {
+    if (solution.cleared) scale_ = solution.smooth.denominator(x_)[0];
+  }
+
+  /// Goes straight to a point. Returns H and V there.
+  /// @throws std::domain_error  if V or the field has no value on the way, or V is not unique
+  LevelPoint to(const Vector2d& target) {
+    constexpr double inner = 0.9;
+    while (x_ != target) {
+      double part = 1;  // share of the way that lies well within the box
+      if (!holds_everywhere(factor_.form())) {
+        const Vector2d here = box_.inside(x_), way = box_.inside(target) - here;
+        for (int i = 0; i < 2; ++i) {
+          if (way[i] != 0) part = std::min(part, ((way[i] > 0 ? inner : -inner) - here[i]) / way[i]);
+        }
+      }
+      constexpr double least = 1e-3;
+      if (!(part > least) && part < 1) {
+        fit_anew();
+        continue;
+      }
+      const Vector2d next = part >= 1 ? target : Vector2d(x_ + part * (target - x_));
+      integral_ +=
+          FactorSolution::line_integral(x_, next, value(x_).first, [this](const Vector2d& x) { return value(x); });
+      x_ = next;
+    }
+    return {integral_, value(x_).first};
+  }
+
+ private:
+  std::pair<double, Vector2d> value(const Vector2d& x) const {
+    const auto f = value_of(solution_.smooth.value, x);
+    const auto of_form = factor_.form() == FactorForm::basis ? jet_of(solution_.fitted, x)
+                         : f ? std::optional(Jet{solution_.fitted(x), Eigen::Matrix2d::Zero()})
+                             : std::nullopt;
+    if (!f || !of_form) throw std::domain_error("PlanarReduction: the field has no value on the way");
+    const double v = scale_ * factor_(x, *of_form)[0];
+    return {solution_.cleared ? v / solution_.smooth.denominator(x)[0] : v, *f};
+  }
+
+  void fit_anew() {
+    constexpr int most = 2000, halvings = 6;
+    constexpr double accurate = 1e-10;
+    Box box = box_about(x_);
+    for (int i = 0; i <= halvings && fits_ < most; ++i, ++fits_, box.radii /= 2) {
+      const auto samples = sample(solution_.fitted, box);
+      const auto fit = samples ? fit_factor(factor_.form(), *samples) : std::nullopt;
+      if (!fit || !fit->small || !fit->unique || fit->factor.vanishes) continue;
+      // Both V are solutions of (R64) of the same form, so they differ by a factor.
+      const double before = value(x_).first;
+      factor_ = fit->factor;
+      box_ = box;
+      scale_ *= before / value(x_).first;
+      return;
+    }
+    // A polynomial that solves (R64) here, too, goes on, although others also do.
+    const auto jet = jet_of(solution_.fitted, x_);
+    if (!jet || factor_.form() != FactorForm::polynomial || factor_.residual(x_, *jet) > accurate) {
+      throw std::domain_error("PlanarReduction: V is not known on the way");
+    }
+    box_ = box_about(x_);
+  }
+
+  const FactorSolution& solution_;
+  InverseFactor factor_;
+  Box box_;
+  Vector2d x_;
+  double scale_ = 1, integral_ = 0;
+  int fits_ = 0;
+};
+
+std::vector<LevelPoint> FactorSolution::levels(const std::vector<Vector2d>& path) const {
+  std::vector<LevelPoint> all;
+  try {
+    FactorWalk walk(*this);
+    for (const Vector2d& x : path) {
+      const LevelPoint there = walk.to(x / unit);
+      all.push_back({unit * unit * there.integral, there.factor});
+    }
+  } catch (const std::domain_error&) {
+    // From this point on H is not known.
+  }
+  all.resize(path.size(), LevelPoint());
+  return all;
+}
 
 void FactorSolution::look_for_factor() {
   Box box = box_about(start);

@@ -74,6 +74,22 @@ PlanarOrbit PlanarReduction::Solution::orbit_from_centre() const {
   return PlanarOrbit(std::make_shared<const Rest>(centre));
 }
 
+std::vector<LevelPoint> PlanarReduction::Solution::levels(const std::vector<Vector2d>& path) const {
+  std::vector<LevelPoint> all(path.size());
+  const double turned = turn ? std::log(turn->factor) : 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    try {
+      if (const auto integral = path[i] == centre ? std::nullopt : first_integral(path[i])) {
+        all[i] = {*integral, factor(path[i])};
+        if (turned != 0) all[i].integral -= turned * std::round((*integral - all.front().integral) / turned);
+      }
+    } catch (const std::domain_error&) {
+      // The point has no first integral.
+    }
+  }
+  return all;
+}
+
 std::string_view name(PlanarEnd end) {
   constexpr std::string_view names[]{"centre",   "infinity",  "rest",        "border",
                                      "periodic", "undecided", "equilibrium", "cycle"};
@@ -132,6 +148,10 @@ double PlanarReduction::first_integral(const Vector2d& x) const {
   }
   throw std::domain_error(
       fmt::format("the first integral has no value on an invariant curve and at the centre, got ({}, {})", x[0], x[1]));
+}
+
+std::vector<LevelPoint> PlanarReduction::levels(const std::vector<Vector2d>& path) const {
+  return solution_->levels(path);
 }
 
 PlanarOrbit PlanarReduction::orbit(const Vector2d& start) const {

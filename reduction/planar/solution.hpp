@@ -32,6 +32,7 @@ struct PlanarReduction::Solution {
   /// @param orbit  orbit from x
   virtual double end_time_error(const Eigen::Vector2d& x, const PlanarOrbit& orbit) const = 0;
   virtual std::optional<double> first_integral(const Eigen::Vector2d& x) const = 0;
+  virtual std::vector<LevelPoint> levels(const std::vector<Eigen::Vector2d>& path) const;
   virtual std::shared_ptr<const Solution> reversed() const = 0;
   virtual std::string formula() const { return {}; }
 

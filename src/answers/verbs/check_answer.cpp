@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
 #include "answers/table/text_table.hpp"
 
@@ -40,7 +41,8 @@ Json of_deviation(const CheckedLaw& row, double Deviation::*number) {
 
 using Row = CheckedLaw;
 constexpr Field<Row> row_fields[]{
-    {"law", "", "name of the law of friction", [](const Row& row) -> Json { return row.law; }},
+    {"law", "", "name of the law of friction; absent with --system",
+     [](const Row& row) { return row.law.empty() ? Json() : Json(row.law); }},
     {"check", "", "statement that is checked, in a few words", [](const Row& row) -> Json { return row.check.name; }},
     {"measured", "", "largest error that was found",
      [](const Row& row) -> Json { return or_infinity(row.check.measured); }},
@@ -106,12 +108,17 @@ std::string heading() {
 }
 
 std::string as_text(const std::vector<CheckedLaw>& rows, const Digits& digits) {
-  TextTable table({TextTable::left(), TextTable::left(), TextTable::right(digits.width()), TextTable::right(10)});
-  table.add({"law  ", "check", "measured", "allowed"});
+  std::vector<TextTable::Column> columns{TextTable::left(), TextTable::left(), TextTable::right(digits.width()),
+                                         TextTable::right(10)};
+  std::vector<std::vector<std::string>> lines{{"law  ", "check", "measured", "allowed"}};
   for (const auto& [law, check, deviation] : rows) {
-    table.add({label(law) + "  ", check.name, digits(check.measured), fmt::format("{:.2g}", check.allowed),
-               fmt::format("  {}", verdict(check))});
+    lines.push_back({label(law) + "  ", check.name, digits(check.measured), fmt::format("{:.2g}", check.allowed),
+                     fmt::format("  {}", verdict(check))});
   }
+  const bool has_law = !rows.front().law.empty();
+  if (!has_law) columns.erase(columns.begin());
+  TextTable table(columns);
+  for (auto& line : lines) table.add({line.begin() + (has_law ? 0 : 1), line.end()});
   return table.text();
 }
 
@@ -175,6 +182,22 @@ Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in) {
   Answer answer = answer_of_checks(rows);
   answer.text = [=](const Digits& digits) { return (built_in ? heading() : "") + as_text(rows, digits); };
   return answer;
+}
+
+Answer check_system_answer(const reduction::SmoothField& field, const Eigen::Vector2d& start) {
+  try {
+    if (!field(start).isZero(0)) {
+      const auto found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
+      std::vector<CheckedLaw> rows;
+      for (Check& check : verify(reduction::reduce(field, start, found), found, start)) {
+        rows.push_back({"", std::move(check)});
+      }
+      return check_answer(rows, false);
+    }
+  } catch (const std::domain_error& error) {
+    throw BadInput("there is no motion to check at ({}, {}): {}", start[0], start[1], error.what());
+  }
+  throw BadInput("({}, {}) is at rest, there is no motion to check: give another start", start[0], start[1]);
 }
 
 Answer check_against_answer(const MotionsBeside& motions, const std::string& law, double tolerance) {

@@ -12,7 +12,7 @@ namespace contensou::answers {
 
 /// The result of a check of a law.
 struct CheckedLaw {
-  std::string law;
+  std::string law;  ///< empty for a typed system
   reduction::Check check;
   std::optional<Deviation> deviation = {};  ///< deviation from a table, if the check uses one
 };
@@ -27,6 +27,10 @@ void take_worse(std::vector<reduction::Check>& worst, const std::vector<reductio
 /// Returns the answer of `check` with the given rows.
 /// @param built_in  true for rows of built_in_checks; the text then names the starts of built_in_checks
 Answer check_answer(const std::vector<CheckedLaw>& rows, bool built_in);
+
+/// Returns the answer for the motion of a typed system from a start.
+/// @throws BadInput  if the system has no motion there
+Answer check_system_answer(const reduction::SmoothField& field, const Eigen::Vector2d& start);
 
 /// Returns the answer for a table and the motions of a ball: two checks of the motion under the law, and the errors of
 /// other models.

@@ -18,22 +18,28 @@ Eigen::ArrayXd instants(Eigen::Index count, double busy, double end) {
 }
 
 InstantsOption::Times InstantsOption::read_times(const std::string& typed, const std::string& time,
-                                                 std::string_view unit) {
+                                                 std::string_view unit, bool signs) {
   const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
   const std::vector<std::string> texts = split(typed, ',');
   const bool in_seconds = unit.empty() && !is_file && !std::ranges::all_of(texts, is_number);
   const std::vector<double> times =
       is_file ? read_column(typed, time, Infinity::forbidden) : parse_quantities(texts, in_seconds ? "s" : unit);
-  if (const auto early = std::ranges::find_if(times, [](double at) { return at < 0; }); early != times.end()) {
-    throw NotAllowed("{} is not allowed: {} >= 0 is required", *early, time);
-  }
-  return {Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())), in_seconds};
+  const Times all{Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())), in_seconds};
+  if (!signs) require_not_negative(all, time);
+  return all;
 }
 
-void InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent) {
+void InstantsOption::require_not_negative(const Times& times, const std::string& time) {
+  for (const double at : times.values) {
+    if (at < 0) throw NotAllowed("{} is not allowed: {} >= 0 is required", at, time);
+  }
+}
+
+void InstantsOption::add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent,
+                         bool signs) {
   constexpr long max_samples = 10'000'000;
   app.option_defaults()->group("Instants");
-  const auto read = [=](const std::string& typed) { return read_times(typed, time, unit); };
+  const auto read = [=](const std::string& typed) { return read_times(typed, time, unit, signs); };
   at_.add(app, "--at", "T1,T2,...|FILE",
           fmt::format("list of times {0} >= 0{1}, in any order. FILE has a column {0}, or one number a line", time,
                       unit.empty() ? ", or with --ball in seconds, such as '1,2 s'"

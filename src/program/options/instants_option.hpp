@@ -19,9 +19,11 @@ class InstantsOption {
   /// @param time    name of the time, and of its column in a file that --at names
   /// @param unit    symbol of the unit of the time; empty for tau
   /// @param extent  time span of the instants of --samples: "" or " from WHERE to WHERE"
-  void add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent);
+  /// @param signs   true: times before the start are read, too
+  void add(CLI::App& app, const std::string& time, const std::string& unit, const std::string& extent,
+           bool signs = false);
 
-  /// Times >= 0, with their unit.
+  /// Times, >= 0 unless those of either sign are read, with their unit.
   struct Times {
     Eigen::ArrayXd values;
     bool in_seconds = false;
@@ -29,8 +31,12 @@ class InstantsOption {
 
   /// Reads a list of times, or the column of a file that has the name of the time.
   /// @param unit  unit of the list, as in parse_quantity; if empty, the list has no unit, or is in seconds
-  static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "");
+  static Times read_times(const std::string& typed, const std::string& time, std::string_view unit = "",
+                          bool signs = false);
+  /// @throws NotAllowed  for a time before the start
+  static void require_not_negative(const Times& times, const std::string& time);
 
+  const Argument& at_argument() const { return at_; }
   Arguments all() const { return {&at_, &samples_, &equidistant_}; }
   bool given() const { return at_.given() || samples_.given() || equidistant_; }
 

@@ -7,6 +7,7 @@
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
 #include "options/start_options.hpp"
+#include "options/system_option.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -19,6 +20,7 @@ using reduction::Law;
 class CheckCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    system_.add(app);
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
@@ -33,6 +35,8 @@ class CheckCommand final : public Verb {
                    checked(number, is_positive, "a share above 0 is needed"));
     tolerance_.needs(against_, "is for a table");
     output_.add(app);
+    system_.argument().excludes({&law_.argument(), &against_}, "friction is in the formulas");
+    system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
   }
 
   ExitStatus run() override {
@@ -40,6 +44,10 @@ class CheckCommand final : public Verb {
     if (against_.given()) return compare(output);
     if (output.picture && output.format != "tex")
       throw BadInput("a picture compares with a table: add --against FILE, or leave it out");
+    if (system_.given()) {
+      const TypedSystem typed = system_.read(law_.parameters());
+      return output.write(check_system_answer(typed.field, system_.require_start(typed, start_)));
+    }
     const bool of_one_start = start_.given() || start_.body_argument().given();
     const bool one_law = law_.given() || start_.brings_law();
     std::vector<CheckedLaw> rows;
@@ -78,6 +86,7 @@ class CheckCommand final : public Verb {
     return worst;
   }
 
+  SystemOption system_;
   StartOptions start_;
   LawOption law_;
   Argument against_;

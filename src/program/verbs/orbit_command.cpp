@@ -10,6 +10,7 @@
 
 #include "answers/input/load_table.hpp"
 #include "answers/verbs/ball_answer.hpp"
+#include "answers/verbs/orbit_system_answer.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"
@@ -20,6 +21,7 @@
 #include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
+#include "options/system_option.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -182,12 +184,22 @@ std::vector<FieldText> orbit_texts() { return joined({texts_of(orbit_fields), te
 class OrbitCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    system_.add(app);
     start_.take_load_history();
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);
     route_.add(app);
-    instants_.add(app, "tau", "", " from the start to the stop");
+    instants_.add(app, "tau", "", " from the start to the stop", true);
+    until_.add(app, "--until", "T",
+               "last instant of --samples, instead of the stop. With --system, --at and --until may lie before the "
+               "start, and for y' = F(x, y) they are values of x",
+               [](const std::string& typed) {
+                 auto last = InstantsOption::read_times(typed, "tau", "", true);
+                 if (last.values.size() != 1) throw NotAllowed("one time is needed");
+                 return last;
+               });
+    until_.excludes({&instants_.at_argument()});
     time_left_.add(
         app, "--time-left", "T1,T2,...|FILE",
         "times that are left until the stop, instead of --at; with --ball also in seconds, such as '1,2 s'. FILE "
@@ -209,14 +221,25 @@ class OrbitCommand final : public Verb {
         "add the coordinates q = v/u and p = ln v in which the equations are solved, and integral, a constant "
         "of the motion");
     output_.add(app);
+    time_left_.excludes({&until_});
+    beta_.excludes({&until_});
+    system_.argument().excludes({&law_.argument(), &route_.argument(), &time_left_, &beta_, &estimate_, &reduction_},
+                                "only (2.6) has these. The table of a typed system contains its first integral");
+    system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
   }
 
   ExitStatus run() override {
     const Output output = output_.read();
+    if (system_.given()) return run_system(output);
+    for (const auto* times : {instants_.at(), until_.given() ? &*until_ : nullptr}) {
+      if (times != nullptr) require_after_start(*times);
+    }
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     const reduction::ReducedSystem& system = start.system;
     const Route route = route_.read(system);
     const auto* at = instants_.at();
+    const InstantsOption::Times sampled = until_.given() ? sampled_until() : InstantsOption::Times();
+    if (until_.given()) at = &sampled;
     const auto load = start_.load_history();
     if (load) {
       fmt::print(stderr, "{}", require_load_alone(*start.experiment, system.law()));
@@ -258,6 +281,35 @@ class OrbitCommand final : public Verb {
   }
 
  private:
+  ExitStatus run_system(const Output& output) const {
+    const TypedSystem typed = system_.read(law_.parameters());
+    const auto plain = [](const InstantsOption::Times& times) {
+      if (times.in_seconds) throw BadInput("the time of a typed system has no unit: give plain numbers");
+      return times.values;
+    };
+    SystemInstants instants{{}, {}, instants_.samples()};
+    if (instants_.at() != nullptr) instants.at = plain(*instants_.at());
+    if (until_.given()) instants.until = plain(*until_)[0];
+    const StartedSystem system{typed.field,
+                               system_.text(),
+                               typed.formulas.variables,
+                               typed.formulas.equations == FormulaField::Equations::first,
+                               system_.require_start(typed, start_)};
+    return output.write(orbit_system_answer(system, instants));
+  }
+
+  void require_after_start(const InstantsOption::Times& times) const {
+    try {
+      InstantsOption::require_not_negative(times, "tau");
+    } catch (const NotAllowed& error) {
+      (until_.given() ? until_ : instants_.at_argument()).reject(error.what());
+    }
+  }
+
+  InstantsOption::Times sampled_until() const {
+    return {Eigen::ArrayXd::LinSpaced(instants_.samples(), 0, until_->values[0]), until_->in_seconds};
+  }
+
   /// @throws BadInput  for options that need a single orbit, if rolling friction divides the motion into several orbits
   void require_one_orbit(Route route) const {
     const char* const why = " needs one orbit, and rolling friction divides this motion into several";
@@ -317,10 +369,12 @@ class OrbitCommand final : public Verb {
     report.p = motion.ln_v;
   }
 
+  SystemOption system_;
   StartOptions start_;
   LawOption law_;
   RouteOption route_;
   InstantsOption instants_;
+  ArgumentOf<InstantsOption::Times> until_;
   ArgumentOf<InstantsOption::Times> time_left_;
   ArgumentOf<Eigen::ArrayXd> beta_;
   Flag estimate_, reduction_;
@@ -330,7 +384,7 @@ class OrbitCommand final : public Verb {
 const RegisteredVerb<OrbitCommand> orbit_verb(Purpose::compute, "orbit",
                                               "Compute spin and slip at instants of a motion",
                                               "contensou orbit --mu 0.1 --u0 1 --v0 1 --samples 50",
-                                              {{"", orbit_texts}},
+                                              {{"", orbit_texts}, {"--system", orbit_system_fields}},
                                               {"u", "v", "mu", "k", "f, N", "tau", "beta", "stop", "(speed)"});
 
 }  // namespace

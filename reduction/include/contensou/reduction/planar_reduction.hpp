@@ -93,6 +93,11 @@ struct TriedForm {
   bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
 };
 
+/// The first integral H and the inverse integrating factor V at a point, where |grad H| = |f|/|V|.
+struct LevelPoint {
+  double integral = std::numeric_limits<double>::quiet_NaN(), factor = integral;
+};
+
 /// A planar system x' = f(x) reduced to quadratures. The reduction uses a scaling X = c t d/dt + A (x - x_0) . d/dx, so
 /// that f on one closed curve about x_0 determines f everywhere. If there is no scaling, the reduction uses an inverse
 /// integrating factor V. Orbits of a system without both are integrated by steps.
@@ -200,6 +205,11 @@ class PlanarReduction {
   /// subtracts ln PlanarTurn::factor.
   /// @throws std::domain_error  as end; on a ray and at V = 0, where the first integral has no value
   double first_integral(const Eigen::Vector2d& x) const;
+
+  /// Returns first_integral at the points of a path, and V. H is continued along straight lines from the start of the
+  /// search to the first point, and from each point to the next. V is fitted anew where the path leaves its box. H is
+  /// NaN where it is not known, and H is the same before and after a turn about a centre without rays.
+  std::vector<LevelPoint> levels(const std::vector<Eigen::Vector2d>& path) const;
 
   PlanarOrbit orbit(const Eigen::Vector2d& start) const;
 

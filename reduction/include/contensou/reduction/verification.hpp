@@ -6,6 +6,7 @@
 
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/friction_law.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {
@@ -94,5 +95,13 @@ std::vector<Check> verify(const Flow& flow, State start);
 
 /// Computes the same statements over several starts of one system; each row is the worst result over the starts.
 std::vector<Check> verify(const Flow& flow, const std::vector<State>& starts);
+
+/// Computes statements about one motion of a planar system. If the system is solved by a quadrature, its orbit, the
+/// first integral, V, and the period or end time are compared with steps in time. The other statements are about
+/// symmetries, derivatives, equilibria, reversors and the motion backwards. A statement that does not apply is left
+/// out. Each limit is a stated error times the factor by which the motion amplifies it.
+/// @param found  symmetries of the field of `plane`
+/// @throws std::domain_error  if the field is 0 or has no value at the start
+std::vector<Check> verify(const PlanarReduction& plane, const PlanarSymmetries& found, const Eigen::Vector2d& start);
 
 }  // namespace contensou::reduction

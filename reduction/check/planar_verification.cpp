@@ -1,0 +1,442 @@
+#include "contensou/reduction/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "contensou/reduction/detail/root.hpp"
+#include "numerics/epsilon.hpp"
+#include "planar/differences.hpp"
+#include "planar/inverse_factor.hpp"
+#include "planar/reversal.hpp"
+
+namespace contensou::reduction {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+namespace {
+
+// Stated errors: ten times that of states and times by quadrature (PlanarReduction), of difference quotients, and of
+// the misfit (R66) with which V is accepted.
+constexpr double quadrature_error = 1e-11;
+constexpr double quotient_error = 1e-9;
+constexpr double misfit_error = 1e-9;
+
+/// The error that is largest in comparison with its limit.
+struct WorstError {
+  double measured = -1, allowed = 1;
+
+  void see(double error, double limit) {
+    if (std::isnan(measured) || error / limit <= measured / allowed) return;
+    measured = error;
+    allowed = limit;
+  }
+};
+
+/// Returns the value of a computation; empty if a point or a time has none.
+template <class Compute>
+auto known(const Compute& compute) -> std::optional<decltype(compute())> {
+  try {
+    return compute();
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
+/// Returns the image of x under exp(s X).
+Vector2d moved(const Generator& generator, double s, const Vector2d& x) {
+  constexpr int terms = 24;
+  Eigen::Matrix3d rate = Eigen::Matrix3d::Zero(), sum = Eigen::Matrix3d::Identity(), term = sum;
+  rate.topLeftCorner<2, 2>() = s * generator.matrix;
+  rate.topRightCorner<2, 1>() = s * generator.shift;
+  for (int n = 1; n <= terms; ++n) sum += term = Eigen::Matrix3d(term * rate / n);
+  return sum.topLeftCorner<2, 2>() * x + sum.topRightCorner<2, 1>();
+}
+
+/// Computes the checks of one motion.
+class PlanarExamination {
+ public:
+  PlanarExamination(const PlanarReduction& plane, const PlanarSymmetries& found, const Vector2d& start)
+      : plane_(plane),
+        found_(found),
+        start_(start),
+        around_(sampled_about(plane.field(), start)),
+        orbit_(plane.orbit(start)) {
+    const SmoothField& field = plane.field();
+    size_ = around_.lpNorm<Eigen::Infinity>();
+    for (int i = 1; i <= points; ++i) {
+      const Box box = box_about(around_);
+      const Vector2d x = start_ + (evenly_spread(i) - Vector2d(0.5, 0.5)).cwiseProduct(box.radii);
+      if (auto jet = jet_of(field, x)) jets_.emplace_back(x, std::move(*jet));
+    }
+    follow();
+  }
+
+  std::vector<Check> run() {
+    if (plane_.solved()) {
+      routes();
+      first_integral();
+      factor();
+      canonical();
+      time();
+    }
+    symmetries();
+    motion();
+    formulas();
+    equilibria();
+    return std::move(checks_);
+  }
+
+ private:
+  static constexpr int points = 100;
+
+  void add(std::string name, const WorstError& worst) {
+    if (worst.measured < 0) return;  // the statement does not apply to this motion
+    checks_.push_back({std::move(name), worst.measured, worst.allowed});
+  }
+
+  /// A state by quadrature (by steps if no quadrature solves the system), by steps, and by steps with a tenfold
+  /// tolerance.
+  struct Instant {
+    double t;
+    Vector2d x, stepped, coarse;
+    double size;   ///< distance from the origin to which errors are relative
+    double error;  ///< estimated error of the steps
+
+    /// Errors of the quadrature and of the steps.
+    double allowed() const { return quadrature_error * size + error; }
+  };
+
+  static constexpr double tolerance = 1e-12;
+
+  std::optional<Instant> instant(double t) const {
+    return known([&] {
+      const Vector2d x = orbit_.at(t), stepped = steps_.at(t), coarse = coarse_.at(t);
+      if (!x.allFinite() || !stepped.allFinite() || !coarse.allFinite()) throw std::domain_error("no state");
+      return Instant{
+          t, x, stepped, coarse, std::max(start_.stableNorm(), stepped.stableNorm()), (coarse - stepped).norm()};
+    });
+  }
+
+  /// Chooses the instants: up to three periods, up to 95 % of a finite end time, or else up to ten times |x|/|x'|.
+  void follow() {
+    constexpr double share = 0.95, periods = 3, usual = 10;
+    double last = orbit_.period()                    ? periods * *orbit_.period()
+                  : std::isfinite(orbit_.end_time()) ? share * orbit_.end_time()
+                                                     : usual * size_ / plane_.field()(start_).norm();
+    constexpr int halvings = 20;
+    for (int i = 0; i < halvings && !instant(last); ++i) last /= 2;
+    for (const double part : {0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.}) {
+      if (const auto there = instant(part * last)) instants_.push_back(*there);
+    }
+  }
+
+  void routes() {
+    WorstError worst;
+    for (const Instant& at : instants_) worst.see((at.x - at.stepped).norm() / at.size, at.allowed() / at.size);
+    add("state: quadrature against steps in time", worst);
+  }
+
+  /// The distance of states from the level line of H through the start.
+  void first_integral() {
+    WorstError by_steps, by_quadrature;
+    std::vector<Vector2d> path{start_}, exact = path;
+    std::vector<Instant> passed;
+    constexpr int count = 60;
+    for (int i = 1; i <= count && !instants_.empty(); ++i) {
+      const auto at = instant(instants_.back().t * i / count);
+      if (!at) continue;
+      passed.push_back(*at);
+      path.push_back(at->stepped);
+      exact.push_back(at->x);
+    }
+    const auto see = [&](WorstError& worst, const std::vector<Vector2d>& states, bool stepped) {
+      const std::vector<LevelPoint> levels = plane_.levels(states);
+      for (std::size_t i = 0; i < passed.size(); ++i) {
+        const auto f = value_of(plane_.field().value, states[i + 1]);
+        const double away =
+            f ? std::abs((levels[i + 1].integral - levels[0].integral) * levels[i + 1].factor) / f->norm() : infinity;
+        const Instant& at = passed[i];
+        if (std::isfinite(away)) worst.see(away / at.size, quadrature_error + (stepped ? at.error / at.size : 0));
+      }
+    };
+    see(by_steps, path, true);
+    see(by_quadrature, exact, false);
+    add("first integral H along steps in time", by_steps);
+    add("first integral H along the quadrature", by_quadrature);
+
+    if (plane_.scaling() != nullptr) return;
+    // dH has no curl, so its integral around a closed curve is 0.
+    constexpr double radius = 0.1;
+    std::vector<Vector2d> circle;
+    const Box box = box_about(around_);
+    for (const double u : {1, -1}) {
+      for (const double v : {u, -u}) circle.push_back(start_ + radius * box.radii.cwiseProduct(Vector2d(u, v)));
+    }
+    circle.push_back(circle.front());
+    const std::vector<LevelPoint> levels = plane_.levels(circle);
+    const double around = std::abs((levels.back().integral - levels.front().integral) * levels.front().factor);
+    WorstError closed;
+    if (std::isfinite(around)) {
+      closed.see(around / (plane_.field()(circle[0]).norm() * radius * box.radii.norm()), misfit_error);
+    }
+    add("dH around a closed curve", closed);
+  }
+
+  /// f . grad V = V div f by difference quotients of V.
+  void factor() {
+    struct Misfit {
+      double value, size, error;
+    };
+    std::vector<Misfit> misfits;
+    double mean = 0;
+    const Vector2d radii = box_about(around_).radii;
+    for (const auto& sampled : jets_) {
+      const Vector2d& x = sampled.first;  // clang 14: a lambda cannot capture a structured binding
+      const Jet& jet = sampled.second;
+      const auto slope_of_factor = [&](int i, double step) {
+        const auto at = [&](double steps) { return plane_.factor(x + steps * step * Vector2d::Unit(i)); };
+        return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step);
+      };
+      const auto misfit = known([&] {
+        constexpr double step = 2e-3;
+        Vector2d near, far;
+        for (int i = 0; i < 2; ++i) {
+          near[i] = slope_of_factor(i, step * radii[i]);
+          far[i] = slope_of_factor(i, 2 * step * radii[i]);
+        }
+        const double v = plane_.factor(x);
+        return Misfit{std::abs(jet.f.dot(near) - v * jet.slopes.trace()),
+                      jet.f.cwiseAbs().dot(near.cwiseAbs()) + std::abs(v) * jet.slopes.cwiseAbs().sum() +
+                          std::abs(v) * jet.f.cwiseQuotient(radii).lpNorm<1>(),
+                      jet.f.cwiseAbs().dot((far - near).cwiseAbs())};
+      });
+      if (!misfit || !std::isfinite(misfit->value) || !std::isfinite(misfit->error)) continue;
+      // Beside a kink or jump the quotients do not agree.
+      if (misfit->error > 1e-3 * misfit->size) continue;
+      misfits.push_back(*misfit);
+      mean += misfit->size;
+    }
+    WorstError worst;
+    mean /= static_cast<double>(std::max<std::size_t>(misfits.size(), 1));
+    for (const auto& [value, size, error] : misfits) {
+      if (size + mean > 0) worst.see(value / (size + mean), quotient_error + error / (size + mean));
+    }
+    if (misfits.size() >= points / 4) add("V: f . grad V = V div f", worst);
+  }
+
+  void canonical() {
+    if (plane_.scaling() == nullptr) return;
+    WorstError worst;
+    for (const auto& sampled : jets_) {
+      const Vector2d& x = sampled.first;
+      const auto back = known([&] {
+        const auto [q, p, slope] = plane_.canonical(x);
+        return plane_.point(q, p);
+      });
+      // The rounding of p and q moves the point by this error of its size.
+      constexpr double roundings = 64;
+      const double away = (x - plane_.centre()).norm(), p = back ? std::abs(plane_.canonical(x).p) : 0;
+      if (back) worst.see((*back - x).norm() / away, roundings * eps * (1 + p + x.norm() / away));
+    }
+    add("canonical coordinates q and p, there and back", worst);
+  }
+
+  /// The end time or the period.
+  void time() {
+    const double time = period_or_end(orbit_);
+    if (!std::isfinite(time) || !(time > 0) || instants_.empty()) return;
+    const bool periodic = orbit_.period().has_value();
+    if (periodic) {
+      const Vector2d f = plane_.field()(start_);
+      const auto returned = instant(time);
+      WorstError closes, period;
+      if (returned)
+        closes.see((returned->stepped - start_).norm() / returned->size, returned->allowed() / returned->size);
+      const auto by_steps = known([&] {
+        constexpr double share = 1e-3;
+        return root_between([&](double t) { return (steps_.at(t) - start_).dot(f); }, (1 - share) * time,
+                            (1 + share) * time);
+      });
+      if (returned && by_steps) {
+        period.see(std::abs(*by_steps / time - 1), quadrature_error + returned->error / (f.norm() * time));
+      }
+      add("steps in time return after a period", closes);
+      add("period: quadrature against steps in time", period);
+    }
+    // The time that is left from a later state. A change of the state by a part changes the time as from_beside shows.
+    const auto left = [&](const Vector2d& x) { return known([&] { return period_or_end(plane_.orbit(x)); }); };
+    const auto compare = [&](double passed, const Vector2d& x,
+                             double error) -> std::optional<std::pair<double, double>> {
+      constexpr double part = 1e-6;
+      const auto rest = left(x), from_beside = left(x + part * x.norm() * Vector2d(0.6, 0.8));
+      if (!rest || !from_beside || !std::isfinite(*from_beside)) return std::nullopt;
+      const double change = std::abs(*from_beside - *rest) / part;
+      const double other = *rest + (periodic ? 0 : passed);
+      return std::pair{std::abs(other / time - 1),
+                       quadrature_error * (1 + change / time) + error / x.norm() * change / time};
+    };
+    WorstError later, stepped;
+    for (const double part : {0.3, 0.6}) {
+      const auto at = instant(part * time);
+      if (!at) continue;
+      if (const auto found = compare(part * time, at->x, 0)) later.see(found->first, found->second);
+      if (const auto found = compare(part * time, at->stepped, at->error)) stepped.see(found->first, found->second);
+    }
+    const std::string name = periodic ? "period" : "end time";
+    add(name + " from later states by quadrature", later);
+    add(name + " from later states by steps", stepped);
+  }
+
+  void symmetries() {
+    WorstError fields, orbits;
+    for (const Generator& x : found_.generators) {
+      if (!x.everywhere) continue;
+      constexpr double s = 0.1;
+      const double level = found_.scaling ? std::max(found_.residual, found_.level) : found_.level;
+      const double growth = std::exp(x.time * s);
+      for (const auto& [at, jet] : jets_) {
+        // exp(s X) takes f at x to f at its image, and multiplies times by exp(c s).
+        const auto there = value_of(plane_.field().value, moved(x, s, at));
+        if (!there) continue;
+        const Vector2d image = (moved(x, s, jet.f) - moved(x, s, Vector2d::Zero())) / growth;
+        const double rounding = 64 * eps * (1 + jet.slopes.norm() * at.norm() / jet.f.norm());
+        fields.see((*there - image).norm() / image.norm(),
+                   rounding + level * (1 + jet.slopes.norm() * at.norm() / jet.f.norm()));
+      }
+      const Vector2d from = moved(x, s, start_);
+      const auto fine = known([&] { return by_steps(plane_.field(), tolerance).orbit(from); });
+      const auto coarse = known([&] { return by_steps(plane_.field(), 10 * tolerance).orbit(from); });
+      if (!fine || !coarse) continue;
+      for (const Instant& at : instants_) {
+        const auto compared = known([&] {
+          const double t = growth * at.t;
+          return std::pair<Vector2d, Vector2d>(fine->at(t), coarse->at(t));
+        });
+        if (!compared) continue;
+        const double size = std::max(from.norm(), compared->first.norm());
+        const double error = (compared->second - compared->first).norm();
+        // Steps amplify their tolerance like an error of the generator.
+        orbits.see((moved(x, s, at.x) - compared->first).norm() / size,
+                   quadrature_error + level + (at.error + error) * (1 + level / tolerance) / size);
+      }
+    }
+    add("symmetry: field to field", fields);
+    add("symmetry: orbit to orbit, the other by steps", orbits);
+  }
+
+  /// The orbit as a solution of the equations, its second half, and the way back.
+  void motion() {
+    WorstError equations, halves, back;
+    const auto reversed = known([&] { return plane_.reversed(); });
+    for (const Instant& at : instants_) {
+      const double speed = plane_.field()(at.x).norm();
+      const auto derivative = [&](double step) {
+        const auto x = [&](double steps) { return orbit_.at(at.t + steps * step); };
+        return Vector2d((8 * (x(1) - x(-1)) - (x(2) - x(-2))) / (12 * step));
+      };
+      const double step = 1e-2 * std::min(at.x.norm() / speed, at.t);
+      const auto rates = known([&] { return std::pair(derivative(step), derivative(step / 2)); });
+      if (rates && speed > 0) {
+        const double error =
+            (rates->first - rates->second).norm() / speed + quadrature_error * at.size / (step * speed);
+        constexpr double smooth = 1e-3;
+        if (error < smooth)
+          equations.see((rates->second - plane_.field()(at.x)).norm() / speed, quotient_error + error);
+      }
+      // An orbit from a changed state shows how errors of the state grow.
+      const auto compare = [&](WorstError& worst, const PlanarReduction& plane, const Vector2d& x, double t,
+                               const Vector2d& end) {
+        constexpr double part = 1e-7;
+        const double aside = part * std::max(x.norm(), end.norm());
+        const auto ends = known([&] {
+          return std::pair<Vector2d, Vector2d>(plane.orbit(x).at(t), plane.orbit(x + aside * Vector2d(0.6, 0.8)).at(t));
+        });
+        if (!ends || !ends->first.allFinite() || !ends->second.allFinite()) return;
+        const double size = std::max({at.size, x.norm(), end.norm()});
+        const double amplified = (ends->second - ends->first).norm() / part / size;
+        const double of_steps = plane_.solved() ? 0 : 1;  // errors of steps add up
+        constexpr double certain = 1e5;
+        if (amplified > certain) return;
+        worst.see((ends->first - end).norm() / size,
+                  quadrature_error * (1 + amplified) + of_steps * at.error / size * (1 + amplified));
+      };
+      if (const auto middle = known([&] { return orbit_.at(at.t / 2); }))
+        compare(halves, plane_, *middle, at.t / 2, at.x);
+      if (reversed) compare(back, *reversed, at.x, at.t, start_);
+    }
+    add("derivative of the orbit against the equations", equations);
+    add("second half of the orbit from its middle", halves);
+    add("motion backwards returns to the start", back);
+  }
+
+  void formulas() {
+    WorstError slopes;
+    const SmoothField& field = plane_.field();
+    if (field.jacobian) {
+      for (const auto& [x, jet] : jets_) {
+        for (int i = 0; i < 2; ++i) {
+          const auto found = slope([&](const Vector2d& at) { return value_of(field.value, at); }, x, i,
+                                   std::max(std::abs(x[i]), size_ / 8) / 32);
+          const double scale = jet.slopes.norm() + jet.f.norm() / size_;
+          if (found && found->error < 1e-6 * scale) {
+            slopes.see((found->value - jet.slopes.col(i)).norm() / scale, 4 * found->error / scale + quadrature_error);
+          }
+        }
+      }
+    }
+    add("derivatives of the formulas against differences", slopes);
+  }
+
+  void equilibria() {
+    WorstError zeros, reversors;
+    const Equilibria found = find_equilibria(plane_.field(), around_);
+    for (const Equilibrium& each : found.points) {
+      const auto f = value_of(plane_.field().value, each.x);
+      const double norm = each.slopes.norm(), determinant = std::abs(each.slopes.determinant());
+      constexpr double clear = 1e-6;
+      if (!f || !each.eigenvalues || !(determinant > clear * norm * norm)) continue;
+      // A step of Newton's method moves the zero by rounding alone.
+      constexpr double rounding = 256 * eps;
+      const double size = std::max(each.x.norm(), size_);
+      zeros.see((each.slopes.inverse() * *f).norm() / size, rounding * norm * norm / determinant);
+    }
+    add("equilibria are zeros of the equations", zeros);
+    for (const Reversor& reversor : found.reversors) {
+      for (const auto& [x, jet] : jets_) {
+        const auto there = value_of(plane_.field().value, reversor.matrix * x);
+        if (!there) continue;
+        constexpr double roundings = 128;
+        const double limit = roundings * eps * (1 + jet.slopes.norm() * x.norm() / jet.f.norm());
+        reversors.see((*there + reversor.matrix * jet.f).norm() / jet.f.norm(), limit);
+      }
+    }
+    add("reversors turn the equations round", reversors);
+  }
+
+  const PlanarReduction& plane_;
+  const PlanarSymmetries& found_;
+  Vector2d start_, around_;
+  double size_ = 1;
+  PlanarOrbit orbit_;
+  PlanarOrbit steps_ = by_steps(plane_.field(), tolerance).orbit(start_);
+  PlanarOrbit coarse_ = by_steps(plane_.field(), 10 * tolerance).orbit(start_);
+  std::vector<std::pair<Vector2d, Jet>> jets_ = {};
+  std::vector<Instant> instants_ = {};
+  std::vector<Check> checks_ = {};
+};
+
+}  // namespace
+
+std::vector<Check> verify(const PlanarReduction& plane, const PlanarSymmetries& found, const Vector2d& start) {
+  const auto f = value_of(plane.field().value, start);
+  if (!f || f->isZero(0)) throw std::domain_error("verify: the start is no motion, it rests or has no value");
+  return PlanarExamination(plane, found, start).run();
+}
+
+}  // namespace contensou::reduction

@@ -1,0 +1,203 @@
+#include "answers/verbs/orbit_system_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "answers/input/errors.hpp"
+#include "answers/table/text_table.hpp"
+#include "contensou/reduction/detail/infinity.hpp"
+#include "contensou/reduction/detail/root.hpp"
+
+namespace contensou::answers {
+
+using Eigen::Vector2d;
+using reduction::PlanarEnd;
+using reduction::PlanarOrbit;
+using reduction::PlanarReduction;
+
+namespace {
+
+/// A state, and the method that computed it.
+struct ComputedState {
+  Vector2d x;
+  bool by_quadrature;
+};
+
+/// The half of an orbit after the start, or before the start with reversed time.
+class HalfOrbit {
+ public:
+  HalfOrbit(const PlanarReduction& plane, const Vector2d& start)
+      : start_(start),
+        orbit_(plane.orbit(start)),
+        steps_(plane.solved() ? reduction::by_steps(plane.field()).orbit(start) : orbit_),
+        solved_(plane.solved()) {}
+
+  /// Returns the state after a time; empty beyond the end.
+  std::optional<ComputedState> at(double time) const {
+    if (time == 0) return ComputedState{start_, solved_};
+    // Within the error of the end time the state at infinity has no digits.
+    constexpr double error = 1e-12;
+    if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
+    for (const bool quadrature : {true, false}) {
+      if (quadrature != solved_ && !(solved_ && orbit_.end() == PlanarEnd::undecided)) continue;
+      try {
+        const Vector2d x = (quadrature ? orbit_ : steps_).at(time);
+        if (x.allFinite()) return ComputedState{x, quadrature};
+      } catch (const std::domain_error&) {
+        // The orbit ends earlier, or this method does not follow it so far.
+      }
+    }
+    return std::nullopt;
+  }
+
+  PlanarEnd end() const { return orbit_.end(); }
+
+  /// Returns the end of the instants if none is given: the time of rest, or a period.
+  std::optional<double> whole() const {
+    if (orbit_.period()) return orbit_.period();
+    const bool rests = end() == PlanarEnd::centre || end() == PlanarEnd::rest;
+    return rests && std::isfinite(orbit_.end_time()) ? std::optional(orbit_.end_time()) : std::nullopt;
+  }
+
+ private:
+  Vector2d start_;
+  PlanarOrbit orbit_, steps_;
+  bool solved_;
+};
+
+std::string words_of_end(const HalfOrbit& half) {
+  switch (half.end()) {
+    case PlanarEnd::infinity:
+      return "it goes to infinity";
+    case PlanarEnd::border:
+      return "it comes to a pole, a jump or an edge of the equations";
+    default:
+      return "steps in time do not follow it farther";
+  }
+}
+
+std::string time_letter(const StartedSystem& system) {
+  return system.first_order ? system.variables[0] : std::ranges::count(system.variables, "t") > 0 ? "time" : "t";
+}
+
+[[noreturn]] void refuse(const StartedSystem& system, const HalfOrbit& half, const std::string& option, double time,
+                         double sense) {
+  const double last = reduction::last_where([&](double t) { return half.at(t).has_value(); }, 0, time, 100);
+  const Vector2d x = half.at(last)->x;
+  const std::string letter = time_letter(system);
+  const double there = (system.first_order ? x[0] : sense * last) + 0.0;
+  std::string place = fmt::format("{} = {:.9g}", letter, there);
+  if (half.end() != PlanarEnd::infinity) {
+    for (int i = system.first_order ? 1 : 0; i < 2; ++i) {
+      place += fmt::format(", {} = {:.9g}", system.variables[static_cast<std::size_t>(i)], x[i]);
+    }
+  }
+  throw BadInput("{}: the orbit {} at {}: {}; give {} {} {:.9g}", option, sense > 0 ? "ends" : "begins", place,
+                 words_of_end(half), letter, sense > 0 ? "below" : "above", there);
+}
+
+}  // namespace
+
+Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& asked) {
+  const Vector2d& start = system.start;
+  const PlanarReduction plane = reduction::reduce(system.field, start);
+  const HalfOrbit after(plane, start);
+  std::optional<HalfOrbit> before;
+  const double origin = system.first_order ? start[0] : 0;
+  Eigen::ArrayXd instants = asked.at;
+  if (instants.size() == 0) {
+    const auto whole = after.whole();
+    if (!asked.until && !whole) {
+      throw BadInput(
+          "--until missing: this orbit neither returns nor comes to rest in a finite time; give --until or --at");
+    }
+    instants = Eigen::ArrayXd::LinSpaced(asked.samples, origin, asked.until ? *asked.until : origin + *whole);
+  }
+
+  std::vector<ComputedState> states;
+  for (const double instant : instants) {
+    const double time = instant - origin;
+    if (time < 0 && !before) before.emplace(plane.reversed(), start);
+    const HalfOrbit& half = time < 0 ? *before : after;
+    const auto state = half.at(std::abs(time));
+    if (!state) {
+      refuse(system, half, asked.until ? fmt::format("--until {}", *asked.until) : fmt::format("--at {}", instant),
+             std::abs(time), time < 0 ? -1 : 1);
+    }
+    states.push_back(*state);
+  }
+
+  // H is continued from the start along the orbit, in the order of time, on both sides of the start.
+  std::vector<double> integral(states.size(), infinity);
+  if (plane.solved()) {
+    for (const int sense : {1, -1}) {
+      std::vector<Eigen::Index> order;
+      for (Eigen::Index i = 0; i < instants.size(); ++i) {
+        if (sense * (instants[i] - origin) >= 0) order.push_back(i);
+      }
+      std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return sense * instants[i]; });
+      std::vector<Vector2d> path{start};
+      for (const Eigen::Index i : order) path.push_back(states[static_cast<std::size_t>(i)].x);
+      const auto levels = plane.levels(path);
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        integral[static_cast<std::size_t>(order[i])] = or_infinity(levels[i + 1].integral);
+      }
+    }
+  }
+
+  Answer answer{.members = {{"system", system.text},
+                            {"variables", system.variables},
+                            {"u0", start[0]},
+                            {"v0", start[1]},
+                            {"form", plane.solved() ? Json(plane.form()) : Json()}}};
+  std::vector<std::string> names{system.variables[0], system.variables[1], "integral", "by"};
+  if (!system.first_order) names.insert(names.begin(), time_letter(system));
+  for (const std::string& name : names) answer.members[name] = Json::array();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto& [x, by_quadrature] = states[i];
+    const double instant = instants[static_cast<Eigen::Index>(i)];
+    Json row = Json::object();
+    row[names.front()] = instant;
+    if (!system.first_order) row[system.variables[0]] = x[0];
+    row[system.variables[1]] = x[1];
+    row["integral"] = integral[i];
+    row["by"] = by_quadrature ? "quadrature" : "steps";
+    for (const auto& [name, value] : row.items()) answer.members[name].push_back(value);
+    answer.rows.push_back(std::move(row));
+  }
+  answer.text = [rows = answer.rows, names](const Digits& digits) {
+    std::vector<TextTable::Column> columns(names.size() - 1, TextTable::right(digits.width()));
+    columns.push_back(TextTable::left());
+    TextTable table(columns);
+    std::vector<std::string> heading = names;
+    heading.back() = "  by";
+    table.add(heading);
+    for (const Json& row : rows) {
+      std::vector<std::string> cells;
+      for (const auto& [name, value] : row.items()) {
+        cells.push_back(value.is_string() ? "  " + value.get<std::string>() : digits(value.get<double>()));
+      }
+      table.add(std::move(cells));
+    }
+    return table.text();
+  };
+  return answer;
+}
+
+std::vector<FieldText> orbit_system_fields() {
+  return {
+      {"JSON `system`, `variables` [...]", "", "equations as typed, and the letters of their two coordinates"},
+      {"JSON `u0`, `v0`, `form`", "", "start; type of the solution as in reduce, or null if there is none"},
+      {"`t`", "", "time since the start, negative before it; absent for y' = F(x, y)"},
+      {"`x`, `y`", "", "state in the letters of the equations; for y' = F(x, y) the instants are values of x"},
+      {"`integral`", "",
+       "constant of the motion H, found by quadrature; inf where it has no value, as for states by steps"},
+      {"`by`", "", "method of the state: quadrature, or steps in time"},
+  };
+}
+
+}  // namespace contensou::answers
