@@ -4,6 +4,8 @@
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -11,6 +13,7 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
@@ -122,10 +125,14 @@ class Follower {
   }
 
   void follow(int most_work) {
-    int next_anchor = 0;
+    int next_anchor = 0, next_look = 500'000;
     for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);
       if (!here) return stop("the field has no derivatives");
+      if (work_ >= next_look) {
+        if (leaves_for_ever()) return;
+        next_look *= 2;
+      }
       if (i == next_anchor) {
         anchor(here->f);
         next_anchor = std::max(64, 2 * i);
@@ -140,12 +147,14 @@ class Follower {
       unfitted_ &= !holds;
       if (!holds || !step(*here)) {
         if (at_border(*here, shortest)) return end(PlanarEnd::border, motion_.followed);
+        if (leaves_for_ever()) return;
         return stop(holds ? "the field is not smooth" : "the form of V does not hold");
       }
       if (motion_.end == PlanarEnd::border) return;
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
+    if (leaves_for_ever()) return;
     stop(fmt::format("the orbit takes more than {} evaluations of the field; it comes", most_work));
   }
 
@@ -260,6 +269,132 @@ class Follower {
     }
     if (!(power < below) || distance < farther * size_) return false;
     end(PlanarEnd::infinity, infinity);
+    return true;
+  }
+
+  /// Returns true if one coordinate, s, goes to infinity: its rate g depends on s alone, and the other
+  /// coordinate w exists for every s, because its equation is linear or because w stays between two barriers. All
+  /// conditions are tested at 1000 values of s, up to 1e12 times the present one.
+  bool leaves_for_ever() {
+    if (!whole_.jacobian || whole_.switches || motion_.panels.empty()) return false;
+    return drifts() || std::ranges::any_of(std::array{0, 1}, [&](int along) { return leaves_along(along); });
+  }
+
+  static constexpr int far_points = 1000;
+  static constexpr double decades_ = 12;
+
+  /// Returns true if the field is affine, f = J x + b, and l . x grows at the constant rate l . b, where l J = 0.
+  bool drifts() {
+    const auto here = jet_of(whole_, x_);
+    if (!here) return false;
+    const Matrix2d& slopes = here->slopes;
+    const double norm = slopes.norm();
+    constexpr double singular = 1e-14, clear = 1e-6;
+    if (!(std::abs(slopes.determinant()) <= singular * norm * norm)) return false;
+    for (int i = 1; i <= far_points; ++i) {
+      const Vector2d x = (2 * evenly_spread(i) - Vector2d(1, 1)) * std::pow(10, decades_ * (evenly_spread(i)[0] - 0.5));
+      const auto there = jet_of(whole_, size_ * x);
+      if (!there || !((there->slopes - slopes).norm() <= 4 * eps * norm)) return false;
+    }
+    const int row = slopes.col(0).norm() > slopes.col(1).norm() ? 0 : 1;
+    const Vector2d left = Vector2d(-slopes(1, row), slopes(0, row)).normalized();
+    if (!(std::abs(left.dot(here->f)) > clear * first_->f.norm())) return false;
+    end(PlanarEnd::infinity, infinity);
+    return true;
+  }
+
+  bool leaves_along(int along) {
+    const int across = 1 - along;
+    const double s0 = x_[along], w0 = x_[across];
+    const double denominator = whole_.denominator ? whole_.denominator(x_)[0] : 1;
+    const auto at = [&](double s, double w) {
+      Vector2d x;
+      x[along] = s;
+      x[across] = w;
+      auto jet = jet_of(whole_, x);
+      if (jet && whole_.denominator && !(whole_.denominator(x)[0] * denominator > 0)) jet.reset();
+      return jet;
+    };
+    const auto here = at(s0, w0);
+    constexpr double away = 10;
+    if (!here || !(s0 * here->f[along] > 0) || !(std::abs(s0) > away * size_)) return false;
+    const double rate = here->f[along] / s0;
+
+    bool linear = true, slow = true, fast = true;
+    for (int i = 1; i <= far_points; ++i) {
+      const Vector2d spread = evenly_spread(i);
+      const double s = s0 * std::pow(10, decades_ * spread[0]);
+      const auto there = at(s, w0);
+      if (!there || there->slopes(along, across) != 0 || !(there->f[along] * s > 0)) return false;
+      constexpr double at_most = 2, power = 0.02;
+      const double growth = there->f[along] / s / rate;
+      slow &= growth <= at_most;
+      fast &= growth >= std::pow(s / s0, power);
+      constexpr double rounding = 1e-13;
+      const auto beside = at(s, 20 * (std::abs(w0) + size_) * (spread[1] - 0.5));
+      if (beside && beside->slopes(along, across) != 0) return false;
+      linear &= beside && std::abs(beside->slopes(across, across) - there->slopes(across, across)) <=
+                              rounding * std::abs(there->slopes(across, across));
+    }
+    if (slow == fast) return false;
+
+    struct Barrier {
+      double level, power;  ///< w = level (s/s0)^power
+      double operator()(double ratio) const { return level * std::pow(ratio, power); }
+    };
+    // Orbits cross a barrier on this side of w0 only towards w0, or the barrier is an orbit.
+    const auto holds = [&](const Barrier& barrier, double side) {
+      for (int i = 0; i <= far_points; ++i) {
+        const double ratio = std::pow(10, decades_ * (i > 0 ? evenly_spread(i)[0] : 0));
+        const double w = barrier(ratio), slope = barrier.power * w / (s0 * ratio);
+        const auto there = at(s0 * ratio, w);
+        if (!there) return false;
+        const double excess = side * (here->f[along] > 0 ? 1 : -1) * (there->f[across] - slope * there->f[along]);
+        if (!(excess < 0 || (there->f[across] == 0 && slope == 0))) return false;
+      }
+      return true;
+    };
+    const auto barrier_on = [&](double side) -> std::optional<Barrier> {
+      if (side * w0 < 0 && holds({0, 0}, side)) return Barrier{0, 0};
+      constexpr double least = 1e-6;
+      constexpr int widths = 20;
+      for (const double power : {0, 1, 2, 3}) {
+        double width = least * (std::abs(w0) + least * size_);
+        for (int i = 0; i < widths; ++i, width *= 4) {
+          if (const Barrier barrier{w0 + side * width, power}; holds(barrier, side)) return barrier;
+        }
+      }
+      return std::nullopt;
+    };
+    if (!linear) {
+      const auto low = barrier_on(-1), high = low ? barrier_on(1) : std::nullopt;
+      if (!high) return false;
+      for (int i = 1; i <= far_points; ++i) {
+        const auto [share, between] = std::pair(evenly_spread(i)[0], evenly_spread(i)[1]);
+        const double ratio = std::pow(10, decades_ * share);
+        if (!at(s0 * ratio, (*low)(ratio) + between * ((*high)(ratio) - (*low)(ratio)))) return false;
+      }
+    }
+    double left = infinity;
+    if (fast) {
+      // With s = s0/z, the integral of ds/g goes over 0 < z < 1.
+      const auto inverse = [&](double z) {
+        const auto there = at(s0 / z, w0);
+        return there ? s0 / (z * z * there->f[along]) : std::numeric_limits<double>::quiet_NaN();
+      };
+      constexpr double accurate = 1e-12;
+      double error = infinity;
+      left = boost::math::quadrature::gauss_kronrod<double, 31>::integrate(inverse, 0, 1, 12, accurate, &error);
+      if (!(left > 0) || !(error <= accurate * (left + motion_.followed))) return false;
+    }
+    end(PlanarEnd::infinity, motion_.followed + left);
+    motion_.limit[along] = std::copysign(infinity, s0);
+    // Two barriers around w0, so near that they have the same digits, show the limit of w.
+    constexpr double digits = 1e-9;
+    const double near = digits * std::max(std::abs(w0), size_);
+    if (holds({w0 - near, 0}, -1) && holds({w0 + near, 0}, 1)) {
+      motion_.limit[across] = std::abs(w0) > near ? motion_.unit * w0 : 0;
+    }
     return true;
   }
 

@@ -171,6 +171,7 @@ PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::mo
 PlanarEnd PlanarOrbit::end() const { return motion_->end; }
 std::optional<double> PlanarOrbit::period() const { return motion_->period(); }
 const std::string& PlanarOrbit::undecided() const { return motion_->undecided; }
+Vector2d PlanarOrbit::limit() const { return motion_->limit; }
 double PlanarOrbit::end_time() const {
   return motion_->end == PlanarEnd::border && !motion_->border_time_known ? infinity : motion_->end_time;
 }

@@ -107,7 +107,9 @@ struct PlanarOrbit::Motion {
   virtual Eigen::Vector2d at_end() const = 0;
 
   PlanarEnd end = PlanarEnd::centre;
-  double end_time = 0;             ///< time of the end, also if the orbit ends at a border
+  double end_time = 0;  ///< time of the end, also if the orbit ends at a border
+  Eigen::Vector2d limit =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< for an end at infinity
   bool border_time_known = false;  ///< false: PlanarOrbit::end_time returns infinity at a border
   std::string undecided = {};
 };

@@ -43,7 +43,8 @@ class HalfOrbit {
     constexpr double error = 1e-12;
     if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
     for (const bool quadrature : {true, false}) {
-      if (quadrature != solved_ && !(solved_ && orbit_.end() == PlanarEnd::undecided)) continue;
+      // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier.
+      if (quadrature ? !solved_ : solved_ && !(end() == PlanarEnd::undecided || time < orbit_.end_time())) continue;
       try {
         const Vector2d x = (quadrature ? orbit_ : steps_).at(time);
         if (x.allFinite()) return ComputedState{x, quadrature};

@@ -238,6 +238,10 @@ class PlanarOrbit {
   /// Returns the reason why the end is not decided; empty if the end is decided.
   const std::string& undecided() const;
 
+  /// Returns the limits of the coordinates as the motion goes to infinity, such as (inf, -5.718): infinite, finite to 9
+  /// digits, or NaN if unknown.
+  Eigen::Vector2d limit() const;
+
   /// Returns the state at a time after the start. A motion that ends where f = 0 stays there from end_time on.
   /// @throws std::domain_error  unless time >= 0; for a time at which the state is at infinity or beyond a border
   Eigen::Vector2d at(double time) const;
