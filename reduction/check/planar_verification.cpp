@@ -1,6 +1,7 @@
 #include "contensou/reduction/verification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -32,7 +33,7 @@ struct WorstError {
   double measured = -1, allowed = 1;
 
   void see(double error, double limit) {
-    if (std::isnan(measured) || error / limit <= measured / allowed) return;
+    if (!std::isfinite(limit) || std::isnan(measured) || error / limit <= measured / allowed) return;
     measured = error;
     allowed = limit;
   }
@@ -144,29 +145,40 @@ class PlanarExamination {
 
   /// The distance of states from the level line of H through the start.
   void first_integral() {
+    constexpr int count = 60, least = 10, halvings = 12;
     WorstError by_steps, by_quadrature;
-    std::vector<Vector2d> path{start_}, exact = path;
-    std::vector<Instant> passed;
-    constexpr int count = 60;
-    for (int i = 1; i <= count && !instants_.empty(); ++i) {
-      const auto at = instant(instants_.back().t * i / count);
-      if (!at) continue;
-      passed.push_back(*at);
-      path.push_back(at->stepped);
-      exact.push_back(at->x);
-    }
-    const auto see = [&](WorstError& worst, const std::vector<Vector2d>& states, bool stepped) {
-      const std::vector<LevelPoint> levels = plane_.levels(states);
-      for (std::size_t i = 0; i < passed.size(); ++i) {
-        const auto f = value_of(plane_.field().value, states[i + 1]);
-        const double away =
-            f ? std::abs((levels[i + 1].integral - levels[0].integral) * levels[i + 1].factor) / f->norm() : infinity;
-        const Instant& at = passed[i];
-        if (std::isfinite(away)) worst.see(away / at.size, quadrature_error + (stepped ? at.error / at.size : 0));
+    double last = instants_.empty() ? 0 : instants_.back().t;
+    // H is known as far as V can be continued; a shorter part of the orbit may lie there.
+    for (int half = 0; half < halvings && last > 0 && by_quadrature.measured < 0; ++half, last /= 2) {
+      std::vector<Vector2d> path{start_}, exact = path;
+      std::vector<Instant> passed;
+      std::vector<double> aside{0};  // sum of the distances between chords and orbit, on which errors of V count
+      for (int i = 1; i <= count; ++i) {
+        const auto at = instant(last * i / count), middle = instant(last * (i - 0.5) / count);
+        if (!at || !middle) break;
+        aside.push_back(aside.back() + (middle->x - (exact.back() + at->x) / 2).norm());
+        passed.push_back(*at);
+        path.push_back(at->stepped);
+        exact.push_back(at->x);
       }
-    };
-    see(by_steps, path, true);
-    see(by_quadrature, exact, false);
+      const auto see = [&](WorstError& worst, const std::vector<Vector2d>& states, bool stepped) {
+        const std::vector<LevelPoint> levels = plane_.levels(states);
+        const auto distance = [&](std::size_t i) {
+          const auto f = value_of(plane_.field().value, states[i + 1]);
+          return f ? std::abs((levels[i + 1].integral - levels[0].integral) * levels[i + 1].factor) / f->norm()
+                   : std::numeric_limits<double>::quiet_NaN();
+        };
+        std::size_t known_points = 0;
+        while (known_points < passed.size() && std::isfinite(distance(known_points))) ++known_points;
+        for (std::size_t i = 0; i < known_points && known_points >= least; ++i) {
+          const Instant& at = passed[i];
+          worst.see(distance(i) / at.size,
+                    quadrature_error + misfit_error * aside[i + 1] / at.size + (stepped ? at.error / at.size : 0));
+        }
+      };
+      see(by_steps, path, true);
+      see(by_quadrature, exact, false);
+    }
     add("first integral H along steps in time", by_steps);
     add("first integral H along the quadrature", by_quadrature);
 
@@ -349,26 +361,28 @@ class PlanarExamination {
         if (error < smooth)
           equations.see((rates->second - plane_.field()(at.x)).norm() / speed, quotient_error + error);
       }
-      // An orbit from a changed state shows how errors of the state grow.
-      const auto compare = [&](WorstError& worst, const PlanarReduction& plane, const Vector2d& x, double t,
-                               const Vector2d& end) {
-        constexpr double part = 1e-7;
-        const double aside = part * std::max(x.norm(), end.norm());
-        const auto ends = known([&] {
-          return std::pair<Vector2d, Vector2d>(plane.orbit(x).at(t), plane.orbit(x + aside * Vector2d(0.6, 0.8)).at(t));
-        });
-        if (!ends || !ends->first.allFinite() || !ends->second.allFinite()) return;
-        const double size = std::max({at.size, x.norm(), end.norm()});
-        const double amplified = (ends->second - ends->first).norm() / part / size;
-        const double of_steps = plane_.solved() ? 0 : 1;  // errors of steps add up
-        constexpr double certain = 1e5;
-        if (amplified > certain) return;
-        worst.see((ends->first - end).norm() / size,
-                  quadrature_error * (1 + amplified) + of_steps * at.error / size * (1 + amplified));
-      };
+    }
+    // Orbits from two changed states show how errors of the state grow. If they disagree, the errors are not small.
+    const auto compare = [&](WorstError& worst, const PlanarReduction& plane, const Vector2d& x, double t,
+                             const Vector2d& end, const Instant& at) {
+      const double size = std::max({at.size, x.norm(), end.norm()});
+      const auto after = [&](double part) { return plane.part_of_orbit(x + part * size * Vector2d(0.6, 0.8)).at(t); };
+      constexpr double near = 1e-8, far = 1e-6, most = 1e4, alike = 2;
+      const auto found = known([&] {
+        const Vector2d there = after(0);
+        return std::array{(there - end).norm() / size, (after(near) - there).norm() / (near * size),
+                          (after(far) - there).norm() / (far * size)};
+      });
+      if (!found) return;
+      const auto [error, amplified, again] = *found;
+      if (!(std::max(amplified, again) < most) || amplified > alike * again || again > alike * amplified) return;
+      worst.see(error, (quadrature_error + (plane.solved() ? 0 : 2 * at.error / size)) * (1 + amplified));
+    };
+    for (const Instant& at : instants_) {
+      if (&at != &instants_[instants_.size() / 2] && &at != &instants_.back()) continue;
       if (const auto middle = known([&] { return orbit_.at(at.t / 2); }))
-        compare(halves, plane_, *middle, at.t / 2, at.x);
-      if (reversed) compare(back, *reversed, at.x, at.t, start_);
+        compare(halves, plane_, *middle, at.t / 2, at.x, at);
+      if (reversed) compare(back, *reversed, at.x, at.t, start_, at);
     }
     add("derivative of the orbit against the equations", equations);
     add("second half of the orbit from its middle", halves);

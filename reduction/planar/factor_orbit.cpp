@@ -140,7 +140,7 @@ class Follower {
       noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
       if (at_border(*here, 4)) return end(PlanarEnd::border, motion_.followed);
-      constexpr double edge = 0.7, near = 0.2, shortest = 256;
+      constexpr double edge = 0.7, near = 0.2, shortest = 1024;
       const bool enters =
           unfitted_ || (i > 0 && (box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near));
       const bool holds = !enters || enter(*here);
@@ -357,10 +357,10 @@ class Follower {
     const auto barrier_on = [&](double side) -> std::optional<Barrier> {
       if (side * w0 < 0 && holds({0, 0}, side)) return Barrier{0, 0};
       constexpr double least = 1e-6;
-      constexpr int widths = 20;
+      constexpr int widths = 20;  // up to 1e18 times w0
       for (const double power : {0, 1, 2, 3}) {
         double width = least * (std::abs(w0) + least * size_);
-        for (int i = 0; i < widths; ++i, width *= 4) {
+        for (int i = 0; i < widths; ++i, width *= 16) {
           if (const Barrier barrier{w0 + side * width, power}; holds(barrier, side)) return barrier;
         }
       }

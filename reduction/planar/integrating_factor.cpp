@@ -165,7 +165,8 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
   /// Returns the integral of dH along the straight line between two points.
   /// @param value  V and the field at a point
   template <class Value>
-  static double line_integral(const Vector2d& from, const Vector2d& to, double sign, const Value& value) {
+  static double line_integral(const Vector2d& from, const Vector2d& to, double sign, unsigned halvings,
+                              const Value& value) {
     const Vector2d way = to - from;
     const auto rate = [&](double share) {
       const auto [here, f] = value(Vector2d(from + share * way));
@@ -173,12 +174,11 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
       throw std::domain_error("PlanarReduction: V = 0 between the start and the point, where H is infinite");
     };
     using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-    constexpr unsigned halvings = 12;
     return Rule::integrate(rate, 0, 1, halvings, 1e-14);
   }
 
   double integral(const Vector2d& to) const {
-    return line_integral(start, to, at(start).first, [this](const Vector2d& x) { return at(x); });
+    return line_integral(start, to, at(start).first, 12, [this](const Vector2d& x) { return at(x); });
   }
 
   std::vector<LevelPoint> levels(const std::vector<Vector2d>& path) const override;
@@ -196,6 +196,7 @@ class FactorWalk {
   /// @throws std::domain_error  if V or the field has no value on the way, or V is not unique
   LevelPoint to(const Vector2d& target) {
     constexpr double inner = 0.9;
+    constexpr unsigned halvings = 2;  // V is smooth in its box, and near the orbit the integral is about 0
     while (x_ != target) {
       double part = 1;  // share of the way that lies well within the box
       if (!holds_everywhere(factor_.form())) {
@@ -210,8 +211,8 @@ class FactorWalk {
         continue;
       }
       const Vector2d next = part >= 1 ? target : Vector2d(x_ + part * (target - x_));
-      integral_ +=
-          FactorSolution::line_integral(x_, next, value(x_).first, [this](const Vector2d& x) { return value(x); });
+      integral_ += FactorSolution::line_integral(x_, next, value(x_).first, halvings,
+                                                 [this](const Vector2d& x) { return value(x); });
       x_ = next;
     }
     return {integral_, value(x_).first};
@@ -230,25 +231,24 @@ class FactorWalk {
 
   void fit_anew() {
     constexpr int most = 2000, halvings = 6;
-    constexpr double accurate = 1e-10;
+    const auto known = [&](const Vector2d& x) {
+      const auto f = value_of(solution_.fitted.value, x);
+      return f && box_.inside(x).lpNorm<Eigen::Infinity>() <= 1 ? factor_(x, Jet{*f, Eigen::Matrix2d::Zero()})[0]
+                                                                : std::numeric_limits<double>::quiet_NaN();
+    };
     Box box = box_about(x_);
     for (int i = 0; i <= halvings && fits_ < most; ++i, ++fits_, box.radii /= 2) {
       const auto samples = sample(solution_.fitted, box);
-      const auto fit = samples ? fit_factor(factor_.form(), *samples) : std::nullopt;
-      if (!fit || !fit->small || !fit->unique || fit->factor.vanishes) continue;
-      // Both V are solutions of (R64) of the same form, so they differ by a factor.
+      auto fit = samples ? fit_factor(factor_.form(), *samples) : std::nullopt;
+      if (fit && !fit->unique) fit = fit_factor(factor_.form(), *samples, known);
+      if (!fit || !fit->small || fit->factor.vanishes) continue;
       const double before = value(x_).first;
       factor_ = fit->factor;
       box_ = box;
       scale_ *= before / value(x_).first;
       return;
     }
-    // A polynomial that solves (R64) here, too, goes on, although others also do.
-    const auto jet = jet_of(solution_.fitted, x_);
-    if (!jet || factor_.form() != FactorForm::polynomial || factor_.residual(x_, *jet) > accurate) {
-      throw std::domain_error("PlanarReduction: V is not known on the way");
-    }
-    box_ = box_about(x_);
+    throw std::domain_error("PlanarReduction: V is not known on the way");
   }
 
   const FactorSolution& solution_;

@@ -6,6 +6,7 @@
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -244,7 +245,8 @@ std::optional<FieldSamples> sample(const SmoothField& field, const Box& box) {
   return samples;
 }
 
-std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples) {
+std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples,
+                                    const std::function<double(const Vector2d& x)>& like) {
   const bool log = form == FactorForm::product;
   const auto terms_at = [&](std::size_t i) {
     return InverseFactor::terms(form, samples.box, samples.points[i], samples.jets[i]);
@@ -306,6 +308,22 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
     vanishes = part.norm() <= vanishing * mean;
     const Vector2d& f = samples.centre.f;
     if (vanishes) part = null.transpose() * (here.rightCols<2>() * Vector2d(-f[1], f[0]));
+    if (like) {
+      VectorXd wanted(all);
+      for (Index i = 0; i < all; ++i) wanted[i] = like(samples.points[static_cast<std::size_t>(i)]);
+      std::vector<Index> common;
+      for (Index i = 0; i < all; ++i) {
+        // An affine form divides its terms by |f|.
+        if (form == FactorForm::affine) wanted[i] /= samples.jets[static_cast<std::size_t>(i)].f.norm();
+        if (std::isfinite(wanted[i])) common.push_back(i);
+      }
+      constexpr Index least = 10;
+      if (std::ssize(common) < least) return std::nullopt;
+      const MatrixXd of_null = product(MatrixXd(values(common, Eigen::all)), null);
+      part = least_squares(of_null, wanted(common));
+      constexpr double alike = 1e-12;  // errors of V would grow from box to box
+      if (!((of_null * part - wanted(common)).norm() <= alike * wanted(common).norm())) return std::nullopt;
+    }
     coefficients = null * part.normalized();
     const double one = vanishes ? mean : coefficients.dot(here.col(0));
     coefficients /= one;

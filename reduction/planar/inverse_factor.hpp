@@ -132,7 +132,10 @@ struct FactorFit {
 };
 
 /// Returns the best V of this form; empty if all functions of the form vanish.
-std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples);
+/// @param like  V in another box, NaN outside: of several V the result is the one that continues this V. It is empty if
+///              none does. Without effect on a product.
+std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples,
+                                    const std::function<double(const Eigen::Vector2d& x)>& like = {});
 
 /// Returns the inverse integrating factor V of a system as a formula. V is a sum with rational coefficients of monomials
 /// in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of the field's own basis.

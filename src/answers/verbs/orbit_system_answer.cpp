@@ -138,14 +138,25 @@ Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& as
     for (const int sense : {1, -1}) {
       std::vector<Eigen::Index> order;
       for (Eigen::Index i = 0; i < instants.size(); ++i) {
-        if (sense * (instants[i] - origin) >= 0) order.push_back(i);
+        if (sense > 0 ? instants[i] >= origin : instants[i] < origin) order.push_back(i);
       }
       std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return sense * instants[i]; });
+      // States between the instants keep the path near the orbit.
+      constexpr int between = 8;
       std::vector<Vector2d> path{start};
-      for (const Eigen::Index i : order) path.push_back(states[static_cast<std::size_t>(i)].x);
+      double passed = 0;
+      for (const Eigen::Index i : order) {
+        const double time = sense * (instants[i] - origin);
+        for (int part = 1; part < between; ++part) {
+          const auto state = (sense > 0 ? after : *before).at(passed + (time - passed) * part / between);
+          path.push_back(state ? state->x : path.back());
+        }
+        path.push_back(states[static_cast<std::size_t>(i)].x);
+        passed = time;
+      }
       const auto levels = plane.levels(path);
       for (std::size_t i = 0; i < order.size(); ++i) {
-        integral[static_cast<std::size_t>(order[i])] = or_infinity(levels[i + 1].integral);
+        integral[static_cast<std::size_t>(order[i])] = or_infinity(levels[(i + 1) * between].integral);
       }
     }
   }
