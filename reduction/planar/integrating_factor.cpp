@@ -239,8 +239,7 @@ class FactorWalk {
     Box box = box_about(x_);
     for (int i = 0; i <= halvings && fits_ < most; ++i, ++fits_, box.radii /= 2) {
       const auto samples = sample(solution_.fitted, box);
-      auto fit = samples ? fit_factor(factor_.form(), *samples) : std::nullopt;
-      if (fit && !fit->unique) fit = fit_factor(factor_.form(), *samples, known);
+      const auto fit = samples ? fit_factor(factor_.form(), *samples, known) : std::nullopt;
       if (!fit || !fit->small || fit->factor.vanishes) continue;
       const double before = value(x_).first;
       factor_ = fit->factor;

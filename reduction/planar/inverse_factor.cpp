@@ -321,7 +321,8 @@ std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples
       if (std::ssize(common) < least) return std::nullopt;
       const MatrixXd of_null = product(MatrixXd(values(common, Eigen::all)), null);
       part = least_squares(of_null, wanted(common));
-      constexpr double alike = 1e-12;  // errors of V would grow from box to box
+      // Among several V, the errors of this choice grow from box to box.
+      const double alike = unique ? 1e-10 : 1e-12;
       if (!((of_null * part - wanted(common)).norm() <= alike * wanted(common).norm())) return std::nullopt;
     }
     coefficients = null * part.normalized();
