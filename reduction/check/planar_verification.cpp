@@ -136,7 +136,20 @@ class PlanarExamination {
     constexpr int halvings = 20;
     for (int i = 0; i < halvings && !instant(last); ++i) last /= 2;
     for (const double part : {0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.}) {
-      if (const auto there = instant(part * last)) instants_.push_back(*there);
+      auto there = instant(part * last);
+      if (!there) continue;
+      // Half way, the steps have at least the error of their tolerance. The motion amplifies this error.
+      for (const Vector2d& way : {Vector2d(1, 0), Vector2d(0, 1)}) {
+        const auto moved_by = known([&] {
+          constexpr double aside = 1e-6;
+          const Vector2d middle = steps_.at(there->t / 2);
+          const PlanarOrbit beside = by_steps(plane_.field(), tolerance).orbit(middle + aside * there->size * way);
+          return (beside.at(there->t / 2) - there->stepped).norm() / aside;
+        });
+        constexpr double most = 1e5;
+        if (moved_by) there->error = std::max(there->error, tolerance * std::min(*moved_by, most * there->size));
+      }
+      instants_.push_back(*there);
     }
   }
 
@@ -285,6 +298,8 @@ class PlanarExamination {
       add("steps in time return after a period", closes);
       add("period: quadrature against steps in time", period);
     }
+    constexpr double doubtful = 1e-6;  // a larger stated error of the end time is a failure
+    const double stated_error = plane_.end_time_error(start_, orbit_);
     // The time that is left from a later state. A change of the state by a part changes the time as from_beside shows.
     const auto left = [&](const Vector2d& x) { return known([&] { return period_or_end(plane_.orbit(x)); }); };
     const auto compare = [&](double passed, const Vector2d& x,
@@ -294,8 +309,9 @@ class PlanarExamination {
       if (!rest || !from_beside || !std::isfinite(*from_beside)) return std::nullopt;
       const double change = std::abs(*from_beside - *rest) / part;
       const double other = *rest + (periodic ? 0 : passed);
+      const double stated = std::min(doubtful, stated_error);
       return std::pair{std::abs(other / time - 1),
-                       quadrature_error * (1 + change / time) + error / x.norm() * change / time};
+                       stated + quadrature_error * (1 + change / time) + error / x.norm() * change / time};
     };
     WorstError later, stepped;
     for (const double part : {0.3, 0.6}) {
@@ -428,7 +444,8 @@ class PlanarExamination {
       const auto f = value_of(plane_.field().value, each.x);
       const double norm = each.slopes.norm(), determinant = std::abs(each.slopes.determinant());
       constexpr double clear = 1e-6;
-      if (!f || !each.eigenvalues || !(determinant > clear * norm * norm)) continue;
+      if (!f || !each.eigenvalues || !(determinant > clear * norm * norm) || jets_.empty()) continue;
+      if (norm < clear * jets_.front().second.slopes.norm()) continue;  // the slopes are 0 within rounding
       // A step of Newton's method moves the zero by rounding alone.
       constexpr double rounding = 256 * eps;
       const double size = std::max(each.x.norm(), size_);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "answers/input/errors.hpp"
+#include "answers/input/message.hpp"
 #include "answers/input/parse.hpp"
 #include "answers/table/text_table.hpp"
 
@@ -195,7 +196,7 @@ Answer check_system_answer(const reduction::SmoothField& field, const Eigen::Vec
       return check_answer(rows, false);
     }
   } catch (const std::domain_error& error) {
-    throw BadInput("there is no motion to check at ({}, {}): {}", start[0], start[1], error.what());
+    throw BadInput("there is no motion to check at ({}, {}): {}", start[0], start[1], words_of(error.what()));
   }
   throw BadInput("({}, {}) is at rest, there is no motion to check: give another start", start[0], start[1]);
 }
