@@ -463,18 +463,30 @@ TEST_CASE("an orbit is called closed only if it is", "[factor]") {
 
 TEST_CASE("the work for an orbit that oscillates for ever is bounded", "[factor]") {
   long evaluations = 0;
-  SmoothField field = smooth([](Dual u, Dual v) { return std::array{Dual(1), -v * cos(2 * u) + sin(u)}; });
+  // A Riccati equation whose solutions near sin u neither leave it nor come to it: no barrier proves its end.
+  SmoothField field = smooth([](Dual u, Dual v) { return std::array{Dual(1), v * v - v * sin(u) + cos(u)}; });
   field.value = [&, f = field.value](const Vector2d& x) {
     ++evaluations;
     return f(x);
   };
-  const PlanarReduction reduction = by_factor(field, {1, 1});
+  const PlanarReduction reduction = by_factor(field, {1.3, 0.7});
   REQUIRE(reduction.solved());
-  const PlanarOrbit orbit = reduction.orbit({1, 1});
+  const PlanarOrbit orbit = reduction.orbit({1.3, 0.7});
   CHECK(orbit.end() == PlanarEnd::undecided);
   CHECK_THAT(orbit.undecided(), Contains("evaluations of the field"));
   CHECK(evaluations < 4'000'000);
   CHECK(orbit.at(100).allFinite());
+
+  // A linear equation: u grows for ever. This is known after fewer evaluations.
+  SmoothField linear = smooth([](Dual u, Dual v) { return std::array{Dual(1), -v * cos(2 * u) + sin(u)}; });
+  linear.value = [&, f = linear.value](const Vector2d& x) {
+    ++evaluations;
+    return f(x);
+  };
+  evaluations = 0;
+  const PlanarOrbit oscillates = by_factor(linear, {1, 1}).orbit({1, 1});
+  CHECK(oscillates.end() == PlanarEnd::infinity);
+  CHECK(evaluations < 1'000'000);
 }
 
 TEST_CASE("answers do not depend on the unit of length", "[factor][symmetry]") {
