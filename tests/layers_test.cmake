@@ -121,7 +121,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 # Rooms of answers and of si follow the same rule.
-set(answers_floors "input" "asked table" "verbs" "figures")
+set(answers_floors "input" "asked table" "equation" "verbs" "figures")
 set(si_floors "experiment" "motion" "engines")
 foreach(part IN ITEMS answers si)
   set(below "")

@@ -474,6 +474,28 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   return {orbit, error, stepped};
 }
 
+/// Returns x at which the orbit of y' = F(x, y) leaves the branch of the solution; infinity if it does not.
+double end_of_branch(const Expression& branch, const PlanarOrbit& orbit, const Vector2d& start) {
+  constexpr double nearly = 0.999, usual = 5, error = 1e-6;
+  const double last = std::isfinite(orbit.end_time()) ? nearly * orbit.end_time() : usual;
+  const auto is_on = [&](double time) {
+    try {
+      const Vector2d x = orbit.at(time);
+      return std::abs(branch({x[0], x[1]}) - x[1]) <= error * (1 + std::abs(x[1]));
+    } catch (const std::domain_error&) {
+      return true;  // the orbit gives no state, so nothing contradicts the branch
+    }
+  };
+  constexpr int samples = 20, halvings = 20;
+  for (int i = 1; i <= samples; ++i) {
+    double on = last * (i - 1) / samples, off = last * i / samples;
+    if (is_on(off)) continue;
+    for (int k = 0; k < halvings; ++k) (is_on((on + off) / 2) ? on : off) = (on + off) / 2;
+    return start[0] + on;
+  }
+  return infinity;
+}
+
 /// Writes the reduction as it stands on a blackboard, in the letters of the equation.
 class Blackboard {
  public:
@@ -507,12 +529,18 @@ class Blackboard {
 
   /// @param method  words for a solution without a formula
   /// @param form    form of the inverse integrating factor, if this is the method
-  void add_solution(const std::optional<Vector2d>& start, const std::string& method, std::string_view form) {
+  /// @param until   x up to which y is on the branch; infinity if it is up to the end of the orbit
+  void add_solution(const std::optional<Vector2d>& start, const std::string& method, std::string_view form,
+                    double until) {
     if (steps_.integral) {
       const double C = start ? steps_.integral->H({(*start)[0], (*start)[1]}) : infinity;
       add("solution", fmt::format("{} = C{}", shown(steps_.integral->H),
                                   std::isfinite(C) ? ",  C = " + digits_(C) : std::string()));
-      if (steps_.branch) add("", fmt::format("{} = {}", steps_.names[1], shown(*steps_.branch)));
+      if (steps_.branch) {
+        add("",
+            fmt::format("{} = {}{}", steps_.names[1], shown(*steps_.branch),
+                        std::isfinite(until) ? fmt::format(", up to {} = {}", steps_.names[0], digits_(until)) : ""));
+      }
     } else {
       add("solution", method);
     }
@@ -710,6 +738,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       return fmt::format("solution    none by quadrature: {}\n", why);
     });
   }
+  const double until = steps.branch && followed ? end_of_branch(*steps.branch, followed->orbit, start) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
     Blackboard board(system, steps, digits);
     board.add_kinds();
@@ -719,7 +748,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
                                : plane.solved() ? "by quadrature along H = C"
                                                 : "none by quadrature: " + words_of(plane.why_not());
-    board.add_solution(given, method, plane.form());
+    board.add_solution(given, method, plane.form(), until);
     if (at_rest) {
       board.add("end", "the start is the centre");
     } else if (followed) {
