@@ -71,7 +71,9 @@ Scanned scanned(const std::string& text, const std::map<std::string, double>& va
   };
   for (std::size_t at = 0; at < text.size();) {
     const auto derivative = derivative_at(text, at);
-    if (derivative && !values.contains(derivative->letter) && !values.contains("d" + derivative->letter)) {
+    if (derivative && !values.contains("d" + derivative->letter)) {
+      if (values.contains(derivative->letter))
+        reject_at(at, text, fmt::format("{} has a value, and therefore no derivative", derivative->letter));
       all.derivatives.emplace_back(*derivative, at);
       if (!derivative->by.empty()) set_independent(derivative->by, at);
       at += derivative->characters;
@@ -137,6 +139,7 @@ std::string independent_of_first(const Scanned& found, const std::string& state,
 }  // namespace
 
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
+  require_ascii(text);
   std::map<std::string, double> values = parameters;
   for (const auto& [begin, end] : statements_of(text)) {
     const std::size_t name_end = end_of_word(text, begin), equals = text.find_first_not_of(' ', name_end);

@@ -277,24 +277,6 @@ constexpr std::pair<char32_t, std::string_view> pasted[] = {
     {0xD7, "*"},   {0xB7, "*"},   {0x22C5, "*"}, {0xF7, "/"},           {0x2215, "/"},
     {0xB2, "^2"},  {0xB3, "^3"},  {0x3C0, "pi"}, {0x221A, "sqrt(...)"}, {0xA0, "a blank"}};
 
-/// Throws for characters that are not ASCII. In a text that passes, bytes and characters have equal numbers.
-void require_ascii(const std::string& text) {
-  const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
-  if (at == text.end()) return;
-  const auto place = static_cast<std::size_t>(at - text.begin());
-  // UTF-8: the first byte has a leading 1 bit for each byte of the letter; later bytes begin with 10. Else Latin-1.
-  std::size_t size = 1;
-  while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
-  const std::string letter = text.substr(place, size);
-  char32_t number = static_cast<unsigned char>(*at) & (size == 1 ? 0xFFU : 0xFFU >> (size + 1));
-  for (const char next : letter.substr(1)) number = number << 6U | (static_cast<unsigned char>(next) & 0x3FU);
-  const auto* const known = std::ranges::find(pasted, number, [](const auto& row) { return row.first; });
-  const auto instead = known == std::end(pasted) ? "letters from a to z, digits and signs of ASCII" : known->second;
-  reject_at(place, text,
-            fmt::format("the letter {} (U+{:04X}) has no meaning here; type {}", quotation(letter),
-                        static_cast<unsigned>(number), instead));
-}
-
 /// Compiles a formula by recursive descent.
 class Parser {
  public:
@@ -915,6 +897,24 @@ void reject_at(std::size_t place, const std::string& text, const std::string& me
                  advice);
 }
 
+void require_ascii(const std::string& text) {
+  const auto at = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  if (at == text.end()) return;
+  const auto place = static_cast<std::size_t>(at - text.begin());
+  // UTF-8: the first byte has a leading 1 bit for each byte of the letter; later bytes begin with 10. Else Latin-1.
+  std::size_t size = 1;
+  while (size < 4 && place + size < text.size() && (text[place + size] & 0xC0) == 0x80) ++size;
+  const std::string letter = text.substr(place, size);
+  char32_t number = static_cast<unsigned char>(*at) & (size == 1 ? 0xFFU : 0xFFU >> (size + 1));
+  for (const char next : letter.substr(1)) number = number << 6U | (static_cast<unsigned char>(next) & 0x3FU);
+  const auto* const known = std::ranges::find(formula_parts::pasted, number, [](const auto& row) { return row.first; });
+  const auto instead =
+      known == std::end(formula_parts::pasted) ? "letters from a to z, digits and signs of ASCII" : known->second;
+  reject_at(place, text,
+            fmt::format("the letter {} (U+{:04X}) has no meaning here; type {}", quotation(letter),
+                        static_cast<unsigned>(number), instead));
+}
+
 bool has_meaning(std::string_view name) { return name == "pi" || formula_parts::function_of(name) != nullptr; }
 
 std::size_t end_of_word(std::string_view text, std::size_t begin) {
@@ -1005,7 +1005,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     throw BadInput("{} cannot name a parameter: letters, digits and _ that are not {}, pi or a function",
                    quotation(name), fmt::join(shape.variables, ", "));
   }
-  formula_parts::require_ascii(text);
+  require_ascii(text);
   const bool of_equations = !shape.derivatives.empty();
   std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
   std::vector<std::array<std::size_t, 3>> equations;               // begin, equals sign and end of each equation
@@ -1019,7 +1019,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
     const bool bare = shape.left[0].empty() && equals == end && !found[0] && !of_equations;
     const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
-    if (may_be_parameter(left) && is_number(value)) {
+    if (which == shape.left.size() && may_be_parameter(left) && is_number(value)) {
       own[left] = parse_number(value);
     } else if (of_equations) {
       if (equals == end) reject_at(end, text, "an equals sign is missing", shape.sentence);

@@ -55,6 +55,9 @@ std::vector<std::pair<std::size_t, std::size_t>> statements_of(std::string_view 
 /// Returns the end of the name, number or sign that begins at a place of a text.
 std::size_t end_of_word(std::string_view text, std::size_t begin);
 
+/// Throws BadInput for characters that are not ASCII. In a text that passes, bytes and characters have equal numbers.
+void require_ascii(const std::string& text);
+
 /// Returns true for the names of functions and of the number pi.
 bool has_meaning(std::string_view name);
 
