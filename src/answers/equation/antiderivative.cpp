@@ -524,6 +524,7 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
       };
       if (g.name() == "sin") rewrite("cos", 1 - w * w);
       if (g.name() == "cos") rewrite("sin", 1 - w * w);
+      if (g.name() == "tan") rewrite("cos", 1 / (1 + w * w));
     }
     if (Maybe found = attempt(in_w, g)) return found;
   }

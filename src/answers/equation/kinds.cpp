@@ -26,9 +26,8 @@ double size_at(const E& e, const std::array<double, 2>& x) {
 
 }  // namespace kinds_of_equation
 
-using namespace kinds_of_equation;
-
 std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& formulas, bool quadrant) const {
+  using namespace kinds_of_equation;
   std::mt19937 random(7);
   constexpr double least = 0.2, most = 2.6;
   std::uniform_real_distribution<double> size(std::log(least), std::log(most));
@@ -48,6 +47,7 @@ std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& for
 }
 
 bool Equation::vanishes(const Expression& formula, double error) const {
+  using namespace kinds_of_equation;
   if (formula.is_zero()) return true;
   const auto at = points({slope, formula});
   constexpr std::size_t fewest = 20;
@@ -80,6 +80,7 @@ std::optional<Number> Equation::constant(const Expression& formula) const {
 }
 
 bool Equation::is_integral(const Expression& H, bool quadrant) const {
+  using namespace kinds_of_equation;
   const Expression by_x = H.derivative(0), by_y = H.derivative(1);
   const auto at = points({H, by_x, by_y, f[0], f[1]}, quadrant);
   constexpr double error = 1e-12;
@@ -146,6 +147,7 @@ const std::vector<EquationKind>& equation_kinds() {
 }
 
 std::vector<std::string> kinds_of(const Equation& equation) {
+  using namespace kinds_of_equation;
   using Type = FormulaField::Equations;
   const Type type = equation.type;
   const auto& f = equation.f;

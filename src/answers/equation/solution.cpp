@@ -74,22 +74,21 @@ E with_sums_of_logarithms(const E& e) {
 
 /// Splits R = X(x) Y(y) into its factors.
 std::optional<std::array<E, 2>> separated(const Equation& equation) {
-  const E& R = equation.slope;
-  std::vector<E> factors, of_x, of_y;
-  for (const E& each : factors_of(R)) {
-    if (each.is(Kind::function) && each.name() == "exp") {
-      const E exponent = each.parts()[0].expanded();
-      for (const E& term : terms_of(exponent)) factors.push_back(E::function("exp", term));
-    } else {
-      factors.push_back(each);
+  for (const E& R : {equation.slope, tidied(equation.slope)}) {
+    std::vector<E> factors, of_x, of_y;
+    for (const E& each : factors_of(R)) {
+      if (each.is(Kind::function) && each.name() == "exp") {
+        const E exponent = each.parts()[0].expanded();
+        for (const E& term : terms_of(exponent)) factors.push_back(E::function("exp", term));
+      } else {
+        factors.push_back(each);
+      }
     }
+    for (const E& each : factors) (each.has(1) ? of_y : of_x).push_back(each);
+    const bool mixed = std::ranges::any_of(of_y, [](const E& each) { return each.has(0); });
+    if (!mixed) return {{E::product(of_x), E::product(of_y)}};
   }
-  bool mixed = false;
-  for (const E& each : factors) {
-    mixed |= each.has(0) && each.has(1);
-    (each.has(1) ? of_y : of_x).push_back(each);
-  }
-  if (!mixed) return {{E::product(of_x), E::product(of_y)}};
+  const E& R = equation.slope;
   if (!equation.vanishes(R * R.derivative(0).derivative(1) - R.derivative(0) * R.derivative(1))) return std::nullopt;
   for (const Number& a : {Number(0), Number(1), Number(2), Number(1, 2), Number(-1)}) {
     for (const Number& b : {Number(0), Number(1), Number(2), Number(1, 2), Number(-1)}) {
@@ -360,9 +359,8 @@ Number snapped(double value) {
 
 }  // namespace solution_formulas
 
-using namespace solution_formulas;
-
 Expression tidied(const Expression& e) {
+  using namespace solution_formulas;
   E best = e;
   const auto offer = [&](const std::function<E()>& other) {
     try {
@@ -398,6 +396,7 @@ Expression tidied(const Expression& e) {
 }
 
 std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found) {
+  using namespace solution_formulas;
   const auto& f = equation.f;
   const auto& names = equation.names;
   const E& R = equation.slope;
@@ -490,7 +489,7 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     if (auto spiral = accepted(c, {x - k * y, k * x + y}, "spirals: the plane is turned and magnified", {cos, sin}))
       return spiral;
   }
-  const std::array letters{names[0], names[1], std::string("a")};
+  const std::array letters{std::string("a"), names[1], names[0]};
   if (const auto parts = separated(equation)) {
     const Maybe P = antiderivative(tidied(1 / (*parts)[1]), 1);
     if (!P) return std::nullopt;
@@ -504,11 +503,12 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
   const E z = power(y, form->k), step = tidied(1 / found_m->factor);
   Coordinates c{"", x, z * found_m->factor, {}, found_m->rest.with(0, q), {}, false};
   return accepted(c, {0, tidied(step / z.derivative(1))},
-                  fmt::format("{} -> {}", z.text(names), (z + q * step).text(letters)), {0, 0});
+                  fmt::format("{} -> {}", z.text(names), (z + x * step.with(0, q)).text(letters)), {0, 0});
 }
 
 std::optional<IntegralFormula> integral_of(const Equation& equation, const std::optional<Coordinates>& coordinates,
                                            const std::optional<Expression>& factor) {
+  using namespace solution_formulas;
   const auto& f = equation.f;
   const auto& names = equation.names;
   const E& R = equation.slope;
@@ -529,8 +529,12 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
   };
   attempt([&] { return of_separable(equation); });
   attempt([&]() -> Maybe {
-    if (!equation.vanishes(f[0].derivative(0) + f[1].derivative(1))) return std::nullopt;
-    return of_closed(-f[1], f[0]);
+    const auto [above, below] = fraction_of(R);
+    for (const auto& [M, N] : {std::pair(-f[1], f[0]), std::pair(-above, below)}) {
+      if (!equation.vanishes(M.derivative(1) - N.derivative(0))) continue;
+      if (const Maybe found = of_closed(M, N)) return found;
+    }
+    return std::nullopt;
   });
   attempt([&] { return of_bernoulli(equation, R, 0, 1); });
   attempt([&]() -> Maybe {
@@ -586,15 +590,15 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
   if (result->H.size() > longest) return std::nullopt;
   const E summed = with_sums_of_logarithms(result->H);
   result->solvable = result->H;
-  for (const E& other : {summed, tidied(summed), tidied(result->H)}) {
-    if (other.size() < result->H.size() && !other.text(names).starts_with('-') &&
-        equation.is_integral(other, result->quadrant))
-      result->H = other;
+  for (E other : {summed, tidied(summed), tidied(result->H)}) {
+    if (other.text(names).starts_with('-')) other = -other;
+    if (other.size() < result->H.size() && equation.is_integral(other, result->quadrant)) result->H = other;
   }
   return result;
 }
 
 std::optional<Expression> solved_for_y(const Equation& equation, const Expression& H) {
+  using namespace solution_formulas;
   const double x0 = equation.start[0], y0 = equation.start[1];
   const double C = H({x0, y0});
   if (!std::isfinite(C)) return std::nullopt;

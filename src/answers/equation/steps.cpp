@@ -17,7 +17,7 @@ std::string Steps::separated(int digits) const {
 }
 
 std::string Steps::broken_at(const Eigen::Vector2d& x) const {
-  constexpr double large = 1e4;
+  constexpr double large = 300, small = 1e-3;
   const double here[]{x[0], x[1]};
   std::string reason;
   const auto look = [&](const Expression& part) -> std::optional<Expression> {
@@ -28,7 +28,8 @@ std::string Steps::broken_at(const Eigen::Vector2d& x) const {
     if (part.is(Expression::Kind::function) && part.name() == "tan" && std::abs(part(here)) > large) {
       reason = text(part) + " has a pole";
     } else if ((is_below || is_root || (part.is(Expression::Kind::function) && part.name() == "ln")) &&
-               std::abs((part.is(Expression::Kind::function) ? part.parts()[0] : base)(here)) < 1 / large) {
+               std::abs((part.is(Expression::Kind::function) ? part.parts()[0] : base)(here)) <
+                   small * (1 + x.lpNorm<1>())) {
       reason = text(part.is(Expression::Kind::function) ? part.parts()[0] : base) + " = 0";
     }
     return std::nullopt;

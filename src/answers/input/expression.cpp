@@ -144,9 +144,8 @@ double degree(const E& e) {
 
 }  // namespace expression_parts
 
-using namespace expression_parts;
-
 Number::Number(long long above, long long below) {
+  using namespace expression_parts;
   if (below < 0) above = -above, below = -below;
   const Whole common = std::gcd(above, below);
   above_ = above / common;
@@ -155,6 +154,7 @@ Number::Number(long long above, long long below) {
 }
 
 Number::Number(double value) : value_(value) {
+  using namespace expression_parts;
   constexpr double largest = 1e12;
   constexpr Whole most_below = 1'000'000;
   if (!(std::abs(value) < largest)) return;
@@ -179,6 +179,7 @@ Number::Number(double value) : value_(value) {
 }
 
 Number operator+(const Number& a, const Number& b) {
+  using namespace expression_parts;
   Whole left = 0, right = 0, above = 0, below = 0;
   if (a.is_exact() && b.is_exact() && !__builtin_mul_overflow(a.above_, b.below_, &left) &&
       !__builtin_mul_overflow(b.above_, a.below_, &right) && !__builtin_add_overflow(left, right, &above) &&
@@ -189,6 +190,7 @@ Number operator+(const Number& a, const Number& b) {
 }
 
 Number operator*(const Number& a, const Number& b) {
+  using namespace expression_parts;
   if (a.is_exact() && b.is_exact()) {
     const Whole one = std::max<Whole>(std::gcd(a.above_, b.below_), 1),
                 other = std::max<Whole>(std::gcd(b.above_, a.below_), 1);
@@ -235,7 +237,7 @@ Expression Expression::made(Kind kind, std::vector<Expression> parts, std::size_
 Expression::Kind Expression::kind() const { return node_->kind; }
 const Number& Expression::number() const { return node_->number; }
 std::size_t Expression::index() const { return node_->index; }
-std::string_view Expression::name() const { return rows[node_->index].name; }
+std::string_view Expression::name() const { return expression_parts::rows[node_->index].name; }
 std::span<const Expression> Expression::parts() const { return node_->parts; }
 std::size_t Expression::size() const { return node_->size; }
 bool Expression::has(std::size_t variable) const { return (node_->variables >> variable & 1U) != 0; }
@@ -280,6 +282,7 @@ std::span<const Expression> terms_of(const Expression& e) {
 }
 
 Expression Expression::sum(std::vector<Expression> terms) {
+  using namespace expression_parts;
   std::map<Expression, Number> all;
   for (const Expression& each : terms) {
     for (const Expression& term : terms_of(each)) {
@@ -295,10 +298,19 @@ Expression Expression::sum(std::vector<Expression> terms) {
     kept.push_back(rest.is_one() ? Expression(factor) : product({factor, rest}));
   }
   if (kept.empty()) return 0;
+  if (kept.size() == 2) {  // c + c tan^2 = c/cos^2
+    const auto [c, one] = term_of(kept[0]);
+    const auto [d, square] = term_of(kept[1]);
+    const auto [base, exponent] = base_and_exponent(square);
+    if (one.is_one() && c == d && is_function(base, "tan") && exponent == Expression(2)) {
+      return product({c, power(function("cos", base.parts()[0]), -2)});
+    }
+  }
   return kept.size() == 1 ? kept[0] : made(Kind::sum, std::move(kept));
 }
 
 Expression Expression::product(const std::vector<Expression>& factors) {
+  using namespace expression_parts;
   Number number = 1;
   std::map<Expression, Expression> powers;
   std::vector<Expression> exponents;  // of exp
@@ -360,6 +372,7 @@ Expression Expression::product(const std::vector<Expression>& factors) {
 }
 
 Expression power(const Expression& base, const Expression& exponent) {
+  using namespace expression_parts;
   using Kind = Expression::Kind;
   if (exponent.is_zero() || base.is_one()) return 1;
   if (exponent.is_one()) return base;
@@ -406,6 +419,7 @@ Expression power(const Expression& base, const Expression& exponent) {
 Expression operator/(const Expression& a, const Expression& b) { return Expression::product({a, power(b, -1)}); }
 
 Expression Expression::function(std::string_view name, const Expression& x) {
+  using namespace expression_parts;
   if (name == "sqrt") return power(x, Number(1, 2));
   if (name == "log") name = "ln";
   if (name == "log2") return function("ln", x) / function("ln", 2);
@@ -457,6 +471,7 @@ Expression Expression::function(std::string_view name, const Expression& x) {
 }
 
 double Expression::operator()(std::span<const double> values) const {
+  using namespace expression_parts;
   const auto at = [&](std::size_t i) { return parts()[i](values); };
   switch (kind()) {
     case Kind::number:
@@ -478,6 +493,7 @@ double Expression::operator()(std::span<const double> values) const {
 }
 
 Expression Expression::derivative(std::size_t variable) const {
+  using namespace expression_parts;
   if (!has(variable)) return 0;
   const auto slope = [&](std::size_t i) { return parts()[i].derivative(variable); };
   switch (kind()) {
@@ -542,6 +558,7 @@ Expression Expression::with(std::size_t variable, const Expression& by) const {
 }
 
 Expression Expression::expanded() const {
+  using namespace expression_parts;
   const auto times = [](const Expression& a, const Expression& b) {
     std::vector<Expression> terms;
     if (terms_of(a).size() * terms_of(b).size() > most / 4) throw std::length_error("a product has too many terms");
@@ -570,6 +587,7 @@ Expression Expression::expanded() const {
 }
 
 Fraction fraction_of(const Expression& e) {
+  using namespace expression_parts;
   using Kind = Expression::Kind;
   if (e.is(Kind::power)) {
     const auto [base, exponent] = base_and_exponent(e);
@@ -617,6 +635,7 @@ Fraction fraction_of(const Expression& e) {
 }
 
 std::optional<std::vector<Expression>> coefficients(const Expression& e, std::size_t variable, std::size_t degree) {
+  using namespace expression_parts;
   std::vector<std::vector<Expression>> all(1);
   const Expression sum = e.expanded();
   for (const Expression& term : terms_of(sum)) {
@@ -643,6 +662,7 @@ std::optional<std::vector<Expression>> coefficients(const Expression& e, std::si
 }
 
 std::string Expression::text(std::span<const std::string> names, int digits) const {
+  using namespace expression_parts;
   const auto bracketed = [&](const Expression& e, bool brackets) {
     const std::string inner = e.text(names, digits);
     return brackets ? "(" + inner + ")" : inner;

@@ -631,7 +631,8 @@ class Blackboard {
       case PlanarEnd::cycle:
         return "it nears a closed orbit for ever";
       case PlanarEnd::infinity:
-        if (first && !std::isfinite(time)) return steps_.names[0] + " grows for ever";
+        // In a finite time y is infinite, so its slope is large before. Otherwise x alone grows.
+        if (first && !(std::isfinite(time) && is_steep(orbit, time))) return steps_.names[0] + " grows for ever";
         return first ? fmt::format("{}: {} is infinite", when, steps_.names[1])
                      : when + (when.empty() ? "it goes to infinity, for ever" : ": it is at infinity");
       case PlanarEnd::border: {
@@ -650,6 +651,16 @@ class Blackboard {
       }
       default:
         return "not decided: " + orbit.undecided();
+    }
+  }
+
+  bool is_steep(const PlanarOrbit& orbit, double time) const {
+    constexpr double before = 1e-6, steep = 1e3;
+    try {
+      const Vector2d x = orbit.at(time * (1 - before));
+      return steps_.parts.empty() || std::abs(steps_.parts[1]({x[0], x[1]})) > steep;
+    } catch (const std::domain_error&) {
+      return true;
     }
   }
 
