@@ -117,8 +117,8 @@ void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_v
   for (const Generator& x : found.generators) generators.push_back(json_of(x));
   answer.members.update({{"generators", generators},
                          {"singular_values", found.singular_values},
-                         {"level", found.level},
-                         {"gap", found.gap},
+                         {"level", or_infinity(found.level)},
+                         {"gap", or_infinity(found.gap)},
                          {"sampled_within", {found.within[0], found.within[1]}}});
   add_text(answer, [=](const Digits& digits) { return text_of(found, time, digits); });
 }
@@ -475,7 +475,8 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
 }
 
 /// Returns x at which the orbit of y' = F(x, y) leaves the branch of the solution; infinity if it does not.
-double end_of_branch(const Expression& branch, const PlanarOrbit& orbit, const Vector2d& start) {
+double end_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2d& start) {
+  const Expression &branch = *steps.branch, slope = branch.derivative(0);
   constexpr double nearly = 0.999, usual = 5, error = 1e-6;
   const double last = std::isfinite(orbit.end_time()) ? nearly * orbit.end_time() : usual;
   const auto is_on = [&](double time) {
@@ -483,7 +484,9 @@ double end_of_branch(const Expression& branch, const PlanarOrbit& orbit, const V
       const Vector2d x = orbit.at(time);
       return std::abs(branch({x[0], x[1]}) - x[1]) <= error * (1 + std::abs(x[1]));
     } catch (const std::domain_error&) {
-      return true;  // the orbit gives no state, so nothing contradicts the branch
+      // The orbit gives no state. The branch ends where its slope leaves the equation.
+      const double x = start[0] + time, expected = steps.parts[1]({x, branch({x, 0})}), found = slope({x, 0});
+      return !(std::abs(found - expected) > error * (1 + std::abs(expected)));
     }
   };
   constexpr int samples = 20, halvings = 20;
@@ -569,6 +572,9 @@ class Blackboard {
   /// Adds the places at which both right sides vanish.
   void add_equilibria(const reduction::Equilibria& equilibria) {
     if (type_ == FormulaField::Equations::first) return;
+    constexpr std::size_t most = 9;
+    const std::size_t count = equilibria.points.size();
+    if (count > most) return add("equilibria", fmt::format("{}; --details lists them", count));
     for (const reduction::Equilibrium& each : equilibria.points) {
       add("equilibrium", fmt::format("{}: {}", place(each.x), each.kind));
     }
@@ -749,7 +755,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       return fmt::format("solution    none by quadrature: {}\n", why);
     });
   }
-  const double until = steps.branch && followed ? end_of_branch(*steps.branch, followed->orbit, start) : infinity;
+  const double until = steps.branch && followed ? end_of_branch(steps, followed->orbit, start) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
     Blackboard board(system, steps, digits);
     board.add_kinds();
