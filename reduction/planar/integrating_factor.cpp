@@ -230,7 +230,7 @@ class FactorWalk {
   }
 
   void fit_anew() {
-    constexpr int most = 2000, halvings = 6;
+    constexpr int most = 200, halvings = 6;
     const auto known = [&](const Vector2d& x) {
       const auto f = value_of(solution_.fitted.value, x);
       return f && box_.inside(x).lpNorm<Eigen::Infinity>() <= 1 ? factor_(x, Jet{*f, Eigen::Matrix2d::Zero()})[0]

@@ -448,7 +448,9 @@ PlanarSymmetries find_symmetries(const SmoothField& field, const Vector2d& aroun
   const SingularValues svd(equations.matrix);
   const double largest = svd.values[0];
   PlanarSymmetries result;
-  result.level = 8 * std::max(equations.error / largest, 8 * eps);
+  // Beside a pole the error of the derivatives is not a number.
+  const double error = equations.error / largest;
+  result.level = std::isnan(error) ? infinity : 8 * std::max(error, 8 * eps);
   result.points = static_cast<int>(equations.points.size());
   result.within = unit * sampled_to * scale;
   int nullity = 0;

@@ -172,6 +172,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
         "stop --batch - --ball pool --law exact,pade"}},
       {"orbit",
        {"orbit --estimate --reduction" + start, "orbit --ball puck --load " + load, "orbit --time-left 0.1" + start}},
+      {"orbit --system", {"orbit --at 0,1" + system + "'x\\' = -x; y\\' = -2*y'"}},
       {"law", {"law --k 0,1"}},
       {"roll",
        {"roll --ball pool --samples 3 --gradient --uncertainty slip=1% --route integrated",

@@ -18,10 +18,8 @@ void SystemOption::add(CLI::App& app) {
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions of u and v, for --system. Sums of them are tried as inverse integrating factor, a function V "
              "that gives a constant of the motion");
-  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", number);
-  y0_.add(app, "--y0", "Y", "value of the letter y at the start of --system", number);
   start_.add(app, "--start", "\"x=1, x'=0\"",
-             "start of --system in its letters. The options --u0 and --v0 name the first and the second letter",
+             "start of --system in its letters; also --x0 1 --y0 0, and --u0 and --v0 for the first and the second letter",
              [](const std::string& typed) {
                std::vector<std::pair<std::string, double>> values;
                for (const std::string& part : split(typed, ',')) {
@@ -34,6 +32,9 @@ void SystemOption::add(CLI::App& app) {
                }
                return values;
              });
+  app.option_defaults()->group("");  // the help of --start names them
+  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", number);
+  y0_.add(app, "--y0", "Y", "value of the letter y at the start of --system", number);
   for (Argument* each : {static_cast<Argument*>(&x0_), static_cast<Argument*>(&y0_), static_cast<Argument*>(&start_)}) {
     each->needs(system_, "is in the letters of typed equations");
   }

@@ -134,7 +134,7 @@ class Reduction:
 
     def _repr_html_(self) -> str:
         if self._typed:
-            lines = [(line[:12].strip(), line[12:]) for line in str(self).splitlines()]
+            lines = [(line[:13].strip(), line[13:]) for line in str(self).splitlines()]
             return with_picture(table(self._system, ("", ""), lines), self._repr_svg_())
         rows: list[tuple[str, Any]] = [("solved by", self.form or "no quadrature"), ("verdict on symmetries", self.verdict)]
         if self.form == "scaling":
