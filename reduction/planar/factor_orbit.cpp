@@ -140,7 +140,7 @@ class Follower {
       noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
       if (rests(*here) || escapes(*here)) return;
       if (at_border(*here, 4)) return end(PlanarEnd::border, motion_.followed);
-      constexpr double edge = 0.7, near = 0.2, shortest = 1024;
+      constexpr double edge = 0.7, near = 0.2, shortest = 256;
       const bool enters =
           unfitted_ || (i > 0 && (box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near));
       const bool holds = !enters || enter(*here);
