@@ -30,8 +30,8 @@ def table(shown):
     (ct.Ball.puck().roll(slip=1, spin=0).uncoupled, [["", "textbook"], ["turns", "0"]]),
     (FIT, [["patch_radius", *(f"{value:.6g}" for value in FIT.patch_radius), "m"]]),
     (ct.fit_plan(T, ball=POOL.but(slip=1, spin=100), sd={"slip": 0.01}), [["", "value", "standard error", "95 % from", "to", "unit"]]),
-    (NODE, [["solved by", "scaling"], ["kind of the centre", "stable node"], ["symmetry", "1 u d/du + 1 v d/dv"]]),
-    (ct.reduce("x'' = -sin(x)", u=1, v=0), [["solved by", "constant"], ["center", "(0, 0)"]]),
+    (NODE, [["coordinates", "q = v/u,  p = ln(abs(u))"]]),
+    (ct.reduce("x'' = -sin(x)", u=1, v=0), [["separated", "dp/dq = -sin(q)"]]),
     (CHECKS, [["law", "statement", "measured", "allowed", "passed"],
               ["exact", CHECKS[0].check, f"{CHECKS[0].measured:.2g}", f"{CHECKS[0].allowed:.2g}", "yes"]])],
     ids=["roll", "textbook", "fit", "plan", "node", "pendulum", "checks"])
