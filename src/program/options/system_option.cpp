@@ -12,14 +12,14 @@ namespace contensou::program {
 
 void SystemOption::add(CLI::App& app) {
   app.option_defaults()->group("Another system");
-  system_.add(app, "--system", "\"x' = F; y' = G\"",
-              "equations in any two letters, instead of (2.6); or one equation \"y' = F(x, y)\" or \"x'' = F(x, x')\". "
-              "'contensou help formulas' shows more forms");
+  system_.add(
+      app, "--system", "\"x' = F; y' = G\"",
+      "equations in any letters, instead of (2.6); \"y' = F(x, y)\", \"x'' = F(x, x')\" and more: 'contensou help "
+      "formulas'");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
-             "functions of u and v, for --system. Sums of them are tried as inverse integrating factor, a function V "
-             "that gives a constant of the motion");
+             "functions, for --system; sums of them are tried as inverse integrating factor V");
   start_.add(app, "--start", "\"x=1, x'=0\"",
-             "start of --system in its letters; also --x0 1 --y0 0, and --u0 and --v0 for the first and the second letter",
+             "start of --system; also --x0 1 --y0 0, or --u0 and --v0 for the two letters in their order",
              [](const std::string& typed) {
                std::vector<std::pair<std::string, double>> values;
                for (const std::string& part : split(typed, ',')) {
