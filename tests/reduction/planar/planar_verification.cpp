@@ -83,15 +83,20 @@ TEST_CASE("orbits in which x grows for ever are known to do so", "[planar]") {
       first_order([](double, double y) { return Eigen::Vector3d(2 * std::cos(y) - 3, 0, -2 * std::sin(y)); }), {1, 1});
   CHECK(bounded.end() == PlanarEnd::infinity);
   CHECK(std::isinf(bounded.end_time()));
-  // u' = u^2 - 1, v' = cos u - 2 u v: u is infinite at t = artanh(1/u0).
-  const PlanarOrbit finite =
-      end_of(SmoothField([](const Vector2d& x) { return Vector2d(x[0] * x[0] - 1, std::cos(x[0]) - 2 * x[0] * x[1]); },
-                         [](const Vector2d& x) {
-                           return Matrix2d{{2 * x[0], 0}, {-std::sin(x[0]) - 2 * x[1], -2 * x[0]}};
-                         }),
-             {1.3, 0.7});
+  // u' = u^2, v' = u^2 v (v + 2) - 2 u - 2: u is infinite at t = 1/u0, and v tends to -2.
+  const PlanarOrbit finite = end_of(SmoothField(
+                                        [](const Vector2d& x) {
+                                          const double u = x[0], v = x[1];
+                                          return Vector2d(u * u, u * u * v * (v + 2) - 2 * u - 2);
+                                        },
+                                        [](const Vector2d& x) {
+                                          const double u = x[0], v = x[1];
+                                          return Matrix2d{{2 * u, 0}, {2 * u * v * (v + 2) - 2, u * u * (2 * v + 2)}};
+                                        }),
+                                    {1.3, 0.7});
   CHECK(finite.end() == PlanarEnd::infinity);
-  CHECK(finite.end_time() == Approx(std::atanh(1 / 1.3)).epsilon(1e-11));
+  CHECK(finite.end_time() == Approx(1 / 1.3).epsilon(1e-12));
+  CHECK(finite.limit()[1] == Approx(-2).epsilon(1e-8));
   // u' = 2 v - 6 u, v' = v - 3 u - 2: without an equilibrium, along the line v = 3 u.
   const PlanarOrbit drift =
       end_of(SmoothField([](const Vector2d& x) { return Vector2d(2 * x[1] - 6 * x[0], x[1] - 3 * x[0] - 2); },
