@@ -264,6 +264,10 @@ class Follower {
     if (power > above) {
       const double left = 1 / (growth * (power - 1));
       if (!(left <= eps * motion_.followed)) return false;
+      if (lost_) {
+        stop("one coordinate was so small that rounding hides whether the orbit ends; it comes");
+        return true;
+      }
       end(PlanarEnd::infinity, motion_.followed + left);
       return true;
     }
@@ -509,6 +513,10 @@ class Follower {
   void append(const Panel& panel) {
     x_ = panel.at(1);
     motion_.followed += panel.time.at_end();
+    // A coordinate below the accuracy of a panel (solve) has lost its digits, for a part of the motion that counts.
+    constexpr double counts = 1e-3;
+    const double least = x_.cwiseAbs().minCoeff();
+    lost_ |= least > 0 && least < eps * small_ * x_.norm() && panel.time.at_end() > counts * motion_.followed;
     motion_.panels.push_back(panel);
   }
 
@@ -667,7 +675,8 @@ class Follower {
   double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
   Vector2d anchor_, forward_, passed_;  ///< returns are sought on the line through anchor_ normal to forward_
   double extent_ = 0, along_ = 0;
-  int work_ = 0;  ///< evaluations of the field
+  bool lost_ = false;  ///< one coordinate was smaller than the errors of the panels
+  int work_ = 0;       ///< evaluations of the field
 };
 
 }  // namespace

@@ -128,6 +128,22 @@ TEST_CASE("an orbit that a far pole or growth could end is not said to last for 
   CHECK((orbit.end() == PlanarEnd::undecided || std::isfinite(orbit.end_time())));
 }
 
+TEST_CASE("an orbit whose small coordinate is rounding does not end in a finite time", "[planar]") {
+  // v falls like exp(-2 t) and u grows like exp(t): from t = 15 on, v is smaller than the rounding of u.
+  const SmoothField field(
+      [](const Vector2d& x) {
+        const double u = x[0], v = x[1], sum = u + v;
+        return Vector2d(u + v * v + 2 * v, -v * v * sum * sum - v * v - v);
+      },
+      [](const Vector2d& x) {
+        const double u = x[0], v = x[1], sum = u + v;
+        return Matrix2d{{1, 2 * v + 2}, {-2 * v * v * sum, -2 * v * sum * sum - 2 * v * v * sum - 2 * v - 1}};
+      });
+  const PlanarReduction plane = by_factor(field, {1.3, 0.7});
+  REQUIRE(plane.solved());
+  CHECK(plane.orbit({1.3, 0.7}).end() == PlanarEnd::undecided);
+}
+
 TEST_CASE("every statement about a typed system holds, and each that applies is made", "[verification]") {
   const SmoothField pendulum([](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0])); },
                              [](const Vector2d& x) {
