@@ -18,8 +18,7 @@ void SystemOption::add(CLI::App& app) {
       "formulas'");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions, for --system; sums of them are tried as inverse integrating factor V");
-  start_.add(app, "--start", "\"x=1, x'=0\"",
-             "start of --system; also --x0 1 --y0 0, or --u0 and --v0 for the two letters in their order",
+  start_.add(app, "--start", "\"x=1, x'=0\"", "start of --system; also --x0 1 --y0 0 or --u0 1 --v0 0",
              [](const std::string& typed) {
                std::vector<std::pair<std::string, double>> values;
                for (const std::string& part : split(typed, ',')) {
