@@ -171,7 +171,6 @@ Maybe of_rational(const E& f, std::size_t variable) {
     Polynomial next = left;
     if (left.size() > 2) {
       if (const auto found = factor_of(left)) next = *found;
-      if (next.size() > 3) return std::nullopt;
     }
     for (Number& each : next) each = each / next.back();
     left = divided(left, next).first;
@@ -207,7 +206,15 @@ Maybe of_rational(const E& f, std::size_t variable) {
   if (!found) return std::nullopt;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto& [factor, k, shift, column] = parts[i];
-    if (factor->size() == 2) {
+    if (factor->size() > 3) {  // only a multiple of the derivative of the factor has a simple integral
+      if (shift > 0) continue;
+      const Number multiple = (*found)[i + factor->size() - 2] / Number(static_cast<int>(factor->size()) - 1);
+      for (std::size_t n = 1; n < factor->size(); ++n) {
+        const Number expected = multiple * Number(static_cast<int>(n)) * (*factor)[n];
+        if (k > 1 || !((*found)[i + n - 1] == expected)) return std::nullopt;
+      }
+      terms.push_back(multiple * ln(formula_of(*factor, x)));
+    } else if (factor->size() == 2) {
       const E base = (*factor)[0] + x;
       terms.push_back(k == 1 ? (*found)[i] * ln(base) : (*found)[i] * power(base, 1 - k) / (1 - k));
     } else if (shift == 1 && !((*found)[i] == Number(0) && (*found)[i - 1] == Number(0))) {

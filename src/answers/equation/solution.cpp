@@ -357,6 +357,57 @@ Number snapped(double value) {
   return Number(value);
 }
 
+/// Returns H as a sum of logarithms of the curves of V, arcs of tangents and a rational function whose denominator
+/// consists of multiple curves. The numbers in the sum are those of a null vector of f . grad H, snapped to fractions.
+Maybe of_curves(const Equation& equation, const E& V) {
+  const auto& f = equation.f;
+  std::vector<E> functions;
+  E outside = 1;
+  const E above = fraction_of(V).above;
+  for (const E& factor : factors_of(above)) {
+    const auto [curve, times] = base_and_exponent(factor);
+    if (curve.is_constant()) continue;
+    const auto by_x = coefficients(curve, 0, 2), by_y = coefficients(curve, 1);
+    if (!by_y || !coefficients(curve, 0) || !times.is(Kind::number)) return std::nullopt;
+    functions.push_back(ln(curve));
+    outside = outside * power(curve, times - 1);
+    if (!by_x || by_x->size() != 3) continue;
+    // a x^2 + b x + c with b^2 < 4 a c is not zero, and has an angle
+    const E a = (*by_x)[2], b = (*by_x)[1], D = tidied((4 * a * (*by_x)[0] - b * b) / (y * y));
+    if (D.is(Kind::number) && D.number().value() > 0) {
+      const E root = power(D, Number(1, 2));
+      functions.push_back(E::function("atan", (2 * a * x + b) / (root * y)) / root);
+    }
+  }
+  constexpr int degree = 3;
+  for (int i = 0; i <= degree; ++i) {
+    for (int k = i == 0 && outside.is_one() ? 1 : 0; i + k <= degree; ++k) {
+      functions.push_back(power(x, i) * power(y, k) / outside);
+    }
+  }
+  std::vector<E> rates;
+  for (const E& each : functions) rates.push_back(f[0] * each.derivative(0) + f[1] * each.derivative(1));
+  const auto at = equation.points(rates);
+  if (at.size() < rates.size() + 10) return std::nullopt;
+  Eigen::MatrixXd rows(std::ssize(at), std::ssize(rates));
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::Vector2d& here = at[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < rows.cols(); ++k) rows(i, k) = rates[static_cast<std::size_t>(k)]({here[0], here[1]});
+    rows.row(i) /= rows.row(i).lpNorm<Eigen::Infinity>();
+  }
+  Eigen::FullPivLU<Eigen::MatrixXd> elimination(rows);
+  elimination.setThreshold(1e-11);
+  if (elimination.dimensionOfKernel() == 0) return std::nullopt;
+  const Eigen::VectorXd null = elimination.kernel().col(0);
+  Eigen::Index largest = 0;
+  null.cwiseAbs().maxCoeff(&largest);
+  std::vector<E> terms;
+  for (Eigen::Index k = 0; k < null.size(); ++k) {
+    terms.push_back(snapped(null[k] / null[largest]) * functions[static_cast<std::size_t>(k)]);
+  }
+  return E::sum(terms);
+}
+
 }  // namespace solution_formulas
 
 Expression tidied(const Expression& e) {
@@ -582,10 +633,17 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
   }
   attempt([&]() -> Maybe {
     if (!factor) return std::nullopt;
+    if (const Maybe found = of_curves(equation, *factor)) return found;
     return of_closed(-f[1] / *factor, f[0] / *factor);
   });
   if (!result) return result;
   if (result->H.text(names).starts_with('-')) result->H = -result->H;
+  if (result->H.is(Kind::sum)) {  // the whole numbers in H have no common factor
+    const Number common = term_of(power(result->H, -1)).factor.inverse();
+    if (common.is_exact() && std::abs(common.above()) > 1) {
+      result->H = result->H * Number(common.value() < 0 ? -common.below() : common.below(), common.above());
+    }
+  }
   constexpr std::size_t longest = 250;
   if (result->H.size() > longest) return std::nullopt;
   const E summed = with_sums_of_logarithms(result->H);
@@ -604,7 +662,9 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
   if (!std::isfinite(C)) return std::nullopt;
   try {
     const Number simple = snapped(C);
-    E left = H, right = simple.is_exact() && simple.below() <= 12 ? simple : Number::inexact(C);
+    E left = H, right = simple.below() > 0 && simple.below() <= 12 && std::abs(simple.value() - C) < 1e-13
+                            ? simple
+                            : Number::inexact(C);
     constexpr int most_steps = 30;
     for (int step = 0; step < most_steps && !(left == y); ++step) {
       if (!left.has(1)) return std::nullopt;

@@ -70,6 +70,12 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
   attempt([&] { steps.kinds = kinds_of(*equation); });
   attempt([&] { steps.coordinates = coordinates_of(*equation, found); });
   attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, steps.factor); });
+  if (steps.integral && steps.integral->quadrant) {
+    const auto side = [&](std::size_t i) {
+      return fmt::format("{} {} 0", steps.names[i], around[static_cast<Eigen::Index>(i)] < 0 ? "<" : ">");
+    };
+    steps.where = side(0) + ", " + side(1);
+  }
   const bool separable = std::ranges::count(steps.kinds, "separable") > 0;
   if (steps.coordinates && !separable && steps.coordinates->changes_q) {
     steps.kinds.push_back(fmt::format("separable after {} = {}", steps.names[2], steps.text(steps.coordinates->q)));

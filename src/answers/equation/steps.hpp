@@ -14,6 +14,7 @@ struct Steps {
   std::vector<std::string> kinds = {};
   std::optional<Coordinates> coordinates = {};
   std::optional<IntegralFormula> integral = {};
+  std::string where = {};  ///< quadrant in which H was checked, such as "x > 0, y > 0"; empty for the plane
   std::optional<Expression> branch = {};  ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
   std::optional<Expression> factor = {};  ///< inverse integrating factor V
   std::vector<Expression> parts = {};     ///< the right sides

@@ -537,8 +537,9 @@ class Blackboard {
                     double until) {
     if (steps_.integral) {
       const double C = start ? steps_.integral->H({(*start)[0], (*start)[1]}) : infinity;
-      add("solution", fmt::format("{} = C{}", shown(steps_.integral->H),
-                                  std::isfinite(C) ? ",  C = " + digits_(C) : std::string()));
+      add("solution", fmt::format("{} = C{}{}", shown(steps_.integral->H),
+                                  std::isfinite(C) ? ",  C = " + digits_(C) : std::string(),
+                                  steps_.where.empty() ? "" : ",  for " + steps_.where));
       if (steps_.branch) {
         add("",
             fmt::format("{} = {}{}", steps_.names[1], shown(*steps_.branch),
