@@ -137,8 +137,9 @@ struct FactorFit {
 std::optional<FactorFit> fit_factor(FactorForm form, const FieldSamples& samples,
                                     const std::function<double(const Eigen::Vector2d& x)>& like = {});
 
-/// Returns the inverse integrating factor V of a system as a formula. V is a sum with rational coefficients of monomials
-/// in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of the field's own basis.
+/// Returns the inverse integrating factor V of a system as a formula. V is a sum with rational coefficients of
+/// monomials in u, v of degree 4 or less, or of products of the field with 1, u, v, or of functions of the field's own
+/// basis.
 ///
 /// @param field  field whose V is such a sum
 std::string recognised(const SmoothField& field, const Eigen::Vector2d& start);

@@ -88,7 +88,7 @@ class Expression {
   Expression with(std::size_t variable, const Expression& by) const;
   /// Returns the formula with each part for which `by` returns a formula replaced by it, from the outermost part on.
   Expression replaced(const std::function<std::optional<Expression>(const Expression&)>& by) const;
-  /// Returns the formula with products and whole powers of sums multiplied out, at every level if `deep`.
+  /// Returns the formula with products and whole powers of sums multiplied out, outside functions.
   Expression expanded() const;
 
   /// Returns the formula as Formulas read it.
@@ -137,7 +137,8 @@ struct Fraction {
 };
 Fraction fraction_of(const Expression& e);
 
-/// Returns the coefficients of a polynomial in a variable, the lowest first; empty if the formula is none.
+/// Returns the coefficients of a polynomial in a variable, the lowest first; empty if the formula is no polynomial
+/// of at most this degree.
 std::optional<std::vector<Expression>> coefficients(const Expression& e, std::size_t variable, std::size_t degree = 24);
 
 }  // namespace contensou::answers
