@@ -196,6 +196,11 @@ class FactorWalk {
   /// @throws std::domain_error  if V or the field has no value on the way, or V is not unique
   LevelPoint to(const Vector2d& target) {
     constexpr double inner = 0.9;
+    if (const auto& switches = solution_.smooth.switches) {
+      // Across a jump the form of V goes on, but V does not.
+      const Eigen::ArrayXd from = switches(solution_.start).col(0).array(), there = switches(target).col(0).array();
+      if ((from * there < 0).any()) throw std::domain_error("PlanarReduction: V jumps on the way");
+    }
     constexpr unsigned halvings = 2;  // V is smooth in its box, and near the orbit the integral is about 0
     while (x_ != target) {
       double part = 1;  // share of the way that lies well within the box

@@ -31,7 +31,8 @@ struct ComputedState {
 class HalfOrbit {
  public:
   HalfOrbit(const PlanarReduction& plane, const Vector2d& start)
-      : start_(start),
+      : plane_(plane),
+        start_(start),
         orbit_(plane.orbit(start)),
         steps_(plane.solved() ? reduction::by_steps(plane.field()).orbit(start) : orbit_),
         solved_(plane.solved()) {}
@@ -42,17 +43,19 @@ class HalfOrbit {
     // Within the error of the end time the state at infinity has no digits.
     constexpr double error = 1e-12;
     if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
-    for (const bool quadrature : {true, false}) {
+    if (solved_) {
+      if (const auto x = by_quadrature(time)) return ComputedState{*x, true};
       // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier.
-      if (quadrature ? !solved_ : solved_ && !(end() == PlanarEnd::undecided || time < orbit_.end_time())) continue;
-      try {
-        const Vector2d x = (quadrature ? orbit_ : steps_).at(time);
-        if (x.allFinite()) return ComputedState{x, quadrature};
-      } catch (const std::domain_error&) {
-        // The orbit ends earlier, or this method does not follow it so far.
-      }
+      if (!goes_on(time)) return std::nullopt;
     }
-    return std::nullopt;
+    const auto x = state(steps_, time);
+    return x ? std::optional(ComputedState{*x, false}) : std::nullopt;
+  }
+
+  /// Returns true unless the orbit is known to end before a time.
+  bool goes_on(double time) const {
+    constexpr double beyond = 1 + 1e-6;  // the last known time is that much before the end, or less
+    return end() == PlanarEnd::undecided || beyond * time < orbit_.end_time();
   }
 
   PlanarEnd end() const { return orbit_.end(); }
@@ -65,19 +68,51 @@ class HalfOrbit {
   }
 
  private:
+  static std::optional<Vector2d> state(const PlanarOrbit& orbit, double time) {
+    try {
+      const Vector2d x = orbit.at(time);
+      if (x.allFinite()) return x;
+    } catch (const std::domain_error&) {
+      // The orbit ends earlier, or is not followed so far.
+    }
+    return std::nullopt;
+  }
+
+  /// An orbit that lasts for ever is followed over a part. The next part begins at its last state.
+  std::optional<Vector2d> by_quadrature(double time) const {
+    constexpr std::size_t most = 6;  // each takes up to half a second
+    while (true) {
+      const auto& [begin, orbit] = *std::prev(std::ranges::upper_bound(parts_, time, {}, &Part::begin));
+      const auto x = state(orbit, time - begin);
+      const bool lasts = end() == PlanarEnd::infinity && std::isinf(orbit_.end_time());
+      if (x || !lasts || begin != parts_.back().begin || parts_.size() == most) return x;
+      const double passed = reduction::last_where([&, part = orbit](double t) { return state(part, t).has_value(); }, 0,
+                                                  time - begin, 100);
+      if (!(passed > 0)) return std::nullopt;
+      parts_.push_back({begin + passed, plane_.orbit(*state(orbit, passed))});
+    }
+  }
+
+  struct Part {
+    double begin;
+    PlanarOrbit orbit;
+  };
+  PlanarReduction plane_;
   Vector2d start_;
   PlanarOrbit orbit_, steps_;
   bool solved_;
+  mutable std::vector<Part> parts_{{0, orbit_}};
 };
 
-std::string words_of_end(const HalfOrbit& half) {
+std::string words_of_end(const HalfOrbit& half, double last) {
+  if (half.goes_on(last)) return "neither a quadrature nor steps in time follow it farther";
   switch (half.end()) {
     case PlanarEnd::infinity:
       return "it goes to infinity";
     case PlanarEnd::border:
       return "it comes to a pole, a jump or an edge of the equations";
     default:
-      return "steps in time do not follow it farther";
+      return "it ends";
   }
 }
 
@@ -92,13 +127,16 @@ std::string time_letter(const StartedSystem& system) {
   const std::string letter = time_letter(system);
   const double there = (system.first_order ? x[0] : sense * last) + 0.0;
   std::string place = fmt::format("{} = {:.9g}", letter, there);
-  if (half.end() != PlanarEnd::infinity) {
+  if (half.end() != PlanarEnd::infinity || half.goes_on(last)) {
     for (int i = system.first_order ? 1 : 0; i < 2; ++i) {
       place += fmt::format(", {} = {:.9g}", system.variables[static_cast<std::size_t>(i)], x[i]);
     }
   }
-  throw BadInput("{}: the orbit {} at {}: {}; give {} {} {:.9g}", option, sense > 0 ? "ends" : "begins", place,
-                 words_of_end(half), letter, sense > 0 ? "below" : "above", there);
+  throw BadInput("{}: the orbit {} {}: {}; give {} {} {:.9g}", option,
+                 half.goes_on(last) ? "is known up to"
+                 : sense > 0        ? "ends at"
+                                    : "begins at",
+                 place, words_of_end(half, last), letter, sense > 0 ? "below" : "above", there);
 }
 
 }  // namespace
