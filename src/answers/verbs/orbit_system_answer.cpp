@@ -117,7 +117,8 @@ std::string words_of_end(const HalfOrbit& half, double last) {
 }
 
 std::string time_letter(const StartedSystem& system) {
-  return system.first_order ? system.variables[0] : std::ranges::count(system.variables, "t") > 0 ? "time" : "t";
+  const auto& [equations, formulas, letters, independent] = system.formulas;
+  return std::ranges::count(letters, independent) > 0 && !system.is_first_order() ? "time" : independent;
 }
 
 [[noreturn]] void refuse(const StartedSystem& system, const HalfOrbit& half, const std::string& option, double time,
@@ -125,11 +126,11 @@ std::string time_letter(const StartedSystem& system) {
   const double last = reduction::last_where([&](double t) { return half.at(t).has_value(); }, 0, time, 100);
   const Vector2d x = half.at(last)->x;
   const std::string letter = time_letter(system);
-  const double there = (system.first_order ? x[0] : sense * last) + 0.0;
+  const double there = (system.is_first_order() ? x[0] : sense * last) + 0.0;
   std::string place = fmt::format("{} = {:.9g}", letter, there);
   if (half.end() != PlanarEnd::infinity || half.goes_on(last)) {
-    for (int i = system.first_order ? 1 : 0; i < 2; ++i) {
-      place += fmt::format(", {} = {:.9g}", system.variables[static_cast<std::size_t>(i)], x[i]);
+    for (int i = system.is_first_order() ? 1 : 0; i < 2; ++i) {
+      place += fmt::format(", {} = {:.9g}", system.formulas.variables[static_cast<std::size_t>(i)], x[i]);
     }
   }
   throw BadInput("{}: the orbit {} {}: {}; give {} {} {:.9g}", option,
@@ -146,7 +147,7 @@ Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& as
   const PlanarReduction plane = reduction::reduce(system.field, start);
   const HalfOrbit after(plane, start);
   std::optional<HalfOrbit> before;
-  const double origin = system.first_order ? start[0] : 0;
+  const double origin = system.is_first_order() ? start[0] : 0;
   Eigen::ArrayXd instants = asked.at;
   if (instants.size() == 0) {
     const auto whole = after.whole();
@@ -200,20 +201,20 @@ Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& as
   }
 
   Answer answer{.members = {{"system", system.text},
-                            {"variables", system.variables},
+                            {"variables", system.formulas.variables},
                             {"u0", start[0]},
                             {"v0", start[1]},
                             {"form", plane.solved() ? Json(plane.form()) : Json()}}};
-  std::vector<std::string> names{system.variables[0], system.variables[1], "integral", "by"};
-  if (!system.first_order) names.insert(names.begin(), time_letter(system));
+  std::vector<std::string> names{system.formulas.variables[0], system.formulas.variables[1], "integral", "by"};
+  if (!system.is_first_order()) names.insert(names.begin(), time_letter(system));
   for (const std::string& name : names) answer.members[name] = Json::array();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& [x, by_quadrature] = states[i];
     const double instant = instants[static_cast<Eigen::Index>(i)];
     Json row = Json::object();
     row[names.front()] = instant;
-    if (!system.first_order) row[system.variables[0]] = x[0];
-    row[system.variables[1]] = x[1];
+    if (!system.is_first_order()) row[system.formulas.variables[0]] = x[0];
+    row[system.formulas.variables[1]] = x[1];
     row["integral"] = integral[i];
     row["by"] = by_quadrature ? "quadrature" : "steps";
     for (const auto& [name, value] : row.items()) answer.members[name].push_back(value);

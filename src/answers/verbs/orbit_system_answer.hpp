@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "answers/asked/planar_system.hpp"
 #include "answers/table/answer.hpp"
 #include "answers/table/record.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
@@ -21,11 +22,13 @@ struct SystemInstants {
 
 /// A typed system with a start.
 struct StartedSystem {
-  reduction::SmoothField field;
-  std::string text;                    ///< the equations as typed
-  std::vector<std::string> variables;  ///< letters of the two coordinates
-  bool first_order = false;            ///< y' = F(x, y): the first coordinate takes the place of the time
+  reduction::SmoothField field;  ///< field of the formulas, perhaps with a basis
+  FormulaField formulas;
+  std::string text;  ///< the equations as typed
   Eigen::Vector2d start;
+
+  /// Returns true for y' = F(x, y): the first coordinate takes the place of the time.
+  bool is_first_order() const { return formulas.equations == FormulaField::Equations::first; }
 };
 
 /// Returns the states of an orbit at instants before and after the start: by quadrature where the system is solved,

@@ -290,11 +290,7 @@ class OrbitCommand final : public Verb {
     SystemInstants instants{{}, {}, instants_.samples()};
     if (instants_.at() != nullptr) instants.at = plain(*instants_.at());
     if (until_.given()) instants.until = plain(*until_)[0];
-    const StartedSystem system{typed.field,
-                               system_.text(),
-                               typed.formulas.variables,
-                               typed.formulas.equations == FormulaField::Equations::first,
-                               system_.require_start(typed, start_)};
+    const StartedSystem system{typed.field, typed.formulas, system_.text(), system_.require_start(typed, start_)};
     return output.write(orbit_system_answer(system, instants));
   }
 
