@@ -211,6 +211,10 @@ TEST_CASE("known equations have the kinds of a textbook, and no others", "[table
       {"x' = -y + x*(1 - x^2 - y^2); y' = x + y*(1 - x^2 - y^2)", {"rotation"}},
       {"x' = 2*x*y; y' = x^2 + y^3", {"gradient"}},
       {"y' = sin(x*y) + x", {}},
+      {"y' = pi*y", {"autonomous", "separable", "linear", "integrating factor of x", "integrating factor of y"}},
+      {"y' = sign(x)*y", {"separable", "linear", "integrating factor of x", "integrating factor of y"}},
+      {"x' = -sign(x); y' = -y",
+       {"gradient", "separable", "linear", "integrating factor of x", "integrating factor of y"}},
   };
   for (const auto& [text, expected] : all) {
     INFO(text);

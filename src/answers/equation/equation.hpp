@@ -28,6 +28,9 @@ struct Equation {
   /// Returns true if the formula vanishes, relative to the sum of the sizes of its terms, at 100 random points.
   bool vanishes(const Expression& formula, double error = 1e-10) const;
 
+  /// Returns true if the formula does not change with the variable, also not by a jump, as sign(x) does.
+  bool is_free_of(const Expression& formula, std::size_t variable) const;
+
   /// Returns the constant that the formula equals at 100 random points, as a fraction if it is one.
   std::optional<Number> constant(const Expression& formula) const;
 

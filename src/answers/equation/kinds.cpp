@@ -52,8 +52,15 @@ bool Equation::vanishes(const Expression& formula, double error) const {
   const auto at = points({slope, formula});
   constexpr std::size_t fewest = 20;
   return at.size() >= fewest && std::ranges::all_of(at, [&](const Eigen::Vector2d& x) {
-           return std::abs(formula({x[0], x[1]})) <= error * size_at(formula, {x[0], x[1]});
+           // Numbers that are not exact leave their rounding as a term of its own.
+           constexpr double rounding = 1e-3;
+           const double size = std::max(size_at(formula, {x[0], x[1]}), rounding * std::abs(slope({x[0], x[1]})));
+           return std::abs(formula({x[0], x[1]})) <= error * size;
          });
+}
+
+bool Equation::is_free_of(const Expression& formula, std::size_t variable) const {
+  return vanishes(formula.derivative(variable)) && vanishes(formula - formula.with(variable, Number(13, 10)));
 }
 
 std::optional<Number> Equation::constant(const Expression& formula) const {
@@ -170,30 +177,31 @@ std::vector<std::string> kinds_of(const Equation& equation) {
   };
   const auto vanishes = [&](const E& e) { return equation.vanishes(e); };
   const bool first = type == Type::first, second = type == Type::second;
+  const auto is_linear = [&](const E& e) {
+    const E at_origin = e.with(0, 0).with(1, 0), by_x = e.with(0, 1).with(1, 0), by_y = e.with(0, 0).with(1, 1);
+    return vanishes(e - at_origin - (by_x - at_origin) * x - (by_y - at_origin) * y);
+  };
   if (second) {
     kinds.emplace_back("autonomous");
-    add("conservative", [&] { return vanishes(f[1].derivative(1)); });
-    const E by_x = f[1].derivative(0), by_v = f[1].derivative(1);
-    add("linear of the second order",
-        [&] { return equation.constant(by_x).has_value() && equation.constant(by_v).has_value(); });
+    add("conservative", [&] { return equation.is_free_of(f[1], 1); });
+    add("linear of the second order", [&] { return is_linear(f[1]); });
   }
   if (type == Type::system) {
-    add("linear system", [&] {
-      return std::ranges::all_of(
-          std::array{f[0].derivative(0), f[0].derivative(1), f[1].derivative(0), f[1].derivative(1)},
-          [&](const E& e) { return equation.constant(e).has_value(); });
-    });
-    add("conservative", [&] { return f[0] == y && vanishes(f[1].derivative(1)); });
+    add("linear system", [&] { return is_linear(f[0]) && is_linear(f[1]); });
+    add("conservative", [&] { return f[0] == y && equation.is_free_of(f[1], 1); });
     add("Hamiltonian", [&] { return vanishes(f[0].derivative(0) + f[1].derivative(1)); });
     add("gradient", [&] { return vanishes(f[0].derivative(1) - f[1].derivative(0)); });
   }
   if (second) add("Hamiltonian", [&] { return vanishes(f[1].derivative(1)); });
-  if (R.is_zero()) return kinds;
+  if (R.is_zero()) {
+    if (!second) kinds.insert(kinds.end(), {"separable", "linear"});
+    return kinds;
+  }
   // The equation of the orbits of x'' = F is not the typed one. Its kinds are listed for equations of first order and
   // for systems.
   add("rotation", [&] { return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R); });
   const E by_x = R.derivative(0), by_y = R.derivative(1);
-  if (first) add("autonomous", [&] { return vanishes(by_x); });
+  if (first) add("autonomous", [&] { return equation.is_free_of(R, 0); });
   if (!second) add("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
   // A polynomial of a degree below n is determined by n values. Derivatives alone do not see kinks, as of |y|.
   const auto is_polynomial = [&](const std::vector<int>& at) {
@@ -251,12 +259,8 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       return true;
     }
     const E of_x = curl / N, of_y = curl / M;
-    // Derivatives alone do not see kinks, as of |y|.
-    const auto is_of = [&](const E& e, std::size_t other) {
-      return vanishes(e.derivative(other)) && vanishes(e - e.with(other, Number(13, 10)));
-    };
-    if (is_of(of_x, 1)) kinds.push_back("integrating factor of " + names[0]);
-    if (is_of(of_y, 0)) kinds.push_back("integrating factor of " + names[1]);
+    if (equation.is_free_of(of_x, 1)) kinds.push_back("integrating factor of " + names[0]);
+    if (equation.is_free_of(of_y, 0)) kinds.push_back("integrating factor of " + names[1]);
     return true;
   });
   return kinds;

@@ -503,10 +503,10 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
       scalings.push_back({snapped(A(1, 1) / A(0, 0)), snapped(centre[0]), snapped(centre[1])});
     }
   }
-  if (equation.vanishes(by_x)) {
+  if (equation.is_free_of(R, 0)) {
     return accepted({"", y, x, R.with(1, q), {}, {}}, {1, 0}, fmt::format("{0} -> {0} + a", names[0]), {p, q});
   }
-  if (equation.vanishes(by_y)) {
+  if (equation.is_free_of(R, 1)) {
     return accepted({"", x, y, {}, R.with(0, q), {}, false}, {0, 1}, fmt::format("{0} -> {0} + a", names[1]), {q, p});
   }
   for (const auto& [m, x0, y0] : scalings) {

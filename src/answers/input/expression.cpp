@@ -190,6 +190,7 @@ Number operator+(const Number& a, const Number& b) {
 }
 
 Number operator*(const Number& a, const Number& b) {
+  if (a == Number(0) || b == Number(0)) return 0;
   using namespace expression_parts;
   if (a.is_exact() && b.is_exact()) {
     const Whole one = std::max<Whole>(std::gcd(a.above_, b.below_), 1),
@@ -205,7 +206,7 @@ Number operator*(const Number& a, const Number& b) {
 
 Number Number::operator-() const { return *this * Number(-1); }
 Number Number::inverse() const { return is_exact() && above_ != 0 ? Number(below_, above_) : inexact(1 / value_); }
-Number Number::inexact(double value) { return {value, 0, 0}; }
+Number Number::inexact(double value) { return value == 0 ? Number(0) : Number(value, 0, 0); }
 
 struct Expression::Node {
   Kind kind;

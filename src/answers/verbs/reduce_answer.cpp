@@ -554,8 +554,8 @@ class Blackboard {
     } else if (!steps_.integral && !form.empty() && form != "scaling") {
       const bool of_u = form.ends_with(" u"), of_v = form.ends_with(" v");  // such as "quadratic in v"
       const std::string letter = of_u ? steps_.names[0] : of_v ? steps_.names[1] : "";
-      add("factor", fmt::format("V is {}{}, as numbers;  dH = {}", form.substr(0, form.size() - (of_u || of_v)), letter,
-                                differential()));
+      add("factor", fmt::format("V is {}{}{}, as numbers;  dH = {}", form == "product" ? "a " : "",
+                                form.substr(0, form.size() - (of_u || of_v)), letter, differential()));
     }
   }
 
