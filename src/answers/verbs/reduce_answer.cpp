@@ -112,7 +112,7 @@ std::string text_of(const PlanarSymmetries& found, std::string_view time, const 
                                  : "the errors of differences exceed all of them\n");
 }
 
-void add_symmetries(Answer& answer, const PlanarSymmetries& found, std::string_view time) {
+void add_symmetries(Answer& answer, const PlanarSymmetries& found, const std::string& time) {
   Json generators = Json::array();
   for (const Generator& x : found.generators) generators.push_back(json_of(x));
   answer.members.update({{"generators", generators},
@@ -503,7 +503,7 @@ double end_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2
 class Blackboard {
  public:
   Blackboard(const FormulaField& system, const Steps& steps, const Digits& digits)
-      : type_(system.equations), steps_(steps), digits_(digits) {}
+      : type_(system.equations), time_(system.independent), steps_(steps), digits_(digits) {}
 
   void add(std::string_view name, const std::string& line) { text_ += fmt::format("{:<13}{}\n", name, line); }
 
@@ -527,7 +527,7 @@ class Blackboard {
     add("symmetry", c.symmetry);
     add("coordinates", fmt::format("{} = {},  {} = {}", steps_.names[2], shown(c.q), steps_.names[3], shown(c.p)));
     add("separated", steps_.separated(digits_.count));
-    if (c.dt_dp) add("time", fmt::format("dt/d{} = {}", steps_.names[3], shown(*c.dt_dp)));
+    if (c.dt_dp) add("time", fmt::format("d{}/d{} = {}", time_, steps_.names[3], shown(*c.dt_dp)));
   }
 
   /// @param method  words for a solution without a formula
@@ -613,7 +613,7 @@ class Blackboard {
   /// Returns the time as text; for y' = F(x, y) the time is x.
   std::string at(const Vector2d& start, double time) const {
     if (type_ == FormulaField::Equations::first) return steps_.names[0] + " = " + digits_(start[0] + time);
-    return "t = " + digits_(time);
+    return fmt::format("{} = {}", time_, digits_(time));
   }
 
   std::string differential() const {
@@ -639,7 +639,12 @@ class Blackboard {
         return "it nears a closed orbit for ever";
       case PlanarEnd::infinity:
         // In a finite time y is infinite, so its slope is large before. Otherwise x alone grows.
-        if (first && !(std::isfinite(time) && is_steep(orbit, time))) return steps_.names[0] + " grows for ever";
+        if (first && !(std::isfinite(time) && is_steep(orbit, time))) {
+          const double limit = orbit.limit()[1];
+          return fmt::format(
+              "{} grows for ever{}", steps_.names[0],
+              std::isfinite(limit) ? fmt::format("; {} tends to {}", steps_.names[1], digits_(limit)) : "");
+        }
         return first ? fmt::format("{}: {} is infinite", when, steps_.names[1])
                      : when + (when.empty() ? "it goes to infinity, for ever" : ": it is at infinity");
       case PlanarEnd::border: {
@@ -652,7 +657,7 @@ class Blackboard {
           // The last state is not known.
         }
         const std::string reason = x.allFinite() ? steps_.broken_at(x) : "";
-        return fmt::format("at {}{}: {}", first ? "" : "t = " + digits_(time) + ", ",
+        return fmt::format("at {}{}: {}", first ? "" : at(start, time) + ", ",
                            x.allFinite() ? place(x) : at(start, time),
                            reason.empty() ? "a pole or a jump of the equation" : reason);
       }
@@ -672,6 +677,7 @@ class Blackboard {
   }
 
   FormulaField::Equations type_;
+  const std::string& time_;  ///< letter of the time
   const Steps& steps_;
   Digits digits_;
   std::string text_;
@@ -719,7 +725,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
                 }};
   if (given) answer.members.update({{"u0", start[0]}, {"v0", start[1]}});
   answer.members["size"] = size;
-  add_symmetries(answer, found, "t");
+  add_symmetries(answer, found, system.independent);
   const PlanarReduction plane = reduce(field, start, found);
   answer.members["form"] = plane.solved() ? Json(plane.form()) : Json();
   if (!plane.tried().empty()) {
@@ -761,7 +767,8 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     Blackboard board(system, steps, digits);
     board.add_kinds();
     const bool has_centre = plane.scaling() != nullptr;
-    const std::string X = found.generators.empty() || !has_centre ? "" : text_of(found.generators.front(), "t", digits);
+    const std::string X =
+        found.generators.empty() || !has_centre ? "" : text_of(found.generators.front(), system.independent, digits);
     board.add_coordinates(X);
     const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
                                : plane.solved() ? "by quadrature along H = C"
