@@ -117,8 +117,8 @@ void reject_extras(const CLI::App& app, Verbs& all, const std::vector<std::strin
         if (verb->get_option_no_throw(option) != nullptr) others.push_back(verb->get_name());
       }
     }
-    const std::string hint = others.empty() ? suggestion(option, options)
-                                            : fmt::format(": it is an option of {}", fmt::join(others, ", "));
+    const std::string hint =
+        others.empty() ? suggestion(option, options) : fmt::format(": it is an option of {}", fmt::join(others, ", "));
     throw BadInput("unknown option {}{}", quotation(option), hint);
   }
   if (names.empty()) throw BadInput("unexpected argument {}", quotation(typed));
