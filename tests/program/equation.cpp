@@ -207,14 +207,15 @@ TEST_CASE("known equations have the kinds of a textbook, and no others", "[table
       {"y' = cos(x + y)", {"shift along a direction (1, -1)"}},
       {"x'' = -sin(x)", {"autonomous", "conservative", "Hamiltonian"}},
       {"x'' = -x - 0.2*x'", {"autonomous", "linear of the second order", "isobaric (x -> a*x, x' -> a*x')"}},
-      {"x' = y; y' = -sin(x)", {"conservative", "Hamiltonian", "separable", "Bernoulli (n = -1)"}},
-      {"x' = -y + x*(1 - x^2 - y^2); y' = x + y*(1 - x^2 - y^2)", {"rotation"}},
+      {"x' = y; y' = -sin(x)", {"conservative", "Hamiltonian", "orbits: separable", "orbits: Bernoulli (n = -1)"}},
+      {"x' = -y + x*(1 - x^2 - y^2); y' = x + y*(1 - x^2 - y^2)", {"orbits: rotation"}},
       {"x' = 2*x*y; y' = x^2 + y^3", {"gradient"}},
       {"y' = sin(x*y) + x", {}},
       {"y' = pi*y", {"autonomous", "separable", "linear", "integrating factor of x", "integrating factor of y"}},
       {"y' = sign(x)*y", {"separable", "linear", "integrating factor of x", "integrating factor of y"}},
       {"x' = -sign(x); y' = -y",
-       {"gradient", "separable", "linear", "integrating factor of x", "integrating factor of y"}},
+       {"gradient", "orbits: separable", "orbits: linear", "orbits: integrating factor of x",
+        "orbits: integrating factor of y"}},
   };
   for (const auto& [text, expected] : all) {
     INFO(text);

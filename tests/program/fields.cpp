@@ -194,7 +194,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
       {"terminal", {"terminal --law uniform --body disc", "terminal --mu 0.1 --drive 0.1"}},
       {"reduce", {"reduce --drive 0.1" + start, "reduce" + start}},
       {"reduce --system",
-       {"reduce" + system + "'u\\' = -u; v\\' = -2*v'", "reduce" + system + "'u\\' = v; v\\' = -sin(u)'",
+       {"reduce" + system + "'u\\' = -u; v\\' = -2*v'", "reduce --until 2" + system + "'u\\' = v; v\\' = -sin(u)'",
         "reduce" + system + "'u\\' = -u-v; v\\' = u-v'", "reduce" + system + "'u\\' = exp(u); v\\' = exp(v)'",
         "reduce" + system + "'u\\' = v; v\\' = -sign(u) - 0.5*sign(v)'"}},
       {"fit",

@@ -41,7 +41,11 @@ struct Equation {
 /// Returns the equation of a system; empty if a formula is piecewise.
 std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vector2d& start);
 
-/// Returns the words of textbooks for all kinds of equation that hold, such as "homogeneous", "Bernoulli (n = 3)".
+/// Words before the kinds of dy/dx = y'/x', the equation of the orbits of a system.
+constexpr std::string_view of_orbits = "orbits: ";
+
+/// Returns the words of textbooks for all kinds of equation that hold, such as "homogeneous", "Bernoulli (n = 3)". For
+/// a system the last words are those for the equation of its orbits.
 std::vector<std::string> kinds_of(const Equation& equation);
 
 /// Returns the map x -> a^k x, y -> a^m y as text.

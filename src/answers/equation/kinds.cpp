@@ -193,16 +193,23 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     add("gradient", [&] { return vanishes(f[0].derivative(1) - f[1].derivative(0)); });
   }
   if (second) add("Hamiltonian", [&] { return vanishes(f[1].derivative(1)); });
+  // The equation of the orbits is not the typed one, except for y' = F(x, y). For a system its kinds are named as those
+  // of the orbits; for x'' = F only its symmetries are listed.
+  const std::string of = type == Type::system ? std::string(of_orbits) : "";
+  const auto name_kind = [&](const std::string& name) { kinds.push_back(of + name); };
+  const auto add_kind = [&](const std::string& name, const std::function<bool()>& condition) {
+    return add(of + name, condition);
+  };
   if (R.is_zero()) {
-    if (!second) kinds.insert(kinds.end(), {"separable", "linear"});
+    for (const char* const name : {"separable", "linear"}) {
+      if (!second) name_kind(name);
+    }
     return kinds;
   }
-  // The equation of the orbits of x'' = F is not the typed one. Its kinds are listed for equations of first order and
-  // for systems.
-  add("rotation", [&] { return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R); });
+  add_kind("rotation", [&] { return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R); });
   const E by_x = R.derivative(0), by_y = R.derivative(1);
   if (first) add("autonomous", [&] { return equation.is_free_of(R, 0); });
-  if (!second) add("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
+  if (!second) add_kind("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
   // A polynomial of a degree below n is determined by n values. Derivatives alone do not see kinks, as of |y|.
   const auto is_polynomial = [&](const std::vector<int>& at) {
     std::vector<E> terms{R};
@@ -213,7 +220,9 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     }
     return vanishes(E::sum(terms));
   };
-  const bool linear = second || add("linear", [&] { return vanishes(by_y.derivative(1)) && is_polynomial({1, -2}); });
+  const bool linear = second || add_kind("linear", [&] {
+                        return vanishes(by_y.derivative(1)) && is_polynomial({1, -2});
+                      });
   if (!linear) {
     std::optional<Number> n;
     holds([&] {
@@ -225,11 +234,10 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       }
       return true;
     });
-    if (n && !(*n == Number(1)) && !(*n == Number(0)))
-      kinds.push_back(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
-    add("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
+    if (n && !(*n == Number(1)) && !(*n == Number(0))) name_kind(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
+    add_kind("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
   }
-  const bool homogeneous = !second && add("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
+  const bool homogeneous = !second && add_kind("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
   if (!homogeneous) {
     std::optional<Number> m;
     holds([&] {
@@ -238,7 +246,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       return true;
     });
     if (m) {
-      kinds.push_back(fmt::format("isobaric ({})", scaling_text(names[0], 1, names[1], *m)));
+      name_kind(fmt::format("isobaric ({})", scaling_text(names[0], 1, names[1], *m)));
     }
   }
   std::optional<Number> c;
@@ -247,7 +255,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     return true;
   });
   if (c && !(*c == Number(0))) {
-    kinds.push_back(fmt::format("shift along a direction (1, {})", E(*c).text({}, 6)));
+    name_kind(fmt::format("shift along a direction (1, {})", E(*c).text({}, 6)));
   }
   if (second) return kinds;
   holds([&] {
@@ -259,8 +267,8 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       return true;
     }
     const E of_x = curl / N, of_y = curl / M;
-    if (equation.is_free_of(of_x, 1)) kinds.push_back("integrating factor of " + names[0]);
-    if (equation.is_free_of(of_y, 0)) kinds.push_back("integrating factor of " + names[1]);
+    if (equation.is_free_of(of_x, 1)) name_kind("integrating factor of " + names[0]);
+    if (equation.is_free_of(of_y, 0)) name_kind("integrating factor of " + names[1]);
     return true;
   });
   return kinds;

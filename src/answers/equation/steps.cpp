@@ -76,15 +76,18 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
     };
     steps.where = side(0) + ", " + side(1);
   }
-  const bool separable = std::ranges::count(steps.kinds, "separable") > 0;
-  if (steps.coordinates && !separable && steps.coordinates->changes_q) {
-    steps.kinds.push_back(fmt::format("separable after {} = {}", steps.names[2], steps.text(steps.coordinates->q)));
-  }
-  if (steps.integral && !steps.integral->after.empty()) steps.kinds.push_back(steps.integral->after);
-  const auto is_polynomial = [](const Expression& e) { return coefficients(e, 0) && coefficients(e, 1); };
   const bool is_system = system.equations == FormulaField::Equations::system;
+  const std::string of = is_system ? std::string(of_orbits) : "";
+  const bool separable = std::ranges::count(steps.kinds, of + "separable") > 0;
+  if (steps.coordinates && !separable && steps.coordinates->changes_q) {
+    steps.kinds.push_back(
+        fmt::format("{}separable after {} = {}", of, steps.names[2], steps.text(steps.coordinates->q)));
+  }
+  if (steps.integral && !steps.integral->after.empty()) steps.kinds.push_back(of + steps.integral->after);
+  const auto is_polynomial = [](const Expression& e) { return coefficients(e, 0) && coefficients(e, 1); };
   if (is_system && steps.factor && !steps.factor->is_constant() && is_polynomial(*steps.factor)) {
-    steps.kinds.emplace_back("Darboux");
+    const auto is_of_orbits = [](const std::string& kind) { return kind.starts_with(of_orbits); };
+    steps.kinds.insert(std::ranges::find_if(steps.kinds, is_of_orbits), "Darboux");
   }
   if (start && steps.integral && system.equations == FormulaField::Equations::first) {
     Equation of_start = *equation;

@@ -239,6 +239,19 @@ Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& as
   return answer;
 }
 
+void add_state_at(Answer& answer, const StartedSystem& system, double until) {
+  const Json row = orbit_system_answer(system, {Eigen::ArrayXd::Constant(1, until), until, 1}).rows.front();
+  answer.members["until"] = row;
+  answer.text = [=, before = answer.text, letters = system.formulas.variables,
+                 first = system.is_first_order()](const Digits& digits) {
+    const auto value = [&](const std::string& letter) {
+      return fmt::format("{}({}) = {}", letter, digits(until), digits(row.at(letter).get<double>()));
+    };
+    return fmt::format("{}{:<13}{}{}, by {}\n", before(digits), "value", first ? "" : value(letters[0]) + ", ",
+                       value(letters[1]), row.at("by").get<std::string>());
+  };
+}
+
 std::vector<FieldText> orbit_system_fields() {
   return {
       {"JSON `system`, `variables` [...]", "", "equations as typed, and the letters of their two coordinates"},

@@ -37,6 +37,9 @@ struct StartedSystem {
 ///                   no instants are given
 Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& instants);
 
+/// Adds the state at one instant to the text and to the member `until` of an answer. Throws as orbit_system_answer.
+void add_state_at(Answer& answer, const StartedSystem& system, double until);
+
 /// Returns the fields of the answer.
 std::vector<FieldText> orbit_system_fields();
 

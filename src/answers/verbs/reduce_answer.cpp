@@ -512,7 +512,12 @@ class Blackboard {
     const std::string_view order = type_ == Type::first    ? "first order"
                                    : type_ == Type::second ? "second order"
                                                            : "system";
-    add("equation", fmt::format("{}{}{}", order, steps_.kinds.empty() ? "" : ": ", fmt::join(steps_.kinds, "; ")));
+    // The kinds of the orbits stand last, and their prefix once.
+    std::vector<std::string> kinds = steps_.kinds;
+    const auto is_of_orbits = [](const std::string& kind) { return kind.starts_with(of_orbits); };
+    for (auto kind = std::ranges::find_if(kinds, is_of_orbits); kind != kinds.end() && ++kind != kinds.end();)
+      kind->erase(0, of_orbits.size());
+    add("equation", fmt::format("{}{}{}", order, kinds.empty() ? "" : ": ", fmt::join(kinds, "; ")));
   }
 
   /// @param X  the generator as text, for a symmetry without coordinates; empty if there is none
@@ -935,6 +940,8 @@ std::vector<FieldText> reduce_system_fields() {
          "type of the solution: scaling, or the form of the inverse integrating factor V, or null without a solution. "
          "factor: V as a formula, up to a constant factor, or in words"},
         {"JSON `variables` [x, y]", "", "letters of the equations; u and v stand for them in the other fields"},
+        {"JSON `until`", "",
+         "state at the instant of --until: the time and the letters, with integral and by as in orbit --system"},
         {"JSON `equation` [...]", "", "all kinds of equation that hold; 'contensou help reduce' explains them"},
         {"JSON `steps` {`q`, `p`, `separated`}", "",
          "coordinates q and p as formulas in the typed letters, and the separated equation, such as dq/dp = tan(q); "

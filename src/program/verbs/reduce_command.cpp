@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "answers/equation/equation.hpp"
+#include "answers/verbs/orbit_system_answer.hpp"
 #include "answers/verbs/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
 #include "options/figure_options.hpp"
@@ -24,9 +25,13 @@ class ReduceCommand final : public Verb {
     output_.add(app);
     app.option_defaults()->group("Another system");
     details_.add(app, "--details", "print also the numbers of the search: singular values and tried forms");
+    until_.add(app, "--until", "T",
+               "time at which the state is added, or x for y' = F(x, y); it may lie before the start", number);
     details_.needs(system_.argument(), "is for typed equations");
+    until_.needs(system_.argument(), "is for typed equations");
     app.footer([] {
-      std::string text = "Kinds of equations that the answer names:\n";
+      std::string text = help_paragraph(
+          "Kinds of equations that the answer names; behind \"orbits:\" those of dy/dx = y'/x' for a system:");
       for (const auto& [name, meaning] : equation_kinds()) text += help_entry(name, meaning);
       return text;
     });
@@ -47,8 +52,11 @@ class ReduceCommand final : public Verb {
     const TypedSystem typed = system_.read(law_.parameters());
     const reduction::SmoothField& field = typed.field;
     if (!output.picture) {
-      return output.write(
-          reduce_answer(typed.formulas, field, system_.text(), system_.read_start(typed, start_), details_));
+      const auto start = system_.read_start(typed, start_);
+      Answer answer = reduce_answer(typed.formulas, field, system_.text(), start, details_);
+      if (until_.given())
+        add_state_at(answer, {field, typed.formulas, system_.text(), system_.require_start(typed, start_)}, *until_);
+      return output.write(answer);
     }
     const Eigen::Vector2d start = system_.require_start(typed, start_);
     const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
@@ -68,6 +76,7 @@ class ReduceCommand final : public Verb {
 
   SystemOption system_;
   Flag details_;
+  ArgumentOf<double> until_;
   StartOptions start_;
   LawOption law_;
   PictureOptions output_{{{"a reduction", with_pictures(answer_formats("text"))}}};
