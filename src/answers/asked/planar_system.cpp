@@ -205,13 +205,16 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
                            letter == "t" ? "time t" : "independent letter " + letter);
     }
   }
-  return {equations, Formulas(shape, text, parameters), shape.variables, independent};
+  shape.read_derivative = derivative_at;
+  return {equations, Formulas::of_equations(shape, text, parameters), shape.variables, independent};
 }
 
 reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
                              const std::map<std::string, double>& parameters) {
   reduction::Basis basis;
   std::vector<Formulas> functions;
+  FormulaShape shape{{}, system.variables, "a basis is \"1; u; v; exp(u)\""};
+  shape.read_derivative = derivative_at;
   for (std::size_t begin = 0, end = 0; end < text.size(); begin = end + 1) {
     end = std::min(text.find(';', begin), text.size());
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
@@ -226,8 +229,7 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
       if (parameter != parameters.end()) known.insert(*parameter);
     }
     basis.names.push_back(text.substr(first, text.find_last_not_of(" \t\r\n", end - 1) + 1 - first));
-    functions.emplace_back(FormulaShape{{}, system.variables, "a basis is \"1; u; v; exp(u)\""}, basis.names.back(),
-                           known);
+    functions.emplace_back(shape, basis.names.back(), known);
   }
   if (functions.empty() || functions.size() > reduction::Basis::most) {
     throw BadInput("1 to {} functions are a basis, such as \"1; u; v; exp(u)\", not {}", reduction::Basis::most,

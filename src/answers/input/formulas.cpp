@@ -393,7 +393,7 @@ class Parser {
       const std::string typed = quotation(text_.substr(begin, std::max<std::size_t>(at_ - begin, 1)));
       reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
     }
-    const auto derivative = derivative_at(text_, begin);
+    const auto derivative = shape_.read_derivative ? shape_.read_derivative(text_, begin) : std::nullopt;
     at_ += derivative ? derivative->characters : 0;
     while (at_ < text_.size() && is_of_word(text_[at_])) ++at_;
     const std::string name = derivative ? derivative->name() : std::string(text_.substr(begin, at_ - begin));
@@ -992,13 +992,33 @@ std::vector<std::pair<std::size_t, std::size_t>> statements_of(std::string_view 
 struct Formulas::Compiled {
   std::array<std::vector<formula_parts::Step>, 2> formulas;
   formula_parts::Switches switches = {};
+
+  /// Returns the formulas of a text with their switching functions.
+  /// @param unused  parameters that no formula contains
+  static std::shared_ptr<const Compiled> finished(Compiled compiled, const std::string& text,
+                                                  const std::map<std::string, double>& unused) {
+    if (!unused.empty())
+      throw BadInput("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first));
+    const auto shared = std::make_shared<Compiled>(std::move(compiled));
+    for (const auto& formula : shared->formulas) shared->switches.add(formula);
+    return shared;
+  }
 };
 
-Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
+namespace formula_parts {
+
+/// A statement of a text: begin, place of the equals sign, end, and the text before the equals sign without blanks.
+struct Statement {
+  std::size_t begin, equals, end;
+  std::string left;
+};
+
+/// Returns the statements of a text except values of parameters, which are added to `parameters`.
+std::vector<Statement> statements(const FormulaShape& shape, const std::string& text,
+                                  std::map<std::string, double>& parameters) {
   const auto may_be_parameter = [&](const std::string& name) {
-    return !name.empty() && !formula_parts::is_digit(name[0]) && std::ranges::all_of(name, formula_parts::is_of_word) &&
-           name != "pi" && !formula_parts::function_of(name) && std::ranges::count(shape.variables, name) == 0 &&
-           !shape.refused.contains(name);
+    return !name.empty() && !is_digit(name[0]) && std::ranges::all_of(name, is_of_word) && name != "pi" &&
+           !function_of(name) && std::ranges::count(shape.variables, name) == 0 && !shape.refused.contains(name);
   };
   for (const auto& [name, value] : parameters) {
     if (may_be_parameter(name)) continue;
@@ -1006,82 +1026,88 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
                    quotation(name), fmt::join(shape.variables, ", "));
   }
   require_ascii(text);
-  const bool of_equations = !shape.derivatives.empty();
-  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
-  std::vector<std::array<std::size_t, 3>> equations;               // begin, equals sign and end of each equation
-  std::map<std::string, double> own;                               // if a parameter is set twice, the last value counts
-  auto statements = statements_of(text);
-  if (statements.empty()) statements.emplace_back(0, text.size());
-  for (const auto& [first, end] : statements) {
-    const std::size_t equals = formula_parts::equals_sign(text, first, end);
+  std::map<std::string, double> own;  // if a parameter is set twice, the last value counts
+  auto places = statements_of(text);
+  if (places.empty()) places.emplace_back(0, text.size());
+  std::vector<Statement> others;
+  for (const auto& [first, end] : places) {
+    const std::size_t equals = equals_sign(text, first, end);
     std::string left = text.substr(first, equals < end ? equals - first : 0);
     std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
-    const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
-    const bool bare = shape.left[0].empty() && equals == end && !found[0] && !of_equations;
     const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
-    if (which == shape.left.size() && may_be_parameter(left) && is_number(value)) {
+    if (std::ranges::count(shape.left, left) == 0 && may_be_parameter(left) && is_number(value)) {
       own[left] = parse_number(value);
-    } else if (of_equations) {
-      if (equals == end) reject_at(end, text, "an equals sign is missing", shape.sentence);
-      equations.push_back({first, equals, end});
-    } else if (!bare && (which == shape.left.size() || left.empty())) {
-      const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
-      reject_at(first, text, fmt::format("{} ={} is missing", shape.left[0], second), shape.sentence);
-    } else if (found[which]) {
-      reject_at(first, text, fmt::format("{} stands there twice", left), shape.sentence);
     } else {
-      found[which] = {{bare ? first : equals + 1, end}};
+      others.push_back({first, equals, end, std::move(left)});
     }
   }
   parameters.merge(own);
+  return others;
+}
+
+}  // namespace formula_parts
+
+Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
+  std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
+  for (const auto& [first, equals, end, left] : formula_parts::statements(shape, text, parameters)) {
+    const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
+    const bool bare = shape.left[0].empty() && equals == end && !found[0];
+    if (!bare && (which == shape.left.size() || left.empty())) {
+      const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
+      reject_at(first, text, fmt::format("{} ={} is missing", shape.left[0], second), shape.sentence);
+    }
+    if (found[which]) reject_at(first, text, fmt::format("{} stands there twice", left), shape.sentence);
+    found[which] = {{bare ? first : equals + 1, end}};
+  }
   std::map<std::string, double> unused = parameters;
   Compiled compiled;
-  const auto parsed = [&](std::size_t from, std::size_t to) {
-    return formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
-  };
-  for (std::size_t i = 0; i < 2 && !of_equations; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     if (shape.left[i].empty() && !found[i]) continue;
     if (!found[i]) reject_at(text.size(), text, fmt::format("{} = is missing", shape.left[i]), shape.sentence);
     const auto& [from, to] = *found[i];
-    compiled.formulas[i] = parsed(from, to);
+    compiled.formulas[i] = formula_parts::Parser(shape, parameters, unused, text, from, to).steps;
   }
-  for (const auto& [first, equals, end] : equations) {
-    using formula_parts::difference;
-    const auto left = linear_in_derivatives(parsed(first, equals));
-    const auto right = linear_in_derivatives(parsed(equals + 1, end));
-    const std::string names = fmt::format("{}", fmt::join(shape.derivatives, " and "));
-    if (!left || !right) reject_at(first, text, fmt::format("the equation is not linear in {}", names), shape.sentence);
+  compiled_ = Compiled::finished(std::move(compiled), text, unused);
+}
+
+Formulas Formulas::of_equations(const FormulaShape& shape, const std::string& text,
+                                std::map<std::string, double> parameters) {
+  using formula_parts::difference;
+  const auto equations = formula_parts::statements(shape, text, parameters);
+  std::map<std::string, double> unused = parameters;
+  Compiled compiled;
+  const auto linear = [&](std::size_t from, std::size_t to) {
+    return linear_in_derivatives(formula_parts::Parser(shape, parameters, unused, text, from, to).steps);
+  };
+  const std::string names = fmt::format("{}", fmt::join(shape.derivatives, " and "));
+  for (const auto& [first, equals, end, name] : equations) {
+    const auto reject = [&, place = first](const std::string& message) {
+      reject_at(place, text, message, shape.sentence);
+    };
+    if (equals == end) reject_at(end, text, "an equals sign is missing", shape.sentence);
+    const auto left = linear(first, equals), right = linear(equals + 1, end);
+    if (!left || !right) reject(fmt::format("the equation is not linear in {}", names));
     std::array<formula_parts::Factor, 2> by;
-    for (std::size_t i = 0; i < 2; ++i) by[i] = difference(left->by[i], right->by[i]);
+    for (std::size_t i = 0; i < 2; ++i) by.at(i) = difference(left->by.at(i), right->by.at(i));
     formula_parts::Factor rest = difference(right->rest, left->rest);
-    std::size_t which = by[0].steps.empty() ? 1 : 0;
     if (shape.differentials) {
       if (!rest.steps.empty() || by[0].steps.empty() || by[1].steps.empty())
-        reject_at(first, text, fmt::format("each term must contain one of {}", names), shape.sentence);
+        reject(fmt::format("each term must contain one of {}", names));
       rest = difference(right->by[0], left->by[0]);
       by[0] = std::exchange(by[1], {});
-      which = 0;
     }
-    if (!by[1 - which].steps.empty() || by[which].steps.empty()) {
-      reject_at(first, text,
-                fmt::format("{} in this equation; one is needed",
-                            by[which].steps.empty() ? "no derivative stands" : names + " both stand"),
-                shape.sentence);
-    }
-    if (!compiled.formulas[which].empty())
-      reject_at(first, text, fmt::format("a second equation of {}", shape.derivatives[which]), shape.sentence);
+    const std::size_t which = by[0].steps.empty() ? 1 : 0;
+    if (by.at(which).steps.empty()) reject("no derivative stands in this equation; one is needed");
+    if (!by.at(1 - which).steps.empty()) reject(names + " both stand in this equation; one is needed");
+    if (!compiled.formulas.at(which).empty()) reject("a second equation of " + shape.derivatives[which]);
     if (rest.steps.empty()) rest.steps = {{.kind = formula_parts::Kind::number, .number = 0}};
-    compiled.formulas[which] = divided(rest, by[which]).steps;
+    compiled.formulas.at(which) = divided(rest, by.at(which)).steps;
   }
   for (std::size_t i = 0; i < (shape.differentials ? 1 : shape.derivatives.size()); ++i) {
-    if (compiled.formulas[i].empty())
+    if (compiled.formulas.at(i).empty())
       reject_at(text.size(), text, fmt::format("the equation of {} is missing", shape.derivatives[i]), shape.sentence);
   }
-  if (!unused.empty()) {
-    throw BadInput("no formula of {} has the parameter {}", quotation(text), quotation(unused.begin()->first));
-  }
-  for (const auto& formula : compiled.formulas) compiled.switches.add(formula);
-  compiled_ = std::make_shared<Compiled>(std::move(compiled));
+  return Formulas(Compiled::finished(std::move(compiled), text, unused));
 }
 
 std::array<double, 2> Formulas::operator()(std::initializer_list<double> values) const {

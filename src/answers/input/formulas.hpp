@@ -21,6 +21,16 @@ namespace contensou::answers {
 template <std::size_t N>
 using Dual = std::array<double, N + 1>;
 
+/// A derivative as people write it: x', x'', dx/dt, d^2x/dt^2 or d2x/dt2.
+struct TypedDerivative {
+  std::string letter;      ///< x
+  std::size_t order;       ///< number of primes, >= 1
+  std::string by;          ///< t; empty for primes
+  std::size_t characters;  ///< length of the text
+
+  std::string name() const { return letter + std::string(order, '\''); }
+};
+
 /// The form that a pair of formulas, or a single formula, must have.
 struct FormulaShape {
   /// Names before the equals signs. For a single formula the second name is empty; without an equals sign both are.
@@ -33,16 +43,8 @@ struct FormulaShape {
   std::vector<std::string> derivatives = {};
   bool differentials = false;    ///< true: the derivatives are "dx" and "dy", in one equation; the formula is dy/dx
   std::string independent = {};  ///< for equations: x(t) is read as x, if this is "t"
-};
-
-/// A derivative as people write it: x', x'', dx/dt, d^2x/dt^2 or d2x/dt2.
-struct TypedDerivative {
-  std::string letter;      ///< x
-  std::size_t order;       ///< number of primes, >= 1
-  std::string by;          ///< t; empty for primes
-  std::size_t characters;  ///< length of the text
-
-  std::string name() const { return letter + std::string(order, '\''); }
+  /// Reads the derivative at a place: derivative_at for equations, null for formulas.
+  std::optional<TypedDerivative> (*read_derivative)(std::string_view text, std::size_t begin) = nullptr;
 };
 
 /// Returns the derivative that begins at a place of a text.
@@ -87,6 +89,10 @@ class Formulas {
   /// @throws BadInput  with the mistake and its character; for a parameter whose name has another meaning, or that
   ///                   no formula contains
   Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters);
+
+  /// Returns the formulas of equations, solved for the derivatives of the shape. Throws as the constructor.
+  static Formulas of_equations(const FormulaShape& shape, const std::string& text,
+                               std::map<std::string, double> parameters);
 
   /// @param values  values of the variables
   /// @return the values of the formulas; 0 for a missing formula
