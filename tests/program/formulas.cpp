@@ -458,7 +458,7 @@ TEST_CASE("functions and conditions have one meaning: rint, &&, ||, !, signs, as
 TEST_CASE("mistakes in a formula are named at their character", "[formulas]") {
   check_mistake("u**", "a number, a name or a bracket is missing before the end", 9);
   check_mistake("*u", "missing before '*'", 6);
-  check_mistake("", "missing before the end", 5);
+  check_mistake("", "missing before the end", 6);
   check_mistake("u 2", "an operator is missing before '2': a product is a*b", 8);
   check_mistake("1/2u", "this product behind a division has two meanings: type * or brackets", 9);
   check_mistake("u/v(u + 1)", "this product behind a division has two meanings: type * or brackets", 9);

@@ -141,10 +141,13 @@ std::string independent_of_first(const Scanned& found, const std::string& state,
 FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
   require_ascii(text);
   std::map<std::string, double> values = parameters;
-  for (const auto& [begin, end] : statements_of(text)) {
-    const std::size_t name_end = end_of_word(text, begin), equals = text.find_first_not_of(' ', name_end);
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = end_of_statement(text, begin);
+    const std::size_t name = std::min(text.find_first_not_of(" \t\r\n", begin), end);
+    if (name == end) continue;
+    const std::size_t name_end = end_of_word(text, name), equals = text.find_first_not_of(' ', name_end);
     if (equals < end && text[equals] == '=' && is_number(text.substr(equals + 1, end - equals - 1)))
-      values.emplace(text.substr(begin, name_end - begin), 0);
+      values.emplace(text.substr(name, name_end - name), 0);
   }
   const Scanned found = scanned(text, values);
   const bool differentials = found.derivatives.empty();
@@ -205,7 +208,7 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
                            letter == "t" ? "time t" : "independent letter " + letter);
     }
   }
-  shape.read_derivative = derivative_at;
+  shape.read_derivative = read_derivative;
   return {equations, Formulas::of_equations(shape, text, parameters), shape.variables, independent};
 }
 
@@ -214,7 +217,7 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
   reduction::Basis basis;
   std::vector<Formulas> functions;
   FormulaShape shape{{}, system.variables, "a basis is \"1; u; v; exp(u)\""};
-  shape.read_derivative = derivative_at;
+  shape.read_derivative = read_derivative;
   for (std::size_t begin = 0, end = 0; end < text.size(); begin = end + 1) {
     end = std::min(text.find(';', begin), text.size());
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);

@@ -393,10 +393,10 @@ class Parser {
       const std::string typed = quotation(text_.substr(begin, std::max<std::size_t>(at_ - begin, 1)));
       reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
     }
-    const auto derivative = shape_.read_derivative ? shape_.read_derivative(text_, begin) : std::nullopt;
-    at_ += derivative ? derivative->characters : 0;
-    while (at_ < text_.size() && is_of_word(text_[at_])) ++at_;
-    const std::string name = derivative ? derivative->name() : std::string(text_.substr(begin, at_ - begin));
+    std::string name;
+    if (shape_.read_derivative) at_ += shape_.read_derivative(text_, begin, name);
+    while (name.empty() && at_ < text_.size() && is_of_word(text_[at_])) ++at_;
+    if (name.empty()) name = text_.substr(begin, at_ - begin);
     const auto place_in = [&](const std::vector<std::string>& names) {
       return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     };
@@ -460,8 +460,11 @@ class Parser {
       for (const auto& [parameter, value] : parameters_) known.push_back(parameter);
       way_out = name.back() == '\'' ? "" : fmt::format(": give its value with --param {}=VALUE", name);
       const auto is_letter = [&](char c) { return std::ranges::count(shape_.variables, std::string(1, c)) > 0; };
-      if (name.size() > 1 && std::ranges::all_of(name, is_letter))
-        way_out = fmt::format(": a product is {}", fmt::join(name, "*"));
+      if (name.size() > 1 && std::ranges::all_of(name, is_letter)) {
+        way_out = ": a product is ";
+        for (const char letter : name) (way_out += letter) += '*';
+        way_out.pop_back();
+      }
     }
     reject(place, fmt::format("{} is no variable, parameter or function{}{}", quotation(name), suggestion(name, known),
                               way_out));
@@ -971,22 +974,23 @@ std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t 
   return TypedDerivative{letter.substr(1), order, by, at - begin};
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> statements_of(std::string_view text) {
-  std::vector<std::pair<std::size_t, std::size_t>> all;
-  std::size_t begin = 0;
+std::size_t read_derivative(std::string_view text, std::size_t begin, std::string& name) {
+  const auto derivative = derivative_at(text, begin);
+  if (!derivative) return 0;
+  name = derivative->name();
+  return derivative->characters;
+}
+
+std::size_t end_of_statement(std::string_view text, std::size_t begin) {
   int depth = 0;
-  for (std::size_t at = 0; at <= text.size(); ++at) {
-    const char sign = at < text.size() ? text[at] : ';';
-    depth += sign == '(' ? 1 : sign == ')' ? -1 : 0;
-    const std::size_t next = sign == ',' && depth == 0 ? text.find_first_of("=;,\n", at + 1) : text.npos;
-    const bool ends = sign == ';' || sign == '\n' || (next != text.npos && text[next] == '=');
-    if (!ends) continue;
-    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), at);
-    const std::size_t last = first < at ? text.find_last_not_of(" \t\r\n", at - 1) + 1 : at;
-    if (first < last) all.emplace_back(first, last);
-    begin = at + 1;
+  std::size_t at = begin;
+  for (; at < text.size() && text[at] != ';' && text[at] != '\n'; ++at) {
+    depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+    if (text[at] != ',' || depth != 0) continue;
+    const std::size_t next = text.find_first_of("=;,\n", at + 1);
+    if (next != text.npos && text[next] == '=') break;
   }
-  return all;
+  return at;
 }
 
 struct Formulas::Compiled {
@@ -1027,10 +1031,11 @@ std::vector<Statement> statements(const FormulaShape& shape, const std::string& 
   }
   require_ascii(text);
   std::map<std::string, double> own;  // if a parameter is set twice, the last value counts
-  auto places = statements_of(text);
-  if (places.empty()) places.emplace_back(0, text.size());
   std::vector<Statement> others;
-  for (const auto& [first, end] : places) {
+  for (std::size_t begin = 0, end = 0; begin <= text.size(); begin = end + 1) {
+    end = end_of_statement(text, begin);
+    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
+    if (first == end && !(begin == 0 && end == text.size())) continue;
     const std::size_t equals = equals_sign(text, first, end);
     std::string left = text.substr(first, equals < end ? equals - first : 0);
     std::erase_if(left, [](unsigned char c) { return std::isspace(c); });

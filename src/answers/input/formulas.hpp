@@ -43,16 +43,20 @@ struct FormulaShape {
   std::vector<std::string> derivatives = {};
   bool differentials = false;    ///< true: the derivatives are "dx" and "dy", in one equation; the formula is dy/dx
   std::string independent = {};  ///< for equations: x(t) is read as x, if this is "t"
-  /// Reads the derivative at a place: derivative_at for equations, null for formulas.
-  std::optional<TypedDerivative> (*read_derivative)(std::string_view text, std::size_t begin) = nullptr;
+  /// Reads derivatives: the function read_derivative for equations, null for formulas.
+  std::size_t (*read_derivative)(std::string_view text, std::size_t begin, std::string& name) = nullptr;
 };
 
 /// Returns the derivative that begins at a place of a text.
 std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t begin);
 
-/// Returns the statements of a text, which semicolons and line ends separate, as [begin, end) without blanks around
-/// them. Commas outside brackets separate statements, too, if an equals sign follows in the next one.
-std::vector<std::pair<std::size_t, std::size_t>> statements_of(std::string_view text);
+/// Reads the name of the derivative that begins at a place, such as x' for dx/dt. Returns the length of its text; 0 and
+/// an unchanged name if there is none.
+std::size_t read_derivative(std::string_view text, std::size_t begin, std::string& name);
+
+/// Returns the end of the statement that begins at a place of a text. Semicolons and line ends separate statements, and
+/// so do commas outside brackets, if an equals sign follows in the next statement.
+std::size_t end_of_statement(std::string_view text, std::size_t begin);
 
 /// Returns the end of the name, number or sign that begins at a place of a text.
 std::size_t end_of_word(std::string_view text, std::size_t begin);
