@@ -1011,15 +1011,11 @@ struct Formulas::Compiled {
 
 namespace formula_parts {
 
-/// A statement of a text: begin, place of the equals sign, end, and the text before the equals sign without blanks.
-struct Statement {
-  std::size_t begin, equals, end;
-  std::string left;
-};
-
-/// Returns the statements of a text except values of parameters, which are added to `parameters`.
-std::vector<Statement> statements(const FormulaShape& shape, const std::string& text,
-                                  std::map<std::string, double>& parameters) {
+/// Calls take(begin, place of the equals sign, end, text before the equals sign without blanks) for each statement of a
+/// text except values of parameters, which are added to `parameters`.
+template <class Take>
+void read_statements(const FormulaShape& shape, const std::string& text, std::map<std::string, double>& parameters,
+                     const Take& take) {
   const auto may_be_parameter = [&](const std::string& name) {
     return !name.empty() && !is_digit(name[0]) && std::ranges::all_of(name, is_of_word) && name != "pi" &&
            !function_of(name) && std::ranges::count(shape.variables, name) == 0 && !shape.refused.contains(name);
@@ -1031,7 +1027,6 @@ std::vector<Statement> statements(const FormulaShape& shape, const std::string& 
   }
   require_ascii(text);
   std::map<std::string, double> own;  // if a parameter is set twice, the last value counts
-  std::vector<Statement> others;
   for (std::size_t begin = 0, end = 0; begin <= text.size(); begin = end + 1) {
     end = end_of_statement(text, begin);
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
@@ -1043,18 +1038,17 @@ std::vector<Statement> statements(const FormulaShape& shape, const std::string& 
     if (std::ranges::count(shape.left, left) == 0 && may_be_parameter(left) && is_number(value)) {
       own[left] = parse_number(value);
     } else {
-      others.push_back({first, equals, end, std::move(left)});
+      take(first, equals, end, left);
     }
   }
   parameters.merge(own);
-  return others;
 }
 
 }  // namespace formula_parts
 
 Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
   std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
-  for (const auto& [first, equals, end, left] : formula_parts::statements(shape, text, parameters)) {
+  formula_parts::read_statements(shape, text, parameters, [&](auto first, auto equals, auto end, const auto& left) {
     const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
     const bool bare = shape.left[0].empty() && equals == end && !found[0];
     if (!bare && (which == shape.left.size() || left.empty())) {
@@ -1063,7 +1057,7 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
     }
     if (found[which]) reject_at(first, text, fmt::format("{} stands there twice", left), shape.sentence);
     found[which] = {{bare ? first : equals + 1, end}};
-  }
+  });
   std::map<std::string, double> unused = parameters;
   Compiled compiled;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -1078,14 +1072,17 @@ Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<
 Formulas Formulas::of_equations(const FormulaShape& shape, const std::string& text,
                                 std::map<std::string, double> parameters) {
   using formula_parts::difference;
-  const auto equations = formula_parts::statements(shape, text, parameters);
+  std::vector<std::array<std::size_t, 3>> equations;
+  formula_parts::read_statements(shape, text, parameters, [&](auto first, auto equals, auto end, const auto&) {
+    equations.push_back({first, equals, end});
+  });
   std::map<std::string, double> unused = parameters;
   Compiled compiled;
   const auto linear = [&](std::size_t from, std::size_t to) {
     return linear_in_derivatives(formula_parts::Parser(shape, parameters, unused, text, from, to).steps);
   };
   const std::string names = fmt::format("{}", fmt::join(shape.derivatives, " and "));
-  for (const auto& [first, equals, end, name] : equations) {
+  for (const auto& [first, equals, end] : equations) {
     const auto reject = [&, place = first](const std::string& message) {
       reject_at(place, text, message, shape.sentence);
     };
