@@ -208,8 +208,10 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
                            letter == "t" ? "time t" : "independent letter " + letter);
     }
   }
-  shape.read_derivative = read_derivative;
-  return {equations, Formulas::of_equations(shape, text, parameters), shape.variables, independent};
+  shape.read_name = read_name_of_equation;
+  const std::vector<std::string> variables = shape.variables;
+  shape.variables.insert(shape.variables.end(), shape.derivatives.begin(), shape.derivatives.end());
+  return {equations, Formulas::of_equations(shape, text, parameters), variables, independent};
 }
 
 reduction::Basis parse_basis(const std::string& text, const FormulaField& system,
@@ -217,7 +219,7 @@ reduction::Basis parse_basis(const std::string& text, const FormulaField& system
   reduction::Basis basis;
   std::vector<Formulas> functions;
   FormulaShape shape{{}, system.variables, "a basis is \"1; u; v; exp(u)\""};
-  shape.read_derivative = read_derivative;
+  shape.read_name = read_name_of_equation;
   for (std::size_t begin = 0, end = 0; end < text.size(); begin = end + 1) {
     end = std::min(text.find(';', begin), text.size());
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);

@@ -198,7 +198,7 @@ constexpr Operator operators[] = {
     {quotient, 4, Kind::divide},
 };
 constexpr int tightest = 5;  ///< above the level of every operator
-/// Variables from this one on are derivatives, which only the sides of an equation contain.
+/// Variables from this one on are derivatives, which the sides of an equation contain.
 constexpr std::size_t first_derivative = 2;
 constexpr int deepest = 250;
 constexpr std::size_t longest = 20000;
@@ -394,17 +394,13 @@ class Parser {
       reject(begin, fmt::format("{} is no number from 5e-324 to 1.8e308", typed));
     }
     std::string name;
-    if (shape_.read_derivative) at_ += shape_.read_derivative(text_, begin, name);
+    if (shape_.read_name) at_ += shape_.read_name(shape_, text_, begin, name);
     while (name.empty() && at_ < text_.size() && is_of_word(text_[at_])) ++at_;
     if (name.empty()) name = text_.substr(begin, at_ - begin);
-    const auto place_in = [&](const std::vector<std::string>& names) {
-      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-    };
-    const std::size_t state = place_in(shape_.variables), highest = place_in(shape_.derivatives);
-    if (state < shape_.variables.size() || highest < shape_.derivatives.size()) {
-      add({.kind = Kind::variable, .variable = state < shape_.variables.size() ? state : first_derivative + highest},
-          0);
-      skip_independent();
+    const auto variable =
+        static_cast<std::size_t>(std::ranges::find(shape_.variables, name) - shape_.variables.begin());
+    if (variable < shape_.variables.size()) {
+      add({.kind = Kind::variable, .variable = variable}, 0);
     } else if (name == "e" && !parameters_.contains(name) && next() == '^') {
       add({.kind = Kind::number, .number = std::numbers::e}, 0);
     } else if (const auto parameter = parameters_.find(name); parameter != parameters_.end()) {
@@ -417,13 +413,6 @@ class Parser {
     } else {
       reject_operand(name, begin);
     }
-  }
-
-  /// Skips "(t)" in x(t).
-  void skip_independent() {
-    const std::size_t before = at_;
-    if (shape_.independent.empty()) return;
-    if (!(takes("(") && takes(shape_.independent) && takes(")"))) at_ = before;
   }
 
   void call(const Function& function, std::size_t begin) {
@@ -974,11 +963,26 @@ std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t 
   return TypedDerivative{letter.substr(1), order, by, at - begin};
 }
 
-std::size_t read_derivative(std::string_view text, std::size_t begin, std::string& name) {
-  const auto derivative = derivative_at(text, begin);
-  if (!derivative) return 0;
-  name = derivative->name();
-  return derivative->characters;
+std::size_t read_name_of_equation(const FormulaShape& shape, std::string_view text, std::size_t begin,
+                                  std::string& name) {
+  using formula_parts::is_of_word;
+  std::size_t end = begin;
+  if (const auto derivative = derivative_at(text, begin)) {
+    name = derivative->name();
+    end += derivative->characters;
+  } else {
+    while (end < text.size() && is_of_word(text[end])) ++end;
+    name = text.substr(begin, end - begin);
+  }
+  if (std::ranges::count(shape.variables, name) == 0) return end - begin;
+  std::size_t at = end;  // behind "(t)", if this follows
+  for (const std::string_view sign :
+       {std::string_view("("), std::string_view(shape.independent), std::string_view(")")}) {
+    at = text.find_first_not_of(" \t", at);
+    if (at == text.npos || !text.substr(at).starts_with(sign)) return end - begin;
+    at += sign.size();
+  }
+  return at - begin;
 }
 
 std::size_t end_of_statement(std::string_view text, std::size_t begin) {

@@ -39,20 +39,22 @@ struct FormulaShape {
   std::string sentence;                ///< sentence for messages, such as: a law is "force = F; moment = M"
   std::map<std::string, std::string> refused = {};  ///< names that cannot be parameters, each with the reason
   /// For equations: their one or two derivatives, such as "x'" and "y'", instead of `left`. Each equation has one and
-  /// is linear in it.
+  /// is linear in it. The derivatives also stand in `variables`, behind the two variables.
   std::vector<std::string> derivatives = {};
   bool differentials = false;    ///< true: the derivatives are "dx" and "dy", in one equation; the formula is dy/dx
   std::string independent = {};  ///< for equations: x(t) is read as x, if this is "t"
-  /// Reads derivatives: the function read_derivative for equations, null for formulas.
-  std::size_t (*read_derivative)(std::string_view text, std::size_t begin, std::string& name) = nullptr;
+  /// Reads a name and returns the length of its text: the function read_name_of_equation, or null for formulas, which
+  /// contain no derivatives.
+  std::size_t (*read_name)(const FormulaShape& shape, std::string_view text, std::size_t begin,
+                           std::string& name) = nullptr;
 };
 
 /// Returns the derivative that begins at a place of a text.
 std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t begin);
 
-/// Reads the name of the derivative that begins at a place, such as x' for dx/dt. Returns the length of its text; 0 and
-/// an unchanged name if there is none.
-std::size_t read_derivative(std::string_view text, std::size_t begin, std::string& name);
+/// Reads the name that begins at a place, such as x' for dx/dt, and x for x(t). Returns the length of its text.
+std::size_t read_name_of_equation(const FormulaShape& shape, std::string_view text, std::size_t begin,
+                                  std::string& name);
 
 /// Returns the end of the statement that begins at a place of a text. Semicolons and line ends separate statements, and
 /// so do commas outside brackets, if an equals sign follows in the next statement.
