@@ -460,9 +460,8 @@ TEST_CASE("mistakes in a formula are named at their character", "[formulas]") {
   check_mistake("*u", "missing before '*'", 6);
   check_mistake("", "missing before the end", 6);
   check_mistake("u 2", "an operator is missing before '2': a product is a*b", 8);
-  check_mistake("1/2u", "this product behind a division has two meanings: type * or brackets", 9);
-  check_mistake("u/v(u + 1)", "this product behind a division has two meanings: type * or brackets", 9);
-  check_mistake("uv", "'uv' is no variable, parameter or function: a product is u*v", 6);
+  check_mistake("1/2u", "a product behind / has two meanings: type * or brackets", 9);
+  check_mistake("u/v(u + 1)", "a product behind / has two meanings: type * or brackets", 9);
   check_mistake("u % v", "'%' is no operator", 8);
   check_mistake("u = v", "'=' is no operator", 8);
   check_mistake(std::string("u\0v", 3), "'\\x00' is no operator", 7);
@@ -643,6 +642,7 @@ TEST_CASE("a refused equation names what it lacks, and its character", "[system]
   check("y dx - x dy = 1", "each term must contain one of dx and dy", 1);
   check("y dx = 0", "one more differential is needed", 3);
   check("y'", "an equals sign is missing", 3);
+  check("y' = xy + 1", "'xy' is no variable: a product is x*y", 6, false);
   check("", "no derivative stands there", 1);
   check("\\dot x = y", "no derivative stands there", 1);
   check("y' = a + b*y + x", "'a' is no variable, parameter or function: give its value with --param a=VALUE", 6, false);

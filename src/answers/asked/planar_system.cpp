@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -34,6 +35,18 @@ bool is_letter(std::string_view name) {
          std::ranges::all_of(name.substr(1), is_index);
 }
 
+/// Returns the text with a semicolon in place of each line end, and of each comma outside brackets that separates
+/// equations: an equals sign follows before the next comma or semicolon.
+std::string with_semicolons(std::string text) {
+  int depth = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+    const std::size_t next = text[at] == ',' && depth == 0 ? text.find_first_of("=;,\n", at + 1) : text.npos;
+    if (text[at] == '\n' || (next != text.npos && text[next] == '=')) text[at] = ';';
+  }
+  return text;
+}
+
 /// A name in a text and its place.
 struct Named {
   std::string name;
@@ -45,6 +58,7 @@ struct Scanned {
   std::vector<std::pair<TypedDerivative, std::size_t>> derivatives;  ///< with their places
   std::vector<Named> names;
   std::string independent;  ///< letter of dx/dt or x'(t); empty if there is none
+  bool has_e = false;       ///< true: e^ stands in the text, with Euler's number
 
   /// Returns the letters of derivatives, or of differentials dx, in the order of their appearance.
   std::vector<Named> letters(bool of_differentials) const {
@@ -98,7 +112,8 @@ Scanned scanned(const std::string& text, const std::map<std::string, double>& va
     std::string name = text.substr(at, end - at);
     const bool is_name = std::isalpha(static_cast<unsigned char>(name[0])) || name[0] == '_';
     const std::size_t next = std::min(text.find_first_not_of(' ', end), text.size());
-    const bool is_e = name == "e" && next < text.size() && text[next] == '^';
+    const bool is_e = name == "e" && next < text.size() && text[next] == '^' && !values.contains(name);
+    all.has_e |= is_e;
     if (is_name && !is_e && !has_meaning(name) && !values.contains(name)) all.names.push_back({std::move(name), at});
     at = end;
   }
@@ -138,11 +153,12 @@ std::string independent_of_first(const Scanned& found, const std::string& state,
 
 }  // namespace
 
-FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters) {
-  require_ascii(text);
-  std::map<std::string, double> values = parameters;
+FormulaField parse_planar_system(const std::string& typed, const std::map<std::string, double>& given) {
+  require_ascii(typed);
+  const std::string text = with_semicolons(typed);
+  std::map<std::string, double> parameters = given, values = given;
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
-    end = end_of_statement(text, begin);
+    end = std::min(text.find(';', begin), text.size());
     const std::size_t name = std::min(text.find_first_not_of(" \t\r\n", begin), end);
     if (name == end) continue;
     const std::size_t name_end = end_of_word(text, name), equals = text.find_first_not_of(' ', name_end);
@@ -208,6 +224,12 @@ FormulaField parse_planar_system(const std::string& text, const std::map<std::st
                            letter == "t" ? "time t" : "independent letter " + letter);
     }
   }
+  const auto is_variable = [&](char c) { return std::ranges::count(shape.variables, std::string_view(&c, 1)) > 0; };
+  for (const auto& [name, where] : found.names) {
+    if (name.size() > 1 && std::ranges::count(shape.variables, name) == 0 && std::ranges::all_of(name, is_variable))
+      reject_at(where, text, fmt::format("{} is no variable: a product is {}", quotation(name), fmt::join(name, "*")));
+  }
+  if (found.has_e) parameters["e"] = std::numbers::e;
   shape.read_name = read_name_of_equation;
   const std::vector<std::string> variables = shape.variables;
   shape.variables.insert(shape.variables.end(), shape.derivatives.begin(), shape.derivatives.end());

@@ -40,8 +40,9 @@ struct FormulaField {
 /// The independent letter is the one of dx/dt or x'(t). For an equation of first order it is otherwise the other letter
 /// without a value, and t for systems and equations of second order.
 ///
+/// @param given  values of parameters; e^ is read with Euler's number unless e has a value
 /// @throws BadInput  as Formulas; for other numbers of equations, higher orders, and right sides that contain the time
-FormulaField parse_planar_system(const std::string& text, const std::map<std::string, double>& parameters);
+FormulaField parse_planar_system(const std::string& typed, const std::map<std::string, double>& given);
 
 /// Returns a basis from formulas between semicolons, such as "1; u; v; exp(u)". The formulas may contain the
 /// variables of `system`, and `parameters`.

@@ -348,8 +348,9 @@ class Parser {
       if (found == std::end(operators)) {
         const char first = next();
         if (level > level_of_products || !(first == '(' || (is_of_word(first) && !is_digit(first)))) break;
-        if (divided) reject(at_, "this product behind a division has two meanings: type * or brackets");
-        found = std::ranges::find(operators, Kind::multiply, &Operator::kind);
+        if (divided) reject(at_, "a product behind / has two meanings: type * or brackets");
+        constexpr const Operator* product = std::ranges::find(operators, Kind::multiply, &Operator::kind);
+        found = product;
       }
       divided = found->kind == Kind::divide;
       expression(found->level + 1);
@@ -401,8 +402,6 @@ class Parser {
         static_cast<std::size_t>(std::ranges::find(shape_.variables, name) - shape_.variables.begin());
     if (variable < shape_.variables.size()) {
       add({.kind = Kind::variable, .variable = variable}, 0);
-    } else if (name == "e" && !parameters_.contains(name) && next() == '^') {
-      add({.kind = Kind::number, .number = std::numbers::e}, 0);
     } else if (const auto parameter = parameters_.find(name); parameter != parameters_.end()) {
       unused_.erase(name);
       add({.kind = Kind::number, .number = parameter->second}, 0);
@@ -448,12 +447,6 @@ class Parser {
       known.insert(known.begin(), shape_.variables.begin(), shape_.variables.end());
       for (const auto& [parameter, value] : parameters_) known.push_back(parameter);
       way_out = name.back() == '\'' ? "" : fmt::format(": give its value with --param {}=VALUE", name);
-      const auto is_letter = [&](char c) { return std::ranges::count(shape_.variables, std::string(1, c)) > 0; };
-      if (name.size() > 1 && std::ranges::all_of(name, is_letter)) {
-        way_out = ": a product is ";
-        for (const char letter : name) (way_out += letter) += '*';
-        way_out.pop_back();
-      }
     }
     reject(place, fmt::format("{} is no variable, parameter or function{}{}", quotation(name), suggestion(name, known),
                               way_out));
@@ -985,18 +978,6 @@ std::size_t read_name_of_equation(const FormulaShape& shape, std::string_view te
   return at - begin;
 }
 
-std::size_t end_of_statement(std::string_view text, std::size_t begin) {
-  int depth = 0;
-  std::size_t at = begin;
-  for (; at < text.size() && text[at] != ';' && text[at] != '\n'; ++at) {
-    depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
-    if (text[at] != ',' || depth != 0) continue;
-    const std::size_t next = text.find_first_of("=;,\n", at + 1);
-    if (next != text.npos && text[next] == '=') break;
-  }
-  return at;
-}
-
 struct Formulas::Compiled {
   std::array<std::vector<formula_parts::Step>, 2> formulas;
   formula_parts::Switches switches = {};
@@ -1015,8 +996,8 @@ struct Formulas::Compiled {
 
 namespace formula_parts {
 
-/// Calls take(begin, place of the equals sign, end, text before the equals sign without blanks) for each statement of a
-/// text except values of parameters, which are added to `parameters`.
+/// Calls take(begin, place of the equals sign, end, index of the text before the equals sign in `left`) for each
+/// statement of a text except values of parameters, which are added to `parameters`.
 template <class Take>
 void read_statements(const FormulaShape& shape, const std::string& text, std::map<std::string, double>& parameters,
                      const Take& take) {
@@ -1032,17 +1013,18 @@ void read_statements(const FormulaShape& shape, const std::string& text, std::ma
   require_ascii(text);
   std::map<std::string, double> own;  // if a parameter is set twice, the last value counts
   for (std::size_t begin = 0, end = 0; begin <= text.size(); begin = end + 1) {
-    end = end_of_statement(text, begin);
+    end = std::min(text.find(';', begin), text.size());
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n", begin), end);
     if (first == end && !(begin == 0 && end == text.size())) continue;
     const std::size_t equals = equals_sign(text, first, end);
     std::string left = text.substr(first, equals < end ? equals - first : 0);
     std::erase_if(left, [](unsigned char c) { return std::isspace(c); });
     const std::string value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
-    if (std::ranges::count(shape.left, left) == 0 && may_be_parameter(left) && is_number(value)) {
+    const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
+    if (which == shape.left.size() && may_be_parameter(left) && is_number(value)) {
       own[left] = parse_number(value);
     } else {
-      take(first, equals, end, left);
+      take(first, equals, end, left.empty() ? shape.left.size() : which);
     }
   }
   parameters.merge(own);
@@ -1052,14 +1034,14 @@ void read_statements(const FormulaShape& shape, const std::string& text, std::ma
 
 Formulas::Formulas(const FormulaShape& shape, const std::string& text, std::map<std::string, double> parameters) {
   std::array<std::optional<std::array<std::size_t, 2>>, 2> found;  // begin and end of each formula
-  formula_parts::read_statements(shape, text, parameters, [&](auto first, auto equals, auto end, const auto& left) {
-    const auto which = static_cast<std::size_t>(std::ranges::find(shape.left, left) - shape.left.begin());
+  formula_parts::read_statements(shape, text, parameters, [&](auto first, auto equals, auto end, std::size_t which) {
     const bool bare = shape.left[0].empty() && equals == end && !found[0];
-    if (!bare && (which == shape.left.size() || left.empty())) {
+    if (bare) which = 0;
+    if (which == shape.left.size()) {
       const std::string second = shape.left[1].empty() ? "" : fmt::format(" or {} =", shape.left[1]);
       reject_at(first, text, fmt::format("{} ={} is missing", shape.left[0], second), shape.sentence);
     }
-    if (found[which]) reject_at(first, text, fmt::format("{} stands there twice", left), shape.sentence);
+    if (found[which]) reject_at(first, text, fmt::format("{} stands there twice", shape.left[which]), shape.sentence);
     found[which] = {{bare ? first : equals + 1, end}};
   });
   std::map<std::string, double> unused = parameters;
@@ -1077,7 +1059,7 @@ Formulas Formulas::of_equations(const FormulaShape& shape, const std::string& te
                                 std::map<std::string, double> parameters) {
   using formula_parts::difference;
   std::vector<std::array<std::size_t, 3>> equations;
-  formula_parts::read_statements(shape, text, parameters, [&](auto first, auto equals, auto end, const auto&) {
+  formula_parts::read_statements(shape, text, parameters, [&](auto first, auto equals, auto end, std::size_t) {
     equations.push_back({first, equals, end});
   });
   std::map<std::string, double> unused = parameters;

@@ -56,10 +56,6 @@ std::optional<TypedDerivative> derivative_at(std::string_view text, std::size_t 
 std::size_t read_name_of_equation(const FormulaShape& shape, std::string_view text, std::size_t begin,
                                   std::string& name);
 
-/// Returns the end of the statement that begins at a place of a text. Semicolons and line ends separate statements, and
-/// so do commas outside brackets, if an equals sign follows in the next statement.
-std::size_t end_of_statement(std::string_view text, std::size_t begin);
-
 /// Returns the end of the name, number or sign that begins at a place of a text.
 std::size_t end_of_word(std::string_view text, std::size_t begin);
 
