@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 file(READ ${TEMPLATE} html)
-string(REGEX REPLACE "\n[ \n]+" "\n" html "${html}")
+string(REGEX REPLACE "\n +" "\n" html "${html}")
 foreach(part IN ITEMS STYLE BUNDLE)
   file(READ ${${part}} text)
   if(text MATCHES "</(script|style)")

@@ -482,7 +482,7 @@ TEST_CASE("mistakes in a formula are named at their character", "[formulas]") {
   check_mistake("u*_pi", "'_pi' is no variable, parameter or function (did you mean 'pi'?)", 8);
   check_mistake("_e", "'_e' is no variable", 6);
   check_mistake("sgn(u)", "(did you mean 'sign'?); functions are abs, sign, ", 6);
-  check_mistake("-u'", "'u'' is no variable, parameter or function", 7);
+  check_mistake("-u'", "''' is no operator", 8);
   check_mistake("u\u2212v", "the letter '\u2212' (U+2212) has no meaning here; type -", 7);
   check_mistake("\u221au", "(U+221A) has no meaning here; type sqrt(...)", 6);
   check_mistake("u*\U0001d4cd", "(U+1D4CD) has no meaning here; type letters", 8);
