@@ -460,8 +460,8 @@ TEST_CASE("mistakes in a formula are named at their character", "[formulas]") {
   check_mistake("*u", "missing before '*'", 6);
   check_mistake("", "missing before the end", 6);
   check_mistake("u 2", "an operator is missing before '2': a product is a*b", 8);
-  check_mistake("1/2u", "a product behind / has two meanings: type * or brackets", 9);
-  check_mistake("u/v(u + 1)", "a product behind / has two meanings: type * or brackets", 9);
+  check_mistake("1/2u", "a product behind / is ambiguous: type * or brackets", 9);
+  check_mistake("u/v(u + 1)", "a product behind / is ambiguous: type * or brackets", 9);
   check_mistake("u % v", "'%' is no operator", 8);
   check_mistake("u = v", "'=' is no operator", 8);
   check_mistake(std::string("u\0v", 3), "'\\x00' is no operator", 7);

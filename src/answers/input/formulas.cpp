@@ -348,7 +348,7 @@ class Parser {
       if (found == std::end(operators)) {
         const char first = next();
         if (level > level_of_products || !(first == '(' || (is_of_word(first) && !is_digit(first)))) break;
-        if (divided) reject(at_, "a product behind / has two meanings: type * or brackets");
+        if (divided) reject(at_, "a product behind / is ambiguous: type * or brackets");
         constexpr const Operator* product = std::ranges::find(operators, Kind::multiply, &Operator::kind);
         found = product;
       }
