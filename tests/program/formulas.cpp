@@ -642,6 +642,8 @@ TEST_CASE("a refused equation names what it lacks, and its character", "[system]
   check("y dx - x dy = 1", "each term must contain one of dx and dy", 1);
   check("y dx = 0", "one more differential is needed", 3);
   check("y'", "an equals sign is missing", 3);
+  check("sin' = 1", "sin has a meaning of its own, and therefore no derivative", 1, false);
+  check("x' = y; pi' = x", "pi has a meaning of its own, and therefore no derivative", 9, false);
   check("y' = xy + 1", "'xy' is no variable: a product is x*y", 6, false);
   check("", "no derivative stands there", 1);
   check("\\dot x = y", "no derivative stands there", 1);

@@ -86,8 +86,12 @@ Scanned scanned(const std::string& text, const std::map<std::string, double>& va
   for (std::size_t at = 0; at < text.size();) {
     const auto derivative = derivative_at(text, at);
     if (derivative && !values.contains("d" + derivative->letter)) {
-      if (values.contains(derivative->letter))
-        reject_at(at, text, fmt::format("{} has a value, and therefore no derivative", derivative->letter));
+      const bool has_value = values.contains(derivative->letter);
+      if (has_value || has_meaning(derivative->letter)) {
+        reject_at(at, text,
+                  fmt::format("{} has a {}, and therefore no derivative", derivative->letter,
+                              has_value ? "value" : "meaning of its own"));
+      }
       all.derivatives.emplace_back(*derivative, at);
       if (!derivative->by.empty()) set_independent(derivative->by, at);
       at += derivative->characters;

@@ -1156,7 +1156,8 @@ std::optional<std::array<Expression, 2>> Formulas::expressions() const {
             break;
           case Kind::two:
             if (step.function == &formula_parts::power) {
-              stack.push_back(power(of[0], of[1]));
+              const bool is_e = of[0].is(Expression::Kind::number) && of[0].number().value() == std::numbers::e;
+              stack.push_back(is_e ? Expression::function("exp", of[1]) : power(of[0], of[1]));
             } else if (step.function->name == "hypot") {
               stack.push_back(power(of[0] * of[0] + of[1] * of[1], Number(1, 2)));
             } else if (step.function->name == "sum" || step.function->name == "avg") {
