@@ -56,7 +56,9 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
   };
   attempt([&] {
     if (factor.empty()) return;
-    const Formulas typed({{}, {"u", "v", "u'", "v'"}, "V"}, factor, {});
+    FormulaShape shape{{}, {"u", "v", "u'", "v'"}, "V"};
+    shape.read_name = read_name_of_equation;
+    const Formulas typed(shape, factor, {});
     const auto both = typed.expressions();
     if (!both) return;
     Expression D = 1;
