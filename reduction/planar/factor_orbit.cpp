@@ -381,7 +381,7 @@ class Follower {
     }
     double left = infinity;
     if (fast) {
-      // With s = s0/z, the integral of ds/g goes over 0 < z < 1.
+      // The substitution s = s0/z turns the integral of ds/g into one over 0 < z < 1.
       const auto inverse = [&](double z) {
         const auto there = at(s0 / z, w0);
         return there ? s0 / (z * z * there->f[along]) : std::numeric_limits<double>::quiet_NaN();
