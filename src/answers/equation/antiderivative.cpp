@@ -23,8 +23,6 @@ using Polynomial = std::vector<Number>;  ///< the coefficient of x^0 first; the 
 E root_of(const E& x) { return power(x, Number(1, 2)); }
 /// Returns ln |x| up to a constant.
 E ln(const E& x) { return E::function("ln", term_of(E::function("abs", x)).rest); }
-bool is_function(const E& e, std::string_view name) { return e.is(Kind::function) && e.name() == name; }
-bool is_whole(const E& e) { return e.is(Kind::number) && e.number().is_whole(); }
 
 void trim(Polynomial& p) {
   while (!p.empty() && p.back() == Number(0)) p.pop_back();

@@ -38,6 +38,9 @@ struct Equation {
   bool is_integral(const Expression& H, bool quadrant = false) const;
 };
 
+/// Returns the fraction n/m with m <= 60 for which m times the value is n up to the error; else the value.
+Number snapped(double value, double error = 1e-9);
+
 /// Returns the equation of a system; empty if a formula is piecewise.
 std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vector2d& start);
 

@@ -76,10 +76,14 @@ std::optional<Number> Equation::constant(const Expression& formula) const {
   for (const double each : values) {
     if (!(std::abs(each - value) <= error * std::max(1., std::abs(value)))) return std::nullopt;
   }
+  return snapped(value, 10 * error);
+}
+
+Number snapped(double value, double error) {
   constexpr long long largest = 60;
   for (long long below = 1; below <= largest; ++below) {
     const double above = std::rint(value * static_cast<double>(below));
-    if (std::abs(value * static_cast<double>(below) - above) <= error * 10) {
+    if (std::abs(value * static_cast<double>(below) - above) <= error && std::abs(above) < 1e9) {
       return Number(static_cast<long long>(above), below);
     }
   }

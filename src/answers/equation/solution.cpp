@@ -27,9 +27,17 @@ E ln(const E& e) { return E::function("ln", E::function("abs", e)); }
 E without_sizes(const E& e) {
   return e.replaced([](const E& part) -> Maybe {
     const auto [base, exponent] = base_and_exponent(part);
-    const bool whole = exponent.is(Kind::number) && exponent.number().is_whole();
-    if (!base.is(Kind::function) || base.name() != "abs" || !whole) return std::nullopt;
+    if (!is_function(base, "abs") || !is_whole(exponent)) return std::nullopt;
     return power(base.parts()[0], exponent);
+  });
+}
+
+/// Returns the formula with each |z| replaced by z or -z, as at a point. They are equal up to the next zero of z.
+E with_signs_at(const E& e, const Eigen::Vector2d& point) {
+  return e.replaced([&](const E& part) -> Maybe {
+    if (!is_function(part, "abs")) return std::nullopt;
+    const E& inner = part.parts()[0];
+    return inner({point[0], point[1]}) < 0 ? -inner : inner;
   });
 }
 
@@ -52,9 +60,9 @@ E joined(const E& e) {
 /// Returns the formula with the logarithms of products, powers and fractions as sums.
 E with_sums_of_logarithms(const E& e) {
   return e.replaced([](const E& part) -> Maybe {
-    if (!part.is(Kind::function) || part.name() != "ln") return std::nullopt;
+    if (!is_function(part, "ln")) return std::nullopt;
     const E& z = part.parts()[0];
-    const E inner = z.is(Kind::function) && z.name() == "abs" ? z.parts()[0] : z;
+    const E inner = is_function(z, "abs") ? z.parts()[0] : z;
     const auto [above, below] = fraction_of(inner);
     std::vector<E> terms;
     for (const auto& [side, sign] : {std::pair(above, 1), std::pair(below, -1)}) {
@@ -77,7 +85,7 @@ std::optional<std::array<E, 2>> separated(const Equation& equation) {
   for (const E& R : {equation.slope, tidied(equation.slope)}) {
     std::vector<E> factors, of_x, of_y;
     for (const E& each : factors_of(R)) {
-      if (each.is(Kind::function) && each.name() == "exp") {
+      if (is_function(each, "exp")) {
         const E exponent = each.parts()[0].expanded();
         for (const E& term : terms_of(exponent)) factors.push_back(E::function("exp", term));
       } else {
@@ -120,11 +128,7 @@ std::optional<Multiplied> multiplied(const Equation& equation, const E& a, const
   const E sized = E::function("exp", -*A), m = without_sizes(sized);
   if (b.is_zero() || antiderivative(tidied(b * m), variable)) return {{m, tidied(b * m)}};
   // |x - 1|^(1/2) |x + 1|^(1/2) is the root of a quadratic, with the sign that it has next to the start
-  const E root = joined(sized.replaced([&](const E& part) -> Maybe {
-    if (!part.is(Kind::function) || part.name() != "abs") return std::nullopt;
-    const E& inner = part.parts()[0];
-    return inner({equation.start[0], equation.start[1]}) < 0 ? -inner : inner;
-  }));
+  const E root = joined(with_signs_at(sized, equation.start));
   return {{root, tidied(joined(b * root))}};
 }
 
@@ -180,9 +184,7 @@ Maybe of_powers(const Equation& equation, const Number& m) {
 Maybe of_function(const Equation& equation, std::string_view name) {
   bool occurs = false;
   const bool of_tan = name == "tan";
-  const auto is_at = [](const E& part, std::string_view of) {
-    return part.is(Kind::function) && part.name() == of && part.parts()[0] == y;
-  };
+  const auto is_at = [](const E& part, std::string_view of) { return is_function(part, of) && part.parts()[0] == y; };
   const E marked = equation.slope.replaced([&](const E& part) -> Maybe {
     occurs |= is_at(part, name) || (of_tan && (is_at(part, "sin") || is_at(part, "cos")));
     if (is_at(part, "sin") && of_tan) return E::function("tan", y) * E::function("cos", y);
@@ -194,7 +196,7 @@ Maybe of_function(const Equation& equation, std::string_view name) {
   T = T.replaced([&](const E& part) -> Maybe {
     const auto [base, exponent] = base_and_exponent(part);
     if (is_at(part, name)) return y;
-    if (of_tan && is_at(base, "cos") && (exponent / 2).is(Kind::number) && (exponent / 2).number().is_whole()) {
+    if (of_tan && is_at(base, "cos") && is_whole(exponent / 2)) {
       return power(1 + y * y, -exponent / 2);
     }
     if (part == y && !of_tan) return name == "exp" ? E::function("ln", y) : E::function("exp", y);
@@ -274,9 +276,7 @@ Maybe particular(const Equation& equation, const std::array<E, 3>& of) {
       const double r = (-one + sign * std::sqrt(D)) / (2 * two), next[]{at[1], 0};
       if (std::abs((a + (b * g - g.derivative(0)) * E(Number(r)) + c * g * g * E(Number(r * r)))(next)) > 1e-9)
         continue;
-      const Number factor = std::abs(r * 60 - std::rint(r * 60)) < 1e-8
-                                ? Number(static_cast<long long>(std::rint(r * 60)), 60)
-                                : Number(r);
+      const Number factor = snapped(r);
       if (is_solution(factor * g)) return factor * g;
     }
   }
@@ -342,19 +342,6 @@ bool agrees(const Equation& equation, const Coordinates& c) {
            const double size = std::abs(of_q(here)) + std::abs(of_p(here));
            return std::abs(difference(here)) <= 1e-9 * (1 + size);
          });
-}
-
-/// Returns a number as a fraction with a small denominator, if it is close to one.
-Number snapped(double value) {
-  constexpr double least = 1e-9;
-  constexpr long long largest = 60;
-  for (long long below = 1; below <= largest; ++below) {
-    const double above = std::rint(value * static_cast<double>(below));
-    if (std::abs(value * static_cast<double>(below) - above) < least && std::abs(above) < 1e9) {
-      return Number(static_cast<long long>(above), below);
-    }
-  }
-  return Number(value);
 }
 
 /// Returns H as a sum of logarithms of the curves of V, arcs of tangents and a rational function whose denominator
@@ -683,11 +670,9 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
         if (with_y.size() != 2) return std::nullopt;
         const auto [c, first] = term_of(with_y[0]);
         const auto [d, second] = term_of(with_y[1]);
-        if (!(c == -d) || !first.is(Kind::function) || !second.is(Kind::function) || first.name() != "ln" ||
-            second.name() != "ln")
-          return std::nullopt;
+        if (!(c == -d) || !is_function(first, "ln") || !is_function(second, "ln")) return std::nullopt;
         const E a = first.parts()[0], b = second.parts()[0];
-        const auto inner = [](const E& e) { return e.is(Kind::function) && e.name() == "abs" ? e.parts()[0] : e; };
+        const auto inner = [](const E& e) { return is_function(e, "abs") ? e.parts()[0] : e; };
         const auto above = coefficients(inner(a), 1, 1), below = coefficients(inner(b), 1, 1);
         if (!above || !below || above->size() != 2 || below->size() != 2) return std::nullopt;
         const int sign = (inner(a) / inner(b))({x0, y0}) < 0 ? -1 : 1;
@@ -703,7 +688,7 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
       } else if (left.is(Kind::power)) {
         const auto [base, exponent] = base_and_exponent(left);
         if (!exponent.is(Kind::number)) return std::nullopt;
-        const bool even = exponent.number().is_whole() && exponent.number().above() % 2 == 0;
+        const bool even = is_whole(exponent) && exponent.number().above() % 2 == 0;
         const bool minus = base({x0, y0}) < 0;
         if (minus && !even && !(exponent == E(-1))) return std::nullopt;
         right = power(right, 1 / exponent);
@@ -737,12 +722,7 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
       }
     }
     if (!(left == y) || right.has(1)) return std::nullopt;
-    // |z| is z or -z up to the next zero of z
-    const E signed_right = right.replaced([&](const E& part) -> Maybe {
-      if (!part.is(Kind::function) || part.name() != "abs") return std::nullopt;
-      return part.parts()[0]({x0, y0}) < 0 ? -part.parts()[0] : part.parts()[0];
-    });
-    const E solution = tidied(signed_right);
+    const E solution = tidied(with_signs_at(right, equation.start));
     constexpr std::size_t longest = 80;
     if (solution.size() > longest) return std::nullopt;
     const E slope = solution.derivative(0);

@@ -56,8 +56,6 @@ std::optional<std::size_t> row_of(std::string_view name) {
   return static_cast<std::size_t>(found - rows);
 }
 
-bool is_function(const E& e, std::string_view name) { return e.is(E::Kind::function) && e.name() == name; }
-bool is_whole(const E& e) { return e.is(E::Kind::number) && e.number().is_whole(); }
 bool is_even(const E& e) { return is_whole(e) && e.number().above() % 2 == 0; }
 
 /// Returns true if the formula has no negative value.

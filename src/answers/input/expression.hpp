@@ -116,6 +116,14 @@ class Expression {
 
 Expression power(const Expression& base, const Expression& exponent);
 
+/// Returns true for a call of the function with this name.
+inline bool is_function(const Expression& e, std::string_view name) {
+  return e.is(Expression::Kind::function) && e.name() == name;
+}
+
+/// Returns true for a whole number.
+inline bool is_whole(const Expression& e) { return e.is(Expression::Kind::number) && e.number().is_whole(); }
+
 /// Splits a term into its number and the product of its other factors.
 struct Term {
   Number factor;
