@@ -141,7 +141,7 @@ Strip::Terms Strip::terms(double xi) const {
     for (const auto& [end, distance] : {std::pair(&*to_, z), std::pair(&*from_, y)}) {
       if (!(distance < end->width())) continue;
       const auto rates = end->series(distance);
-      return {std::abs(rates.angular) * (length_ / (z * y)), rates.radial, eps};
+      return {std::abs(rates.angular) * (length_ / (z * y)), rates.radial, eps, eps * std::abs(rates.radial)};
     }
     factor = length_ / (z * y);
     constexpr double located = 1e-9;  // largest error of the angle of an end of the strip
@@ -149,13 +149,13 @@ Strip::Terms Strip::terms(double xi) const {
   }
   const Vector2d n = direction(xi);
   const auto rates = (*field_)(n);
-  if (!rates) return {infinity, 0, 1};
+  if (!rates) return {infinity, 0, 1, 0};
   const double rate = -sense_ * rates->angular * factor;
   const double rounding = rates->size * factor * eps, crossed = -2 * tolerance_ * rates->size * factor;
   constexpr double nearly = 1e-9;  // below this share of its terms, T has lost most of its digits
   const bool missed = rate < crossed || (closed() && rate < nearly * rates->angular_terms * factor);
   if (inside && missed) throw MissedRay{n, rate < crossed};
-  return {std::max(rate, rounding), rates->radial, rounding / std::max(rate, rounding)};
+  return {std::max(rate, rounding), rates->radial, rounding / std::max(rate, rounding), eps * rates->radial_terms};
 }
 
 void Strip::solve(std::vector<double> edges, double first_time) {
@@ -174,12 +174,13 @@ void Strip::march(double left, double right, int depth) {
   const double half = (right - left) / 2;
   const double c = field_->time_degree();
   Samples rate, radial;
-  double rounding = 0;
+  double rounding = 0, of_radial = 0;
   for (int i = 0; i < LegendreSeries::order; ++i) {
     const Terms at = terms(left + half * (1 + LegendreSeries::points()[i]));
     rate[i] = at.rate;
     radial[i] = at.radial;
     rounding = std::max(rounding, at.rounding);
+    of_radial = std::max(of_radial, at.of_radial);
   }
   const Samples slope = -radial / rate;
   LegendreSeries ln_rho = LegendreSeries::through(half * slope).antiderivative();
@@ -199,11 +200,12 @@ void Strip::march(double left, double right, int depth) {
   const auto jumps_at = [&](int end) {
     constexpr double inside = 1 - 1e-12;
     const Terms there = terms(left + half * (1 + inside * end));
-    const auto differs = [&](double value, const Samples& samples) {
+    const auto differs = [&](double value, const Samples& samples, double error) {
       const double largest = samples.abs().maxCoeff();
-      return std::abs(LegendreSeries::at_end(samples, end) - value) > (1e-10 + 100 * rounding + placed) * largest;
+      return std::abs(LegendreSeries::at_end(samples, end) - value) >
+             (1e-10 + 100 * rounding + placed) * largest + 100 * error;
     };
-    return differs(there.rate, rate) || differs(there.radial, radial);
+    return differs(there.rate, rate, 0) || differs(there.radial, radial, of_radial);
   };
   if (left_out <= tolerance_ + 4 * rounding && (jumps_at(-1) || jumps_at(1))) left_out = infinity;
   if (left_out > tolerance_ + 4 * rounding && depth < max_depth && panels_.size() < max_panels) {

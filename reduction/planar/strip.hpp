@@ -77,9 +77,10 @@ class Strip {
 
  private:
   struct Terms {
-    double rate;      ///< s
-    double radial;    ///< R
-    double rounding;  ///< relative error of s
+    double rate;       ///< s
+    double radial;     ///< R
+    double rounding;   ///< relative error of s
+    double of_radial;  ///< error of R by rounding; its terms can cancel
   };
   struct Panel : SeriesPanel {
     LegendreSeries ln_rho, time;
