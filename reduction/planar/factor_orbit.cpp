@@ -125,7 +125,7 @@ class Follower {
   }
 
   void follow(int most_work) {
-    int next_anchor = 0, next_look = 500'000;
+    int next_anchor = 0, next_look = 100'000;
     for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);
       if (!here) return stop("the field has no derivatives");

@@ -123,7 +123,7 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
 
   double factor(const Vector2d& x) const override { return at(x / unit).first; }
   std::vector<FactorPiece> factor_pieces(const Vector2d& low, const Vector2d& high) const override;
-  static constexpr int most_evaluations = 3'000'000;  ///< about one second
+  static constexpr int most_evaluations = 1'000'000;  ///< about half a second
   PlanarOrbit orbit(const Vector2d& from) const override { return followed(from, most_evaluations); }
   PlanarOrbit part_of_orbit(const Vector2d& from) const override {
     constexpr int evaluations = 100'000;
