@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contensou/portraits/planar_portrait.hpp"
+#include "contensou/reduction/detail/root.hpp"
 #include "contensou/reduction/flow.hpp"
 
 namespace contensou::portraits {
@@ -14,6 +16,8 @@ using Eigen::Vector2d;
 using std::numbers::pi;
 
 namespace {
+
+constexpr double beyond = 12;  // distance of p from its value at the start to which orbits are followed
 
 [[noreturn]] void refuse_ray() {
   throw std::domain_error(
@@ -41,7 +45,7 @@ ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start)
   constexpr int upstream = 400, most = 4000;
   for (int i = upstream; i > 0; --i) from.orbit[0].push_back(at(xi + 0.05 * i));
   double there = xi;
-  for (int i = 0; i < most && from.orbit[0].back().y - from.orbit[0].back().x > ln_u + ln_mu - orbits_beyond; ++i) {
+  for (int i = 0; i < most && from.orbit[0].back().y - from.orbit[0].back().x > ln_u + ln_mu - beyond; ++i) {
     from.orbit[0].push_back(at(there));
     there -= 0.05 + 0.02 * std::max(0.0, std::abs(there) - 8);
   }
@@ -93,7 +97,7 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
     if (q < 0) from.start.x += 2 * pi;
     const Polyline turn = line(angles, integral);
     const double growth = std::abs(turn.back().y - turn.front().y);
-    const int turns = growth < 1e-9 ? 0 : static_cast<int>(std::min(40.0, std::ceil(orbits_beyond / growth)));
+    const int turns = growth < 1e-9 ? 0 : static_cast<int>(std::min(40.0, std::ceil(beyond / growth)));
     for (int i = -turns; i <= turns; ++i) {
       from.orbit.push_back(turn);
       for (Point& point : from.orbit.back()) point.y += i * growth;
@@ -117,6 +121,94 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
     const Vector2d x = plane.point(point.x, point.y);
     return Point{x[0], x[1]};
   };
+  return from;
+}
+
+ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vector2d& start,
+                             const reduction::Generator& symmetry) {
+  const bool turns = symmetry.shift.isZero(0), upright = !turns && symmetry.shift[0] == 0;
+  const Vector2d b = symmetry.shift;
+  const auto canonical = [=](const Vector2d& x) {
+    if (turns) return Point{x.norm(), std::atan2(x[1], x[0])};
+    const double p = upright ? x[1] / b[1] : x[0] / b[0];
+    return upright ? Point{x[0], p} : Point{x[1] - b[1] * p, p};
+  };
+  ReducedOrbits from{.start = canonical(start), .orbit = {}};
+  from.in_plane = [=](Point at) {
+    if (turns) return Point{at.x * std::cos(at.y), at.x * std::sin(at.y)};
+    return upright ? Point{at.x, b[1] * at.y} : Point{b[0] * at.y, at.x + b[1] * at.y};
+  };
+  const auto place = [&](double q) {
+    const auto [u, v] = from.in_plane({q, from.start.y});
+    return Vector2d(u, v);
+  };
+  // Orbits are followed in a window that is larger than the picture, so that their copies fill the picture.
+  constexpr double larger = 3;
+  PortraitRequest request{.highlight = reduction::State{start[0], start[1]}, .orbits = 0, .isochrones = 0};
+  const Window seen = planar_portrait(plane, "", request).window;
+  const Vector2d middle = (seen.low + seen.high) / 2;
+  request.window = Window{middle + larger * (seen.low - middle), middle + larger * (seen.high - middle)};
+  constexpr int copies_in_window = 8, copies_in_turn = 7;
+  from.step = turns ? 2 * pi / copies_in_turn
+                    : seen.sides()[upright ? 1 : 0] / copies_in_window / std::abs(upright ? b[1] : b[0]);
+  // On an invariant line the field is parallel to the symmetry.
+  const double half = larger * seen.sides().maxCoeff();
+  const double low = turns ? 1e-3 * half : from.start.x - half, high = from.start.x + half;
+  const auto across = [&](double q) {
+    const Vector2d x = place(q), along = symmetry.matrix * x + b;
+    try {
+      const Vector2d f = plane.field()(x);
+      return along[0] * f[1] - along[1] * f[0];
+    } catch (const std::exception&) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  };
+  constexpr int pieces = 997;
+  for (int i = 0; i < pieces; ++i) {
+    const double left = std::lerp(low, high, i / double{pieces}),
+                 right = std::lerp(low, high, (i + 1) / double{pieces});
+    const double before = across(left), after = across(right);
+    if (after == 0) from.rays.push_back(right);
+    if (before * after < 0) {
+      const double root = reduction::root_between(across, left, right);
+      if (std::abs(across(root)) < std::min(std::abs(before), std::abs(after))) from.rays.push_back(root);
+    }
+  }
+  std::vector<double> between{low};
+  between.insert(between.end(), from.rays.begin(), from.rays.end());
+  between.push_back(high);
+  const auto sector = [&](double q) { return std::ranges::upper_bound(from.rays, q) - from.rays.begin(); };
+  if (across(from.start.x) == 0) refuse_ray();
+  request.highlight.reset();
+  request.through = {{start[0], start[1]}};
+  for (std::size_t i = 0; i + 1 < between.size(); ++i) {
+    // The outer sectors are wide; their orbit passes near the start, too.
+    const double near = half / (2 * larger);
+    const Vector2d x =
+        place((std::max(between[i], from.start.x - near) + std::min(between[i + 1], from.start.x + near)) / 2);
+    const bool inside =
+        (x.array() > request.window->low.array()).all() && (x.array() < request.window->high.array()).all();
+    if (inside && std::isfinite(across(canonical(x).x)) && sector(canonical(x).x) != sector(from.start.x)) {
+      request.through.push_back({x[0], x[1]});
+    }
+  }
+  for (const PortraitOrbit& part : planar_portrait(plane, "", request).through) {
+    Polyline line;
+    for (Eigen::Index i = 0; i < part.rows(); ++i) {
+      Point at = canonical({part.u[i], part.v[i]});
+      const double last = line.empty() ? from.start.y : line.back().y;
+      if (turns) at.y += 2 * pi * std::round((last - at.y) / (2 * pi));
+      line.push_back(at);
+    }
+    if (turns) {
+      // The turns are counted from the point of the line that is as far from the origin as the start.
+      const auto away = [&](const Point& at) { return std::abs(at.x - from.start.x); };
+      const double here = std::ranges::min_element(line, {}, away)->y;
+      for (Point& at : line) at.y += 2 * pi * std::round((from.start.y - here) / (2 * pi));
+    }
+    const bool of_start = sector(line[line.size() / 2].x) == sector(from.start.x);
+    (of_start ? from.orbit : from.elsewhere).push_back(std::move(line));
+  }
   return from;
 }
 

@@ -13,22 +13,33 @@
 
 namespace contensou::portraits {
 
-using std::numbers::ln2, std::numbers::pi;
+using std::numbers::pi;
 
 namespace {
 
-constexpr double strip_below = 4.5, strip_above = 3.2;  // range of p below and above the start, in the strip
+constexpr double strip_below = 6.5, strip_above = 4.6;  // range of p below and above the start, in steps of copies
 constexpr double plane_widths = 2.2;                    // size of the window of the plane divided by the start
 
-Colour colour_of_copy(double shift) { return viridis(0.425 * (1 + shift / copy_shifts.back())); }
+Colour colour_of_copy(int copy) { return viridis(0.425 * (1 + copy / double{copies.back()})); }
 
-Text legend_of_copies() { return "its copies under " + math("X") + ", ln 2 apart"; }
+/// The words on a symmetry.
+struct Words {
+  std::string step;  ///< change of p from one copy to the next
+  const char *moves, *lines;
+};
+Words words_of(const reduction::Generator* symmetry, double step) {
+  if (!symmetry) return {"ln 2", "magnifies", "rays"};
+  if (symmetry->shift.isZero(0)) return {"2π/7", "turns", "invariant circles"};
+  return {fmt::format("{:.3g}", step), "shifts", "invariant lines"};
+}
+
+Text legend_of_copies(const Words& words) { return "its copies under " + math("X") + ", " + words.step + " apart"; }
 
 constexpr const char* legend_of_orbit = "orbit of the start";
 
 /// Draws copies divided by their starts, as beads on one line. Copies divided by a later or earlier state of the same
 /// orbit give other lines, because the symmetry does not map these states onto the start.
-Panel collapse(const ReducedOrbits& from) {
+Panel collapse(const ReducedOrbits& from, const Words& words) {
   Panel panel;
   panel.title = "copies divided by their starts: one line";
   panel.x = {math("u/u") + sub("0"), 0, plane_widths, false, {}};
@@ -45,14 +56,15 @@ Panel collapse(const ReducedOrbits& from) {
     return all;
   };
   Lines others{{}, {palette(false).isochrone, 1.4, true}, "other starts"};
-  for (const double beside : {copy_shifts.front(), copy_shifts.back()}) {
+  for (const double beside : {copies.front() * from.step, copies.back() * from.step}) {
     others.lines.push_back(line(
         *std::ranges::min_element(orbit, {}, [&](const Point& at) { return std::abs(at.y - from.start.y - beside); })));
   }
   panel.lines = {std::move(others), {{line(from.start)}, {palette(false).highlight, 1.2}, legend_of_orbit}};
   std::vector<Marks> beads;
-  for (const double shift : copy_shifts) {
-    beads.push_back({{}, colour_of_copy(shift), 0.7, Marks::Shape::dot, beads.empty() ? legend_of_copies() : Text()});
+  for (const int copy : copies) {
+    beads.push_back(
+        {{}, colour_of_copy(copy), 0.7, Marks::Shape::dot, beads.empty() ? legend_of_copies(words) : Text()});
   }
   constexpr double apart = 0.03;
   double way = 0;
@@ -64,7 +76,8 @@ Panel collapse(const ReducedOrbits& from) {
     way += std::hypot(here.x - last.x, here.y - last.y);
     if (way < apart) continue;
     way = 0;
-    beads[bead % beads.size()].points.push_back(divided(orbit[i], from.start, copy_shifts[bead % beads.size()]));
+    const std::size_t next = bead % beads.size();
+    beads[next].points.push_back(divided(orbit[i], from.start, copies[next] * from.step));
     ++bead;
   }
   panel.marks = std::move(beads);
@@ -73,7 +86,8 @@ Panel collapse(const ReducedOrbits& from) {
 }
 
 /// Fills plane and strip, whose axes are set, with rays, copies of the start's orbit, and the action of the symmetry.
-Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& title, const AskedSize& size) {
+Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Words& words, const Text& title,
+            const AskedSize& size) {
   const Palette colours = palette(false);
   const auto mapped = [&](Polyline line) {
     std::ranges::transform(line, line.begin(), from.in_plane);
@@ -97,40 +111,44 @@ Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& tit
   };
   const auto upright = [&](double x, double low, double high) {
     Polyline line;
-    constexpr int pieces = 60;
+    constexpr int pieces = 400;
     for (int i = 0; i <= pieces; ++i) line.push_back({x, from.start.y + low + (high - low) * i / pieces});
     return line;
   };
-  Lines rays{{}, {colours.invariant, 1.2, true}, "rays"};
-  for (double x : from.rays) rays.lines.push_back(upright(x, -orbits_beyond, orbits_beyond));
+  Lines rays{{}, {colours.invariant, 1.2, true}, words.lines};
+  constexpr double beyond = 17;
+  for (double x : from.rays) rays.lines.push_back(upright(x, -beyond * from.step, beyond * from.step));
   if (!rays.lines.empty()) {
     strip.lines.push_back(rays);
     std::ranges::transform(rays.lines, rays.lines.begin(), mapped);
     plane.lines.push_back(std::move(rays));
   }
   if (!from.elsewhere.empty()) add(from.elsewhere, 0, {colours.isochrone, 1.2}, "orbits of other sectors");
-  for (const double shift : copy_shifts) {
-    add(from.orbit, shift, {colour_of_copy(shift), 1.5}, shift == copy_shifts.front() ? legend_of_copies() : Text());
+  for (const int copy : copies) {
+    add(from.orbit, copy * from.step, {colour_of_copy(copy), 1.5},
+        copy == copies.front() ? legend_of_copies(words) : Text());
   }
   add(from.orbit, 0, {colours.highlight, 3.2}, legend_of_orbit);
-  // Draw the action of the generator as an arrow from the start to twice the start.
+  // Draw the action of the generator as an arrow from the start to its first copy.
   for (Panel* panel : {&plane, &strip}) {
-    Polyline way = upright(from.start.x, 0, ln2);
+    Polyline way = upright(from.start.x, 0, from.step);
     if (panel == &plane) way = mapped(way);
     const Point from_here = way[way.size() - 2], to = way.back();
     const Point middle = on_paper(*panel, between(way.front(), to, 0.5));
-    panel->labels.push_back({from_paper(*panel, {middle.x + 0.02, middle.y}),
-                             panel == &plane ? math("X") : math("X") + ": + ln 2", colours.invariant,
+    const Point arrow = on_paper(*panel, to), tail = on_paper(*panel, way.front());
+    const bool flat = std::abs(arrow.y - tail.y) < std::abs(arrow.x - tail.x) / 4;
+    panel->labels.push_back({from_paper(*panel, {middle.x + (flat ? 0 : 0.02), middle.y + (flat ? 0.04 : 0)}),
+                             panel == &plane ? math("X") : math("X") + ": + " + words.step, colours.invariant,
                              Label::Align::left});
     panel->arrows.push_back({{{to, {to.x - from_here.x, to.y - from_here.y}}}, colours.invariant, 1.2});
     panel->marks.push_back({{way.front()}, colours.invariant, 0.9, Marks::Shape::circle, "start"});
     panel->lines.push_back({{std::move(way)}, {colours.invariant, 2}, "shift by the symmetry " + math("X")});
   }
-  plane.title = "the plane: " + math("X") + " magnifies orbits";
+  plane.title = "the plane: " + math("X") + " " + words.moves + " orbits";
   strip.title = "the strip: " + math("X") + " shifts " + math("p") + " alone";
   Figure figure;
   figure.title = title;
-  figure.subtitle = Text(from.rays.empty() ? "all orbits" : "all orbits between two rays") +
+  figure.subtitle = Text(from.rays.empty() ? "all orbits" : fmt::format("all orbits between two {}", words.lines)) +
                     " are one curve, moved by the symmetry " + math("X") + "; each colour is one orbit";
   figure.size = fitted({180, 105}, 2, size);
   figure.panels = {std::move(plane), std::move(strip)};
@@ -139,34 +157,52 @@ Figure draw(const ReducedOrbits& from, Panel plane, Panel strip, const Text& tit
 
 }  // namespace
 
-Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const std::string& name,
-                        const AskedSize& size) {
-  const ReducedOrbits from = reduced_orbits(plane, start);
+Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start,
+                        const ReducedNames& names, const AskedSize& size, const reduction::Generator* symmetry) {
+  const ReducedOrbits from = symmetry ? reduced_orbits(plane, start, *symmetry) : reduced_orbits(plane, start);
   const auto [x, p] = from.start;
+  const Words words = words_of(symmetry, from.step);
   Panel in_plane, strip;
-  strip.y = {math("p"), p - strip_below, p + strip_above, false, {}};
+  strip.y = {math("p"), p - strip_below * from.step, p + strip_above * from.step, false, {}};
   if (const reduction::Flow* flow = plane.flow()) {
     const Eigen::Vector2d far = plane_widths * start;
     in_plane.x = {math("u"), std::min(far[0], 0.0), std::max(far[0], 0.0), false, {}};
     in_plane.y = {math("v"), std::min(far[1], 0.0), std::max(far[1], 0.0), false, {}};
     strip.x = {"ln " + math("k") + ",  " + math("k = v/(μ|u|)"), std::min(x, 0.0) - 4, std::max(x, 0.0) + 3, false, {}};
     strip.y.name = math("p") + " = ln " + math("v");
-    Figure figure = draw(from, in_plane, strip,
+    Figure figure = draw(from, in_plane, strip, words,
                          title_of("The reduction of (2.6)", fmt::format("{:.3g}", flow->system().mu()),
                                   shortened(flow->system().law().name())),
                          size);
-    figure.panels.push_back(collapse(from));
+    figure.panels.push_back(collapse(from, words));
     figure.size = fitted({270, 105}, 3, size);
     return figure;
   }
-  const Eigen::Vector2d& centre = plane.centre();
-  const double half = plane_widths * (start - centre).lpNorm<Eigen::Infinity>();
-  const double first = from.rays.empty() ? 0 : from.rays[0];
-  in_plane.x = {math("u"), centre[0] - half, centre[0] + half, false, {}};
-  in_plane.y = {math("v"), centre[1] - half, centre[1] + half, false, {}};
+  const Eigen::Vector2d centre = symmetry ? Eigen::Vector2d::Zero() : plane.centre();
+  double half = plane_widths * (start - centre).lpNorm<Eigen::Infinity>();
+  Eigen::Vector2d middle = centre;
+  if (symmetry) {
+    // The copies of the start lie in the window.
+    const bool turns = symmetry->shift.isZero(0);
+    if (turns) {
+      constexpr double farthest = 5, margin = 1.3;
+      for (const double radius : from.rays) {
+        if (radius < farthest * x) half = std::max(half, margin * radius);
+      }
+    } else {
+      middle = start;
+      half = 4.4 * from.step * symmetry->shift.lpNorm<Eigen::Infinity>();
+    }
+    strip.x = {math(names.q), turns ? 0 : x - half, turns ? std::numbers::sqrt2 * half : x + half, false, {}};
+  } else {
+    const double first = from.rays.empty() ? 0 : from.rays[0];
+    strip.x = {math("q") + ", the angle", first, first + 2 * pi, false, {}};
+  }
+  in_plane.x = {math(names.variables[0]), middle[0] - half, middle[0] + half, false, {}};
+  in_plane.y = {math(names.variables[1]), middle[1] - half, middle[1] + half, false, {}};
   in_plane.to_scale = true;
-  strip.x = {math("q") + ", the angle", first, first + 2 * pi, false, {}};
-  return draw(from, in_plane, strip, "The reduction of  " + shortened(name), size);
+  strip.y.name = math(names.p);
+  return draw(from, in_plane, strip, words, "The reduction of  " + shortened(names.system), size);
 }
 
 }  // namespace contensou::portraits

@@ -50,11 +50,11 @@ void check_shifts(const Figure& figure) {
 Figure figure_of(const Eigen::Matrix2d& matrix, const Vector2d& start) {
   const reduction::PlanarField field = [matrix](const Vector2d& x) { return Vector2d(matrix * x); };
   const reduction::Generator scaling{0, Eigen::Matrix2d::Identity(), Vector2d::Zero()};
-  return reduction_figure(reduction::PlanarReduction(field, scaling, start), start, "linear");
+  return reduction_figure(reduction::PlanarReduction(field, scaling, start), start, {"linear"});
 }
 
 Figure figure_of(const reduction::Flow& flow, const reduction::State& start) {
-  return reduction_figure(reduction::reduced(flow), {start.u, start.v}, "(2.6)");
+  return reduction_figure(reduction::reduced(flow), {start.u, start.v}, {"(2.6)"});
 }
 
 Eigen::Matrix2d matrix(double a, double b, double c, double d) { return (Eigen::Matrix2d() << a, b, c, d).finished(); }
@@ -175,7 +175,7 @@ TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
   };
   const reduction::Generator scaling{0.5, matrix(1, 0, 0, 0.5), Vector2d::Zero()};
   const Vector2d start(1, 2);
-  const Figure figure = reduction_figure(reduction::PlanarReduction(field, scaling, start), start, "weights");
+  const Figure figure = reduction_figure(reduction::PlanarReduction(field, scaling, start), start, {"weights"});
   check_shifts(figure);
   const auto in_plane = by_size(figure.panels[0]);
   for (std::size_t i = 0; i < 7; ++i) {
@@ -183,6 +183,45 @@ TEST_CASE("a scaling with two weights moves along curves", "[exact]") {
       CHECK(std::abs(x.x) + x.y * x.y / 2 == Approx(3 * std::exp2(static_cast<double>(i) - 3)).epsilon(1e-9));
     }
   }
+}
+
+TEST_CASE("shifts and turns move orbits along p", "[exact]") {
+  // y' = c + a^2 + (y - c x)^2 has the orbits x = atan(q/a)/a + C, q = y - c x, and the shift (1, c).
+  for (const auto& [c, a] : {std::pair(0.0, 1.0), std::pair(0.7, 0.6), std::pair(-2.0, 1.3)}) {
+    const auto field = [c = c, a = a](const Vector2d& x) {
+      const double q = x[1] - c * x[0];
+      return Vector2d(1, c + a * a + q * q);
+    };
+    const Vector2d start(0.4, 0.3 + 0.4 * c);
+    const reduction::Generator shift{0, matrix(0, 0, 0, 0), Vector2d(1, c)};
+    const ReducedOrbits from = reduced_orbits(reduction::by_steps(field), start, shift);
+    CHECK(from.rays.empty());
+    REQUIRE(from.orbit.size() == 1);
+    REQUIRE(from.orbit[0].size() > 50);
+    const double constant = 0.4 - std::atan(0.3 / a) / a;
+    for (const Point& at : from.orbit[0]) CHECK(at.y == Approx(constant + std::atan(at.x / a) / a).margin(1e-3));
+    const Point copy = from.in_plane({from.start.x, from.start.y + 2});
+    CHECK(copy.x == Approx(2.4));
+    CHECK(copy.y == Approx(start[1] + 2 * c));
+  }
+  // r' = r (1 - r^2), angle' = 1 has the orbits angle = ln(r/sqrt|1 - r^2|) + C, and the invariant circle r = 1.
+  const auto field = [](const Vector2d& x) {
+    const double free = 1 - x.squaredNorm();
+    return Vector2d(free * x[0] - x[1], free * x[1] + x[0]);
+  };
+  const reduction::Generator turn{0, matrix(0, -1, 1, 0), Vector2d::Zero()};
+  const ReducedOrbits from = reduced_orbits(reduction::by_steps(field), {0.5, 0}, turn);
+  REQUIRE(from.rays.size() == 1);
+  CHECK(from.rays[0] == Approx(1));
+  const auto level = [](double r) { return std::log(r / std::sqrt(std::abs(1 - r * r))); };
+  for (const Polyline& line : from.orbit) {
+    for (const Point& at : line) {
+      if (at.x < 0.1 || at.x > 0.99) continue;
+      CHECK(std::abs(std::remainder(at.y - level(at.x) + level(0.5), 2 * pi)) < 2e-3);
+    }
+  }
+  CHECK_FALSE(from.elsewhere.empty());
+  CHECK_THROWS_AS(reduced_orbits(reduction::by_steps(field), {0, 1}, turn), std::domain_error);
 }
 
 TEST_CASE("what the symmetry moves along itself has no strip", "[limit]") {

@@ -447,6 +447,13 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     if (c.dp_dq) c.dp_dq = tidied(*c.dp_dq);
     if (!agrees(equation, c)) return std::nullopt;
     c.symmetry = map + ";  X = " + field_text(X, names);
+    Eigen::Matrix2d turn;
+    turn << 0, -1, 1, 0;
+    if (X[0].is(Kind::number) && X[1].is(Kind::number)) {
+      c.motion = {0, Eigen::Matrix2d::Zero(), {X[0].number().value(), X[1].number().value()}};
+    } else if (X[0] == -y && X[1] == x) {
+      c.motion = {0, turn, Eigen::Vector2d::Zero()};
+    }
     if (!has_time || (place[0].is_zero() && !c.dt_dp)) return c;
     const E rate = f[0] * c.p.derivative(0) + f[1] * c.p.derivative(1);
     if (!c.dt_dp) c.dt_dp = 1 / tidied(rate.with(0, place[0]).with(1, place[1]));

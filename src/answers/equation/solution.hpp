@@ -17,6 +17,8 @@ struct Coordinates {
   std::optional<Expression> dq_dp, dp_dq;  ///< one of them, as a formula in q
   std::optional<Expression> dt_dp;         ///< for a system, as a formula in q and p (index 3)
   bool changes_q = true;                   ///< false for q = x, in which the equation is separated by p alone
+  /// The symmetry, if it is a shift or a turn of the plane about the origin.
+  std::optional<reduction::Generator> motion = {};
 };
 
 /// Returns the coordinates of the first symmetry that the equation has: a scaling, a shift or a turn of the plane, or

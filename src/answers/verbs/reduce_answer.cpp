@@ -180,7 +180,8 @@ Json strip_members(const PlanarReduction& plane, const Vector2d& start) {
     }
     strip.push_back(std::move(columns));
   }
-  for (const double shift : portraits::copy_shifts) {
+  for (const int multiple : portraits::copies) {
+    const double shift = multiple * from.step;
     const Vector2d copy = place({from.start.x, from.start.y + shift});
     if (!copy.allFinite()) continue;
     copies.push_back({{"factor", std::exp(shift)}, {"u0", copy[0]}, {"v0", copy[1]}, {"tau_stop", time_left(copy)}});

@@ -1,6 +1,11 @@
 #include <optional>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "answers/equation/equation.hpp"
+#include "answers/equation/solution.hpp"
+#include "answers/input/expression.hpp"
 #include "answers/verbs/orbit_system_answer.hpp"
 #include "answers/verbs/reduce_answer.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
@@ -44,7 +49,7 @@ class ReduceCommand final : public Verb {
     if (system_.given()) return run_system(output);
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     if (!output.picture) return output.write(reduce_answer(start));
-    return draw(reduction::reduced(start.system), {start.state.u, start.state.v}, output);
+    return draw(reduction::reduced(start.system), {start.state.u, start.state.v}, {"(2.6)"}, output, nullptr);
   }
 
  private:
@@ -61,17 +66,28 @@ class ReduceCommand final : public Verb {
     const Eigen::Vector2d start = system_.require_start(typed, start_);
     const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
     const reduction::PlanarReduction plane = reduction::reduce(field, start, found);
-    if (!plane.scaling()) {
+    portraits::ReducedNames names{system_.text(), typed.variables()};
+    if (plane.scaling()) return draw(plane, start, names, output, nullptr);
+    const auto equation = equation_of(typed.formulas, reduction::sampled_about(field, start));
+    const auto coordinates = equation ? coordinates_of(*equation, found) : std::nullopt;
+    if (!coordinates || !coordinates->motion) {
       throw BadInput(
-          "the picture of reduce shows how a scaling moves orbits, and {}: 'contensou portrait --system' draws its plane",
+          "the picture of reduce shows how a scaling, shift or turn moves orbits, and {}: "
+          "'contensou portrait --system' draws its plane",
           found.scaling ? "the scaling of this system does not solve it" : "this system has none");
     }
-    return draw(plane, start, output);
+    const auto shown = [&](const char* letter, const Expression& e) {
+      const std::string formula = e.text(equation->names);
+      return formula == letter ? formula : fmt::format("{} = {}", letter, formula);
+    };
+    names.q = shown("q", coordinates->q);
+    names.p = shown("p", coordinates->p);
+    return draw(plane, start, names, output, &*coordinates->motion);
   }
 
-  ExitStatus draw(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start, const Output& output) {
-    const std::string name = system_.given() ? system_.text() : "(2.6)";
-    return output_.write({portraits::reduction_figure(plane, start, name, output_.size())}, output);
+  ExitStatus draw(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start,
+                  const portraits::ReducedNames& names, const Output& output, const reduction::Generator* motion) {
+    return output_.write({portraits::reduction_figure(plane, start, names, output_.size(), motion)}, output);
   }
 
   SystemOption system_;
