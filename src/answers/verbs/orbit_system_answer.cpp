@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -26,6 +27,11 @@ struct ComputedState {
   Vector2d x;
   bool by_quadrature;
 };
+
+/// Returns the last time, up to a given one, at which a condition holds that holds at 0. Times differ by powers of ten.
+double last_time(const std::function<bool(double time)>& holds, double time) {
+  return std::expm1(reduction::last_where([&](double s) { return holds(std::expm1(s)); }, 0, std::log1p(time), 100));
+}
 
 /// The half of an orbit after the start, or before the start with reversed time.
 class HalfOrbit {
@@ -86,8 +92,7 @@ class HalfOrbit {
       const auto x = state(orbit, time - begin);
       const bool lasts = end() == PlanarEnd::infinity && std::isinf(orbit_.end_time());
       if (x || !lasts || begin != parts_.back().begin || parts_.size() == most) return x;
-      const double passed = reduction::last_where([&, part = orbit](double t) { return state(part, t).has_value(); }, 0,
-                                                  time - begin, 100);
+      const double passed = last_time([part = orbit](double t) { return state(part, t).has_value(); }, time - begin);
       if (!(passed > 0)) return std::nullopt;
       parts_.push_back({begin + passed, plane_.orbit(*state(orbit, passed))});
     }
@@ -123,7 +128,7 @@ std::string time_letter(const StartedSystem& system) {
 
 [[noreturn]] void refuse(const StartedSystem& system, const HalfOrbit& half, const std::string& option, double time,
                          double sense) {
-  const double last = reduction::last_where([&](double t) { return half.at(t).has_value(); }, 0, time, 100);
+  const double last = last_time([&](double t) { return half.at(t).has_value(); }, time);
   const Vector2d x = half.at(last)->x;
   const std::string letter = time_letter(system);
   const double there = (system.is_first_order() ? x[0] : sense * last) + 0.0;

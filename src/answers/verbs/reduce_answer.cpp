@@ -350,7 +350,8 @@ void add_steps(Answer& answer, const Steps& steps) {
                           {{"q", c ? Json(steps.text(c->q)) : Json()},
                            {"p", c ? Json(steps.text(c->p)) : Json()},
                            {"separated", c ? Json(steps.separated()) : Json()}}},
-                         {"integral_formula", steps.integral ? Json(steps.text(steps.integral->H)) : Json()}});
+                         {"integral_formula", steps.integral ? Json(steps.text(steps.integral->H)) : Json()},
+                         {"integral_where", steps.where.empty() ? Json() : Json(steps.where)}});
 }
 
 /// Adds to the answer a solution by the inverse integrating factor V, for a system without a scaling.
@@ -949,6 +950,8 @@ std::vector<FieldText> reduce_system_fields() {
          "null if the equation has no such symmetry"},
         {"`integral_formula`, `integral`", "",
          "constant of the motion H as a formula in the typed letters, and in u and v; null if no formula is found"},
+        {"`integral_where`", "",
+         "quadrant in which this formula was checked, such as x > 0, y > 0; null for the plane"},
         {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
          "forms of V in the order of the search, each with the smallest singular value of its equations and its gap. "
          "cleared: true if V was multiplied by the denominator of the equations"},
