@@ -379,6 +379,12 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
     portrait.highlight = {tracer.orbit(*request.highlight)};
   }
   for (const State& point : request.through) portrait.through.push_back(tracer.orbit_through(point));
+  for (const auto* orbits : {&portrait.highlight, &portrait.through}) {
+    for (const PortraitOrbit& orbit : *orbits) {
+      if (!request.uncoupled || orbit.u[0] == 0 || orbit.v[0] == 0) continue;
+      portrait.uncoupled.push_back(uncoupled_orbit(flow, {orbit.u[0], orbit.v[0]}));
+    }
+  }
   return portrait;
 }
 
@@ -464,6 +470,29 @@ PortraitOrbit orbit_through(const Flow& flow, double ln_k, double ln_v, double u
     return std::max({angle / 0.02, turn(a, b) / 0.25, shrinks / 0.1});
   });
   track.push_back({0, 0, -infinity, chart.log_terminal_ratio(), 0});
+  return columns(track);
+}
+
+PortraitOrbit uncoupled_orbit(const Flow& flow, const State& start) {
+  const double slides = flow.orbit({0, start.v}).stop_time(), spins = flow.system().pivoting_limit(start.u);
+  const double first = std::min(slides, spins), last = std::max(slides, spins);
+  Track track;
+  /// @param faster, slower  shares of the starting speeds that are left: of the speed that stops first, and of the
+  /// other
+  const auto add = [&](double faster, double slower, double left) {
+    const auto [of_v, of_u] = slides < spins ? std::pair(faster, slower) : std::pair(slower, faster);
+    const double ln_v = std::log(of_v * start.v), ln_u = std::log(of_u * std::abs(start.u));
+    track.push_back({of_u * start.u, of_v * start.v, ln_v, ln_v - ln_u - std::log(flow.system().mu()), left});
+  };
+  constexpr int pieces = 120;
+  constexpr double folds = 30;  // logarithmic axes show times this many powers of e before the stop
+  const auto share = [](int i) { return std::exp(-folds * i / pieces); };
+  for (int i = 0; i <= pieces; ++i) {
+    const double left = last - first + share(i) * first;
+    add(share(i), left / last, left);
+  }
+  for (int i = 0; i <= pieces && last > first; ++i) add(0, share(i) * (1 - first / last), share(i) * (last - first));
+  track.push_back({0, 0, -infinity, track.back().ln_k, 0});
   return columns(track);
 }
 

@@ -498,8 +498,8 @@ Vector2d middle_of(const PlanarReduction& plane) {
 
 /// Returns the requested window or the default window, and checks the request.
 Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
-  if (request.view || request.comparison || request.stepped || request.linear || request.drawn_only ||
-      request.time_unit != 1) {
+  if (request.view || request.comparison || request.uncoupled || request.stepped || request.linear ||
+      request.drawn_only || request.time_unit != 1) {
     throw std::domain_error("portrait: views, laws, routes, scales and units of time are only for (2.6)");
   }
   const Vector2d middle = middle_of(plane);

@@ -59,6 +59,7 @@ void add_curves(Json& json, const Portrait& portrait, const PhasePortrait* of) {
   const auto& highlight = portrait.highlight;
   if (!highlight.empty()) json["highlight"] = of ? json_of(highlight[0], of) : json_of(highlight, of);
   if (!portrait.through.empty()) json["through"] = json_of(portrait.through, of);
+  if (!portrait.uncoupled.empty()) json["uncoupled"] = json_of(portrait.uncoupled, of);
 }
 
 /// The curves of a portrait as rows of CSV.
@@ -188,6 +189,7 @@ std::string to_csv(const std::vector<PhasePortrait>& portraits, const PortraitSo
     table.add("orbit", portrait.orbits);
     table.add("highlight", portrait.highlight);
     table.add("through", portrait.through);
+    table.add("uncoupled", portrait.uncoupled);
     table.add("isochrone", portrait.isochrones);
     for (const PhasePortrait& other : portrait.comparisons) {
       table.of = &other;

@@ -55,6 +55,9 @@ Text time_left(const PortraitCaption& caption);
 /// Returns the stroke of requested orbits. The orbit of the start is heavier than orbits through requested points.
 inline Stroke asked_stroke(const Palette& palette, bool of_start) { return {palette.highlight, of_start ? 3.4 : 2.0}; }
 
+/// The stroke and the legend of the uncoupled model beside a requested motion.
+inline Stroke uncoupled_stroke(const Palette& palette) { return {palette.highlight, 1.8, true}; }
+inline constexpr const char* uncoupled_legend = "textbook: slip and spin apart";
 inline constexpr const char* through_legend = "through the points given";
 
 }  // namespace contensou::portraits

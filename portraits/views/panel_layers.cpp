@@ -117,6 +117,8 @@ void PanelLayers::add_highlights() {
     add(curves.through, false, through_legend);
     add_points();
   }
+  if (!curves.uncoupled.empty())
+    add_plain(lines_of(curves.uncoupled), uncoupled_stroke(look_.palette), uncoupled_legend);
   if (curves.highlight.empty()) return;
   const Text& legend = look_.caption.highlight;
   add(curves.highlight, true, legend);

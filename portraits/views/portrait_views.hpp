@@ -23,6 +23,7 @@ std::vector<MappedPanel> disc_view(const Drawing& drawing);
 std::vector<MappedPanel> time_view(const Drawing& drawing);
 std::vector<MappedPanel> regularised_view(const Drawing& drawing);
 std::vector<MappedPanel> pair_view(const Drawing& drawing);
+std::vector<MappedPanel> story_view(const Drawing& drawing);
 
 /// Calls `add` for each motion of a view of motions: motions from start_ratios for each law, and requested motions.
 void add_courses(const Drawing& drawing, const std::function<void(const PhasePortrait& of, const PortraitOrbit& orbit,
@@ -131,6 +132,12 @@ inline const std::array view_layouts{
         }},
     ViewLayout{View::pair, "pair", "planes (u, v) and (u, ln k) side by side", pair_view, 2, 300, 125, nullptr,
                [](const PhasePortrait& portrait) { return plane_shows(portrait); }},
+    ViewLayout{View::story, "story",
+               "plane (u, v) with one motion beside the uncoupled model, and the contact patch at three instants",
+               story_view, 1, 150, 105, nullptr,
+               [](const PhasePortrait&) {
+                 return Text("discs: velocity of the contact patch; its spin turns the friction away from the slide");
+               }},
 };
 
 }  // namespace contensou::portraits

@@ -80,6 +80,9 @@ void add_courses(const Drawing& drawing, const std::function<void(const PhasePor
           of_start ? drawing.caption.highlight : through_legend);
     }
   }
+  for (const PortraitOrbit& orbit : portrait.uncoupled) {
+    add(portrait, orbit, uncoupled_stroke(drawing.palette), uncoupled_legend);
+  }
 }
 
 std::vector<MappedPanel> time_view(const Drawing& drawing) {

@@ -443,8 +443,9 @@ std::string complaint(const std::string& body, double mu) {
 /// determines no state, and the view of two panels are left out.
 val views() {
   std::vector<portraits::View> shown = portraits::views();
-  std::erase_if(shown,
-                [](portraits::View view) { return portraits::shows_moments(view) || view == portraits::View::pair; });
+  std::erase_if(shown, [](portraits::View view) {
+    return portraits::shows_moments(view) || view == portraits::View::pair || view == portraits::View::story;
+  });
   return list(shown, [](portraits::View view) {
     return object("name", portraits::name(view), "layered", portraits::shows_window(view));
   });

@@ -79,6 +79,8 @@ auto at_most(int highest) {
   return [=](const std::string& typed) { return static_cast<int>(parse_integer(typed, 0, highest)); };
 }
 
+constexpr std::string_view uncoupled = "uncoupled";  // the value of --against for the textbook's model
+
 /// Returns the fields of the data of a portrait. The library portraits writes these data.
 std::vector<FieldText> portrait_fields() {
   return {
@@ -103,6 +105,9 @@ std::vector<FieldText> portrait_fields() {
       {"JSON `highlight`, `through` [...]", "",
        "orbit of the start; orbits through the points of --through. Their form is that of an entry of orbits"},
       {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "orbits and isochrones under the law of --against"},
+      {"JSON `uncoupled` [...]", "",
+       "with --against uncoupled: motions of the uncoupled model, in the form of an entry of orbits; the kind uncoupled "
+       "of CSV"},
   };
 }
 
@@ -193,7 +198,15 @@ class PortraitCommand final : public Verb {
                        .request = request_,
                        .style = style_});
       question.request.stepped = route == reduction::Route::regularised;
-      if (against_.given()) question.request.comparison = against_.read(std::string(si::Body{}.law));
+      if (against_.given() && against_.argument().text() == uncoupled) {
+        question.request.uncoupled = true;
+        if (start_.without_motion() && request_.through.empty()) {
+          throw BadInput(
+              "--against uncoupled is drawn beside a motion: give a start, such as --slip and --spin, or --through");
+        }
+      } else if (against_.given()) {
+        question.request.comparison = against_.read(std::string(si::Body{}.law));
+      }
     }
     const std::vector<portraits::PhasePortrait> portraits = portraits_of(questions);
     return write(output, portraits, questions.front().source(), [&] { return figure_of(questions, portraits); });
@@ -320,8 +333,10 @@ class PortraitCommand final : public Verb {
         "colour of orbits: time (default; shows the time left until the stop) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
     estimate_.add(app, "--estimate", "add the approximate solution for small mu as dashed lines, in --view time");
-    against_.add_second(app, "--against", "LAW",
-                        "second law of friction, whose orbits are drawn as dashed lines in the same figure");
+    against_.add_second(
+        app, "--against", "LAW",
+        "second law of friction, whose orbits are drawn as dashed lines in the same figure; or uncoupled, "
+        "the textbook's motion beside each requested motion");
     add("--style", "STYLE", "colours of the picture: print (default), or screen (light on dark, for a projector)",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }

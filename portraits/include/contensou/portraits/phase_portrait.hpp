@@ -45,7 +45,7 @@ struct Window {
 };
 
 /// The choice of axes. A new view is an entry here, a function in views/ and a row in views/portrait_views.hpp.
-enum class View { uv, patch, log, similarity, blowup, disc, time, regularised, pair };
+enum class View { uv, patch, log, similarity, blowup, disc, time, regularised, pair, story };
 
 std::string_view name(View view);
 
@@ -99,6 +99,8 @@ struct Portrait {
   std::vector<PortraitOrbit> highlight;  ///< visible parts of one start's orbit, one for (2.6); empty: not requested
   std::vector<PortraitOrbit> through;    ///< orbits through the requested points, from the border
   std::vector<reduction::State> points;  ///< the requested points
+  /// For (2.6), if requested: motions of the uncoupled model from the first states of highlight and through.
+  std::vector<PortraitOrbit> uncoupled = {};
 };
 
 /// The phase plane of one system (2.6) (reduction::ReducedSystem) as data, without a drawing.
@@ -141,7 +143,8 @@ struct PortraitRequest {
   std::vector<double> isochrone_times = {};
   // Only for (2.6):
   std::optional<reduction::Law> comparison = {};
-  bool stepped = false;  ///< true: orbits by steps of the regularised equations (2.7); false: by the flow
+  bool uncoupled = false;  ///< true: also the requested motions under the uncoupled model
+  bool stepped = false;    ///< true: orbits by steps of the regularised equations (2.7); false: by the flow
   /// True: the axis of v is always linear. The default is a SpeedScale if orbits are not stepped and a linear axis
   /// would show a comb of vertical lines. Such lines appear if orbits enter the origin along v = 0 and v falls faster
   /// than |u|^12; for the ball, mu < 0.48.
@@ -160,6 +163,12 @@ struct PortraitRequest {
 ///                            orbit) or lies outside the window, a number is negative, or no requested isochrone is
 ///                            visible
 PhasePortrait phase_portrait(const reduction::Flow& flow, const PortraitRequest& request);
+
+/// Returns the motion of the uncoupled model, as textbooks have it: the speed v falls at the constant rate of a body
+/// that only slides, and |u| at that of a body that only spins. The motion is a straight line in the plane, then a part
+/// of an axis. tau_left is the time until both have stopped. ln_k is infinite on the axes.
+/// @param start  u and v not 0
+PortraitOrbit uncoupled_orbit(const reduction::Flow& flow, const reduction::State& start);
 
 /// Computes portraits for a comparison. They have one window, one kind of v axis and isochrones at the same times.
 /// Without a requested window, the view patch has equal rim speeds in place of equal windows. If the stop times in the
