@@ -13,6 +13,7 @@
 #include "numerics/epsilon.hpp"
 #include "planar/differences.hpp"
 #include "planar/inverse_factor.hpp"
+#include "planar/region.hpp"
 #include "planar/reversal.hpp"
 
 namespace contensou::reduction {
@@ -375,7 +376,8 @@ class PlanarExamination {
       const double step = 1e-2 * std::min(at.x.norm() / speed, at.t);
       const auto rates = known([&] { return std::pair(derivative(step), derivative(step / 2)); });
       const auto here = jet_of(plane_.field(), at.x);
-      if (rates && here && speed > 0) {
+      // Along a switching curve the motion has Filippov's velocity.
+      if (rates && here && speed > 0 && !onward(plane_.field(), at.x, at.size)) {
         // The error of the state changes the quotient, and the field at the state.
         const double error = (rates->first - rates->second).norm() / speed +
                              quadrature_error * at.size / speed * (1 / step + here->slopes.norm());
@@ -413,6 +415,14 @@ class PlanarExamination {
       });
       constexpr double least = 1e-4;
       if (reversed && nearer && *nearer > least) compare(back, *reversed, at.x, at.t, start_, at);
+    }
+    if (orbit_.end() == PlanarEnd::rest && steps_.end() == PlanarEnd::rest && coarse_.end() == PlanarEnd::rest) {
+      constexpr double margin = 10;
+      const double time = steps_.end_time(), error = std::abs(coarse_.end_time() / time - 1);
+      WorstError rest;
+      rest.see(plane_.solved() ? std::abs(orbit_.end_time() / time - 1) : error,
+               plane_.solved() ? quadrature_error + margin * error : quotient_error);
+      add(plane_.solved() ? "time of rest: quadrature against steps" : "time of rest: steps with two tolerances", rest);
     }
     add("derivative of the orbit against the equations", equations);
     add("second half of the orbit from its middle", halves);

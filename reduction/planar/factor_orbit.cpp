@@ -115,9 +115,15 @@ class Follower {
         anchor_(x_),
         forward_(x_),
         passed_(x_) {
-    if (const auto way = value_of(field.value, x_)) enter_region(*way);
+    const auto way = value_of(field.value, x_);
+    if (const auto from_curve = onward(field, x_, size_)) {
+      arrive(*from_curve);
+    } else if (way) {
+      enter_region(Region(whole_, x_, *way));
+    }
+    if (!region_ && way) enter_region(Region(whole_, x_, *way));
     first_ = jet_of(field_, x_);
-    if (box_.centre == x_) {
+    if (box_.centre == x_ && !(region_ && region_->slides())) {
       factor_ = factor;
       on_curve_ = factor.vanishes;
       unfitted_ = false;
@@ -126,6 +132,7 @@ class Follower {
 
   void follow(int most_work) {
     int next_anchor = 0, next_look = 100'000;
+    if (ended_) return;
     for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);
       if (!here) return stop("the field has no derivatives");
@@ -141,16 +148,25 @@ class Follower {
       if (rests(*here) || escapes(*here)) return;
       if (at_border(*here, 4)) return end(PlanarEnd::border, motion_.followed);
       constexpr double edge = 0.7, near = 0.2, shortest = 256;
+      if (region_->slides()) box_ = {x_, box_about(scale_ = scale_.cwiseMax(x_.cwiseAbs())).radii};
       const bool enters =
-          unfitted_ || (i > 0 && (box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near));
+          !region_->slides() &&
+          (unfitted_ || (i > 0 && (box_.inside(x_).cwiseAbs().maxCoeff() > edge || rest_in(*here, box_) < near)));
       const bool holds = !enters || enter(*here);
       unfitted_ &= !holds;
       if (!holds || !step(*here)) {
+        // A switching function can have a kink where another one is 0. Parts of a slide end as near as rounding lets
+        // them.
+        if (const auto next = region_->slides() ? onward(whole_, x_, size_) : std::nullopt) {
+          arrive(*next, false);
+          if (ended_) return;
+          continue;
+        }
         if (at_border(*here, shortest)) return end(PlanarEnd::border, motion_.followed);
         if (leaves_for_ever()) return;
         return stop(holds ? "the field is not smooth" : "the form of V does not hold");
       }
-      if (motion_.end == PlanarEnd::border) return;
+      if (ended_) return;
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
@@ -159,13 +175,33 @@ class Follower {
   }
 
  private:
-  /// Goes on in the region into which a direction leads from this point.
-  void enter_region(const Vector2d& way) {
-    region_.emplace(whole_, x_, way);
+  /// Goes on in a region that begins at this point.
+  void enter_region(Region region) {
+    region_.emplace(std::move(region));
     field_ = region_->field();
-    fitted_ = cleared_ ? with_cleared_denominator(field_) : field_;
+    fitted_ = cleared_ && !region_->slides() ? with_cleared_denominator(field_) : field_;
     factor_.reset();
-    unfitted_ = true;
+    unfitted_ = !region_->slides();  // no V is needed along a curve
+    on_curve_ &= unfitted_;
+    if (region_->slides()) slid_ = motion_.followed;
+  }
+
+  /// Goes on at a switching curve, or ends there.
+  /// @param moved  true if the orbit has moved since the last curve
+  void arrive(const Onward& next, bool moved = true) {
+    x_ = next.x;
+    still_ = moved ? 0 : still_ + 1;
+    constexpr int most_at_a_point = 8;
+    if (still_ > most_at_a_point) {
+      ended_ = true;
+      return stop("rounding hides which motion leaves a switching curve");
+    }
+    if (next.region) return enter_region(*next.region);
+    ended_ = true;
+    motion_.rest = next.x;
+    if (next.rests) return end(PlanarEnd::rest, motion_.followed);
+    if (next.ambiguous) return stop(fmt::format("{};", next.reason));
+    end(PlanarEnd::border, motion_.followed);
   }
 
   void end(PlanarEnd kind, double time) {
@@ -501,10 +537,7 @@ class Follower {
       if (const auto part = last > -1 ? solve(along, sense * length * (1 + last) / 2, here) : std::nullopt) {
         append(*part);
       }
-      const auto way = value_of(field_.value, x_);
-      const Region from = *region_;
-      if (way) enter_region(*way);
-      if (!way || !from.crosses_to(*region_, x_)) end(PlanarEnd::border, motion_.followed);
+      arrive(region_->leave(x_, size_), last > -1);
       return true;
     }
     return false;
@@ -637,6 +670,7 @@ class Follower {
   /// rounding with a form of few terms, so that H is constant; or the orbit lies on a curve V = 0, which is closed; or
   /// a reversor maps the orbit onto itself, and the orbit meets its axis.
   bool proves_return() const {
+    if (slid_ >= motion_.turn_begin) return true;  // orbits that slide become one
     const bool of_few_terms = form_ <= FactorForm::polynomial || form_ == FactorForm::basis;
     if (on_curve_ || (of_few_terms && whole_.jacobian)) return true;
     return std::ranges::any_of(maps_to_try, [this](const Reversor& reversor) {
@@ -675,8 +709,11 @@ class Follower {
   double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
   Vector2d anchor_, forward_, passed_;  ///< returns are sought on the line through anchor_ normal to forward_
   double extent_ = 0, along_ = 0;
-  bool lost_ = false;  ///< one coordinate was smaller than the errors of the panels
-  int work_ = 0;       ///< evaluations of the field
+  bool lost_ = false;   ///< one coordinate was smaller than the errors of the panels
+  int work_ = 0;        ///< evaluations of the field
+  bool ended_ = false;  ///< the orbit ended at a switching curve
+  double slid_ = -1;    ///< time at which the last slide began; -1 if none has begun
+  int still_ = 0;       ///< number of borders met without a part between them
 };
 
 }  // namespace

@@ -198,8 +198,10 @@ class FactorWalk {
     constexpr double inner = 0.9;
     if (const auto& switches = solution_.smooth.switches) {
       // Across a jump the form of V goes on, but V does not.
-      const Eigen::ArrayXd from = switches(solution_.start).col(0).array(), there = switches(target).col(0).array();
-      if ((from * there < 0).any()) throw std::domain_error("PlanarReduction: V jumps on the way");
+      const Eigen::ArrayXd there = switches(target).col(0).array();
+      if (sides_.size() == 0) sides_ = switches(solution_.start).col(0).array();
+      sides_ = (sides_ == 0).select(there, sides_);  // from a jump H is continued to the first side
+      if ((sides_ * there < 0).any()) throw std::domain_error("PlanarReduction: V jumps on the way");
     }
     constexpr unsigned halvings = 2;  // V is smooth in its box, and near the orbit the integral is about 0
     while (x_ != target) {
@@ -260,6 +262,7 @@ class FactorWalk {
   Box box_;
   Vector2d x_;
   double scale_ = 1, integral_ = 0;
+  Eigen::ArrayXd sides_ = {};  ///< values of the switching functions on the side of the jumps on which H is known
   int fits_ = 0;
 };
 

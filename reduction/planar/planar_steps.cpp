@@ -42,7 +42,8 @@ struct RightSide {
   }
 };
 
-/// The steps of one orbit, computed up to the latest requested time. No step crosses a zero of a switching function.
+/// The steps of one orbit, computed up to the latest requested time. No step crosses a zero of a switching function:
+/// there the orbit crosses, slides or rests, see Region.
 class SteppedMotion final : public PlanarOrbit::Motion {
  public:
   SteppedMotion(SmoothField field, const Vector2d& start, double tolerance)
@@ -53,19 +54,38 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     end_time = std::numeric_limits<double>::quiet_NaN();
     undecided = "no reduction was found: orbits are followed by steps";
     const Vector2d f = field_(start);
-    states_.push_back({0, {start[0], start[1]}, std::make_shared<const Region>(field_, start, f)});
+    if (const auto from_curve = onward(field_, start, size_)) {
+      states_.push_back({0, {start[0], start[1]}, nullptr});
+      enter(*from_curve);
+    } else {
+      states_.push_back({0, {start[0], start[1]}, std::make_shared<const Region>(field_, start, f)});
+    }
     constexpr double first = 1e-3;
     step_ = first * (f.stableNorm() > 0 ? size_ / f.stableNorm() : 1);
   }
 
+  /// Looks whether the orbit comes to rest within a number of steps. Only motions on switching curves do.
+  void look_for_rest() {
+    constexpr std::size_t most = 2000;
+    try {
+      while (field_.switches && !rests_ && states_.size() < most) extend();
+    } catch (const std::domain_error& stopped) {
+      if (ambiguous_) undecided = stopped.what();
+    }
+    if (!rests_) return;
+    end = PlanarEnd::rest;
+    end_time = states_.back().t;
+    undecided.clear();
+  }
+
   Vector2d at(double time) const override {
     const std::scoped_lock lock(guard_);
-    while (states_.back().t < time) extend();
+    while (states_.back().t < time && !rests_) extend();
     const State& state = *std::prev(std::ranges::upper_bound(states_, time, {}, &State::t));
     // This step is a part of a step whose error was accepted, so the error of this step is smaller.
     return vector_of(stepped(state, time - state.t));
   }
-  Vector2d at_end() const override { throw std::logic_error("an orbit by steps has no end"); }
+  Vector2d at_end() const override { return vector_of(states_.back().x); }
 
  private:
   using Stepper = odeint::runge_kutta_dopri5<Pair>;
@@ -79,36 +99,57 @@ class SteppedMotion final : public PlanarOrbit::Motion {
 
   static Pair stepped(const State& from, double step) {
     Pair x = from.x;
-    if (step > 0) Stepper().do_step(RightSide{from.region->field()}, x, from.t, step);
+    if (step > 0 && from.region) Stepper().do_step(RightSide{from.region->field()}, x, from.t, step);
     return x;
+  }
+
+  /// Goes on from the last state, which lies on a switching curve.
+  void enter(const Onward& next) const {
+    State& last = states_.back();
+    last.x = {next.x[0], next.x[1]};
+    last.region = next.region ? std::make_shared<const Region>(*next.region) : nullptr;
+    rests_ = next.rests;
+    ambiguous_ = next.ambiguous;
+    reason_ = next.reason;
   }
 
   void extend() const {
     constexpr std::size_t most = 10000;
     const State& last = states_.back();
     State next = last;
-    const auto stop = [&](const char* reason) {
+    const auto stop = [&](std::string_view reason) {
       throw std::domain_error(fmt::format("steps follow this orbit to the time {}, at ({}, {}), where {}", last.t,
                                           last.x[0], last.x[1], reason));
     };
     if (states_.size() > most) stop("10000 steps are made");
-    if (!last.region) stop("no single motion crosses a jump of the field");
+    if (!last.region) stop(reason_);
     auto stepper = odeint::make_controlled(tolerance_ * 1e-3 * size_, tolerance_, Stepper());
     while (stepper.try_step(RightSide{last.region->field()}, next.x, next.t, step_) == odeint::fail) {
       if (!(step_ > 1e-300) || next.t + step_ == next.t) stop("the field has no value, or changes too fast");
     }
     if (!std::isfinite(next.x[0]) || !std::isfinite(next.x[1])) stop("it leaves the numbers");
-    if (!last.region->contains(vector_of(next.x))) {
-      // The state at the border, or at most one rounding of the time beyond.
-      const auto inside = [&](double step) { return last.region->contains(vector_of(stepped(last, step))); };
-      const double whole = next.t - last.t, part = last_where(inside, 0, whole);
-      next.t = last.t + part;
-      next.x = stepped(last, part);
-      const Vector2d x = vector_of(next.x), way = last.region->field()(x);
-      next.region = std::make_shared<const Region>(field_, x, way);
-      if (!last.region->crosses_to(*next.region, x)) next.region = nullptr;
+    const auto inside = [&](double step) { return last.region->contains(vector_of(stepped(last, step))); };
+    double whole = next.t - last.t;
+    bool leaves = !inside(whole);
+    if (const auto dip = leaves ? std::nullopt : last.region->dip(vector_of(last.x), vector_of(next.x), whole)) {
+      leaves = !inside(*dip * whole);
+      if (leaves) whole *= *dip;
     }
+    if (!leaves) {
+      const Vector2d x = last.region->on_curve(vector_of(next.x));
+      next.x = {x[0], x[1]};
+      return states_.push_back(std::move(next));
+    }
+    // The state at the border, or at most one rounding of the time beyond.
+    const double part = last_where(inside, 0, whole);
+    const std::shared_ptr<const Region> region = last.region;
+    still_ = part > 0 ? 0 : still_ + 1;
+    constexpr int most_at_a_point = 8;
+    if (still_ > most_at_a_point) stop("rounding hides which motion leaves a switching curve");
+    next.t = last.t + part;
+    next.x = stepped(last, part);
     states_.push_back(std::move(next));
+    enter(region->leave(vector_of(states_.back().x), size_));
   }
 
   SmoothField field_;
@@ -116,6 +157,9 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   mutable std::mutex guard_;
   mutable std::vector<State> states_;
   mutable double step_;
+  mutable bool rests_ = false, ambiguous_ = false;  ///< of the last state, like reason_
+  mutable std::string_view reason_;
+  mutable int still_ = 0;  ///< number of borders met without a step between them
 };
 
 struct SteppedSolution final : PlanarReduction::Solution {
@@ -126,6 +170,11 @@ struct SteppedSolution final : PlanarReduction::Solution {
     return std::numeric_limits<double>::quiet_NaN();
   }
   PlanarOrbit orbit(const Vector2d& start) const override {
+    auto motion = std::make_shared<SteppedMotion>(field, start, tolerance);
+    motion->look_for_rest();
+    return PlanarOrbit(std::move(motion));
+  }
+  PlanarOrbit part_of_orbit(const Vector2d& start) const override {
     return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start, tolerance));
   }
   std::optional<double> first_integral(const Vector2d&) const override { return std::nullopt; }

@@ -13,6 +13,7 @@
 #include "numerics/epsilon.hpp"
 #include "planar/directions.hpp"
 #include "planar/inverse_factor.hpp"
+#include "planar/region.hpp"
 #include "planar/reversal.hpp"
 #include "planar/solution.hpp"
 #include "planar/strip.hpp"
@@ -69,6 +70,7 @@ struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<Sca
   }
 
   void leave_doubtful_open();
+  std::optional<double> slide_along(const Direction& end) const;
   void make_strips();
   bool proves_center() const;
   std::string_view classify() const;
@@ -145,6 +147,25 @@ void ScalingSolution::leave_doubtful_open() {
   }
 }
 
+/// Returns R of the motion along a direction on which orbits of one side or both arrive in finite time, by Filippov's
+/// convex combination (R69): T of the combination is 0. Empty if an orbit leaves the direction or can cross it.
+std::optional<double> ScalingSolution::slide_along(const Direction& end) const {
+  const auto comes = [](const Approach& side) { return side.regular() && side.angular().factor < 0; };
+  // Orbits beside a ray of this side need for ever to leave it.
+  const auto stays = [&](const Approach& side) {
+    return comes(side) || (side.ray() && (side.angular().order >= 1 || side.angular().factor <= 0));
+  };
+  if (!field.switches || !stays(end.before) || !stays(end.after)) return std::nullopt;
+  if (!comes(end.before) && !comes(end.after)) return std::nullopt;
+  const auto rate = [&](const Approach& side) { return comes(side) ? -side.angular().factor : 0; };
+  const auto radial = [](const Approach& side) { return side.radial().order == 0 ? side.radial().factor : 0; };
+  const double before = rate(end.before), after = rate(end.after);
+  const double along = (before * radial(end.after) + after * radial(end.before)) / (before + after);
+  constexpr double rounding = 1e-12;
+  const double size = std::abs(radial(end.before)) + std::abs(radial(end.after)) + before + after;
+  return std::abs(along) > rounding * size ? along : 0;
+}
+
 void ScalingSolution::make_strips() {
   const double tolerance = std::max(2e-14, 10 * noise);
   strips.clear();
@@ -174,7 +195,8 @@ void ScalingSolution::make_strips() {
     if ((to.decided() && to.angular().factor > 0) || (from.decided() && from.angular().factor < 0)) {
       throw MissedRay{(to.decided() && to.angular().factor > 0 ? to : from).n(), false};
     }
-    strips.emplace_back(section, to, from, directions.smooth, forward ? -1.0 : 1.0, length, tolerance);
+    strips.emplace_back(section, to, from, directions.smooth, forward ? -1.0 : 1.0, length, tolerance,
+                        slide_along(forward ? next : here));
     const double q = angle_of(here.n);
     sectors.push_back(forward ? PlanarSector{q, q + length, from.ray(), to.ray()}
                               : PlanarSector{q + length, q, from.ray(), to.ray()});
@@ -187,6 +209,10 @@ void ScalingSolution::make_strips() {
             fmt::format("next to the angle {:.6g} the field follows no power of the angle that its values determine",
                         angle_of(end.n));
       }
+    }
+    if (const auto along = slide_along(end)) {
+      rays.push_back({angle_of(end.n), true, *along < 0, *along, -infinity, 0});
+      continue;
     }
     if (!end.before.ray() && !end.after.ray()) continue;
     const auto leaves = [](const Approach& side) { return side.angular().factor > 0; };
@@ -298,7 +324,7 @@ PlanarEnd ScalingSolution::end(const StripPlace& place) const {
     case Limit::infinity:
       return PlanarEnd::infinity;
     case Limit::point:
-      return strip.to().ray() ? PlanarEnd::rest : PlanarEnd::border;
+      return strip.to().ray() || strip.slides() ? PlanarEnd::rest : PlanarEnd::border;
     case Limit::undecided:
       break;
   }
@@ -454,6 +480,12 @@ PlanarOrbit ScalingSolution::orbit_from_centre() const {
 }
 
 PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
+  const auto from_curve = onward(field, start, (start - centre).norm());
+  if (from_curve && from_curve->ambiguous) {
+    auto open = std::make_shared<OpenMotion>(start);
+    open->undecided = from_curve->reason;
+    return PlanarOrbit(std::move(open));
+  }
   auto motion = std::make_shared<ScalingMotion>();
   motion->solution = shared_from_this();
   std::tie(motion->n, motion->p) = section.canonical(start);
@@ -476,8 +508,7 @@ Vector2d ScalingMotion::at(double time) const {
   const double integral = p - strip.ln_rho(place.xi);
   const auto at_coordinate = [&](double xi) { return section.point(strip.direction(xi), integral + strip.ln_rho(xi)); };
   const auto on_ray = [&](double time_there) {
-    return solution->along_ray(strip.to().n(), strip.to().radial().factor, integral + strip.ln_rho(-infinity),
-                               time_there);
+    return solution->along_ray(strip.to().n(), strip.along_ray(), integral + strip.ln_rho(-infinity), time_there);
   };
   if (time == 0) return at_coordinate(place.xi);
   constexpr double early = 0.02;  // from this fraction of end_time on, the time left has all its digits

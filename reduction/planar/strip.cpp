@@ -37,8 +37,8 @@ Limit limit_at(const Approach& end, double sign) {
 }  // namespace
 
 Strip::Strip(const SectionField& field, const Approach& to, const Approach& from, const std::vector<Vector2d>& breaks,
-             double sense, double length, double tolerance)
-    : field_(&field), to_(to), from_(from), sense_(sense), length_(length), tolerance_(tolerance) {
+             double sense, double length, double tolerance, std::optional<double> slide)
+    : field_(&field), to_(to), from_(from), slide_(slide), sense_(sense), length_(length), tolerance_(tolerance) {
   constexpr double last = -first, middle = 8, width = 2;
   const double start = first_time();
   std::vector<double> edges;
@@ -70,10 +70,14 @@ Strip::Strip(const SectionField& field, const std::vector<Vector2d>& breaks, dou
   solve(edges, first_time);
 }
 
-Limit Strip::limit() const { return limit_at(*to_, 1); }
+Limit Strip::limit() const {
+  if (!slide_) return limit_at(*to_, 1);
+  return *slide_ < 0 ? Limit::centre : *slide_ > 0 ? Limit::infinity : Limit::point;
+}
 Limit Strip::origin() const { return limit_at(*from_, -1); }
 
 bool Strip::joins_ray() const {
+  if (slide_) return *slide_ != 0;
   return !closed() && to_->ray() && to_->radial().order == 0 && to_->angular().order < 1;
 }
 
@@ -85,8 +89,8 @@ double Strip::first_time() {
   const double gamma = to_->growth();
   double factor;
   if (joins_ray() || (gamma < -same_order && c != 0)) {
-    time_order_ = -b;
-    factor = -1 / (c * radial);
+    time_order_ = slide_ ? 0 : -b;
+    factor = -1 / (c * (joins_ray() ? along_ray() : radial));
   } else {
     time_order_ = 1 - a;
     factor = 1 / (angular * (1 - a) - (gamma < same_order ? c * radial : 0));

@@ -32,9 +32,10 @@ class Strip {
   /// @param sense      direction in which xi grows: 1 for counter-clockwise, else -1
   /// @param length     angle between the ends
   /// @param tolerance  relative error of the panels
+  /// @param slide      R along the end `to`, if orbits slide along it
   /// @throws MissedRay
   Strip(const SectionField& field, const Approach& to, const Approach& from, const std::vector<Eigen::Vector2d>& breaks,
-        double sense, double length, double tolerance);
+        double sense, double length, double tolerance, std::optional<double> slide = {});
 
   /// Makes the strip of the whole plane, without ends.
   Strip(const SectionField& field, const std::vector<Eigen::Vector2d>& breaks, double sense, double tolerance);
@@ -68,6 +69,10 @@ class Strip {
 
   /// Returns true if orbits come to a ray in finite time and then continue along the ray.
   bool joins_ray() const;
+  /// Returns true if orbits come to a curve along which they slide.
+  bool slides() const { return slide_.has_value(); }
+  /// Returns R on this ray.
+  double along_ray() const { return slide_.value_or(to_->radial().factor); }
 
   /// Returns the largest panel edge below xi; -infinity if there is none. Between the edge and xi, s and R are smooth.
   double smooth_from(double xi) const;
@@ -95,6 +100,7 @@ class Strip {
 
   const SectionField* field_;
   std::optional<Approach> to_, from_;
+  std::optional<double> slide_ = {};
   double sense_;  ///< 1: xi grows counter-clockwise; -1: clockwise
   double length_;
   double tolerance_;

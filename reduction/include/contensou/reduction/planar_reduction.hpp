@@ -32,12 +32,12 @@ struct PlanarCanonical {
 enum class PlanarEnd {
   centre,  ///< the centre x_0 of the scaling
   infinity,
-  rest,         ///< a point other than the centre, at which the field vanishes
+  rest,         ///< a point other than the centre, at which the field, or Filippov's velocity (R69), vanishes
   border,       ///< a pole, a jump, or the edge of the points at which the field has a value; no orbit continues
   periodic,     ///< no end: the orbit is closed
   undecided,    ///< unknown: PlanarReduction::undecided returns the reason
   equilibrium,  ///< a zero of the field, which the orbit approaches for ever
-  cycle,        ///< a closed orbit, which the orbit approaches for ever
+  cycle,        ///< a closed orbit, which the orbit approaches for ever, or joins after a slide
 };
 
 inline constexpr int planar_ends = 8;
@@ -282,11 +282,12 @@ PlanarReduction by_factor(const SmoothField& field, const Eigen::Vector2d& start
 /// Returns a system whose orbits are integrated by Dormand-Prince 5(4), without reduction, for any planar field.
 ///
 /// Each step keeps the error below `tolerance`, relative to the state or to a thousandth of the start; an orbit has at
-/// most 10 000 steps. Orbits are cut where a switching function changes its sign. Other jumps are detected by the error
-/// estimate of this method; the estimate of Fehlberg 7(8) does not detect jumps. Tests and answers compare the
-/// quadratures with these orbits.
+/// most 10 000 steps. Orbits are cut where a switching function changes its sign; there they cross, slide or rest
+/// (R69). Other jumps are detected by the error estimate of this method; the estimate of Fehlberg 7(8) does not detect
+/// jumps. Tests and answers compare the quadratures with these orbits.
 ///
-/// @return a system with an empty form, undecided ends, and neither factor nor first integral
+/// @return a system with an empty form, and neither factor nor first integral. Ends are undecided, except the rest of
+///         an orbit that a switching curve stops within its first 2000 steps
 PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12);
 
 /// Returns the equations of motion (2.6) in the whole plane, planar_field, solved by a flow. The rays of the result are
@@ -298,6 +299,26 @@ PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12);
 /// Accuracy  times as StopTime::accuracy. reversed() is solved from the values of the field, without the flow.
 /// Cost      0.1 ms, and the solution of the flow
 PlanarReduction reduced(const Flow& flow);
+
+/// The motion at a point of a switching curve, by Filippov's definition, README (R69).
+struct SwitchingMotion {
+  enum class Kind {
+    crosses,  ///< also where the field is continuous
+    slides,
+    rests,   ///< slides with the velocity 0
+    leaves,  ///< both sides point away: the motion is not unique
+  };
+  Kind kind;
+  Eigen::Vector2d x;         ///< the nearest point of the curve
+  Eigen::Vector2d velocity;  ///< Filippov's velocity along the curve, unless the motion crosses
+};
+
+/// Returns the motion at the point nearest to x on the curve on which a switching function is 0; empty if this function
+/// has no curve there, or the field has no value on one side.
+/// @param function  row of SmoothField::switches
+/// @param size      length that is large beside the distance of x from the curve
+std::optional<SwitchingMotion> motion_on_curve(const SmoothField& field, Eigen::Index function, Eigen::Vector2d x,
+                                               double size);
 
 /// A linear map R of the plane that reverses motions in time: f(R x) = -R f(x).
 struct Reversor {
