@@ -367,7 +367,7 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
       return way.plane.part_of_orbit(x);
     } catch (const std::domain_error&) {
       stepped = true;
-      return way.by_steps.orbit(x);
+      return way.by_steps.part_of_orbit(x);
     }
   }();
   constexpr double near = 0.008, far = 6, rest = 1e-5;
@@ -389,7 +389,7 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
       if (step > 1e-6 * near / speed) continue;
       // The reduction ends here, but steps in time may continue the orbit.
       if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
-      motion = way.by_steps.orbit(here);
+      motion = way.by_steps.part_of_orbit(here);
       time = 0;
       step = 1e-3 * near / speed;
       continue;
@@ -542,6 +542,8 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
   portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
   compare_kinds(portrait.equilibria, plane);
+  portrait.switching = switching_parts(plane.field(), window.low, window.high);
+  leave_out_rests(portrait.equilibria, portrait.switching);
   if (plane.scaling() == nullptr) {
     portrait.separatrices = separatrices(tracer, portrait.equilibria, window);
     for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {

@@ -135,6 +135,7 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
             {"rays", rays}};
   if (!plane.scaling()) json["form"] = plane.form().empty() ? Json() : Json(plane.form());
   json.update(equilibria_members<Json>(portrait.equilibria));
+  json["switching"] = switching_member<Json>(portrait.switching);
   return origin_of(std::move(json), source);
 }
 

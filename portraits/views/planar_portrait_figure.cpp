@@ -35,6 +35,7 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
   Lines attracting{{}, {palette.comparison, 2.6}, "ray that orbits approach"};
   Lines others{{}, {palette.comparison, 2, true}, "ray that orbits leave"};
   for (const auto& ray : plane.rays()) {
+    if (ray.order == 0) continue;  // a part of a switching curve
     Polyline line{{plane.centre()[0], plane.centre()[1]}};
     constexpr int pieces = 200;
     constexpr double deep = 20;
@@ -47,6 +48,26 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
   }
   layers.add_invariant(std::move(others));
   layers.add_invariant(std::move(attracting));
+}
+
+/// Adds the parts of switching curves along which motions slide, at which they rest, and which they leave to both
+/// sides.
+void add_switching(PanelLayers& layers, const std::vector<SwitchingPart>& parts, const Palette& palette) {
+  using Kind = reduction::SwitchingMotion::Kind;
+  Lines slides{{}, {palette.invariant, 3}, "sliding along a jump"}, rests{{}, {palette.invariant, 6}, "rest"};
+  Lines leaves{{}, {palette.invariant, 2, true}, "jump with motions to both sides"};
+  for (const SwitchingPart& part : parts) {
+    Polyline line;
+    for (const Vector2d& x : part.points) line.push_back({x[0], x[1]});
+    (part.motion == Kind::slides  ? slides
+     : part.motion == Kind::rests ? rests
+                                  : leaves)
+        .lines.push_back(std::move(line));
+  }
+  layers.add_invariant(std::move(slides));
+  for (Lines* plain : {&leaves, &rests}) {
+    if (!plain->lines.empty()) layers.panel().lines.push_back(std::move(*plain));
+  }
 }
 
 /// Returns the name of a variable, with a prime for each apostrophe.
@@ -175,6 +196,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   if (style.invariant && !portrait.separatrices.empty()) {
     layers.add_plain(layers.lines_of(portrait.separatrices), {look.palette.comparison, 2}, "separatrices of saddles");
   }
+  add_switching(layers, portrait.switching, look.palette);
   layers.add_highlights();
   if (scaling) {
     // No other equilibrium is isolated.

@@ -64,6 +64,18 @@ class HalfOrbit {
     return end() == PlanarEnd::undecided || beyond * time < orbit_.end_time();
   }
 
+  /// Returns the reason why neither a quadrature nor steps reach a time.
+  std::string why_not(double time) const {
+    try {
+      steps_.at(time);
+    } catch (const std::domain_error& stopped) {
+      const std::string words = stopped.what();
+      constexpr std::string_view before = ", where ";
+      if (const auto at = words.rfind(before); at != words.npos) return words.substr(at + before.size());
+    }
+    return "neither a quadrature nor steps in time follow it farther";
+  }
+
   PlanarEnd end() const { return orbit_.end(); }
 
   /// Returns the end of the instants if none is given: the time of rest, or a period.
@@ -109,8 +121,8 @@ class HalfOrbit {
   mutable std::vector<Part> parts_{{0, orbit_}};
 };
 
-std::string words_of_end(const HalfOrbit& half, double last) {
-  if (half.goes_on(last)) return "neither a quadrature nor steps in time follow it farther";
+std::string words_of_end(const HalfOrbit& half, double last, double time) {
+  if (half.goes_on(last)) return half.why_not(time);
   switch (half.end()) {
     case PlanarEnd::infinity:
       return "it goes to infinity";
@@ -142,7 +154,7 @@ std::string time_letter(const StartedSystem& system) {
                  half.goes_on(last) ? "is known up to"
                  : sense > 0        ? "ends at"
                                     : "begins at",
-                 place, words_of_end(half, last), letter, sense > 0 ? "below" : "above", there);
+                 place, words_of_end(half, last, time), letter, sense > 0 ? "below" : "above", there);
 }
 
 }  // namespace

@@ -213,6 +213,13 @@ Json members_of_plane(const reduction::Equilibria& equilibria) {
   return json;
 }
 
+/// Returns the kind of a part of a switching curve in words, and its ends.
+std::pair<std::string, std::array<Vector2d, 2>> words_of(const portraits::SwitchingPart& part) {
+  using Kind = reduction::SwitchingMotion::Kind;
+  const char* const kind = part.motion == Kind::rests ? "rest" : part.motion == Kind::slides ? "sliding" : "not unique";
+  return {kind, {part.points.front(), part.points.back()}};
+}
+
 /// Returns a text on the equilibria near the start, the part of the plane in which they were sought, and the reversors.
 std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
   const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: avoids a minus sign before 0
@@ -423,6 +430,7 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
   const bool named = std::ranges::count(named_ends(), name(end)) > 0;
   members.update({{"end", named ? Json(name(end)) : Json()}, {"tau_stop", unknown ? Json() : Json(tau_stop)}});
+  if (std::isfinite(orbit.end_time()) && end != PlanarEnd::undecided) members["end_time"] = orbit.end_time();
   const double error = unknown ? 0 : plane.end_time_error(start, orbit);
   if (error > 0) members["accuracy"] = error;
   if (orbit.period()) members["period"] = *orbit.period();
@@ -451,7 +459,10 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
           return fmt::format(": it returns after {}; relative error below {:.0e}", digits(orbit.period().value()),
                              error);
         case PlanarEnd::rest:
-          return ": it comes to rest elsewhere";
+          return std::isfinite(time)
+                     ? fmt::format(": it comes to rest elsewhere, after {}; relative error below {:.0e}", digits(time),
+                                   error)
+                     : ": it comes to rest elsewhere";
         case PlanarEnd::equilibrium:
           return ": it nears an equilibrium for ever";
         case PlanarEnd::cycle:
@@ -568,9 +579,9 @@ class Blackboard {
 
   void add_orbit(const Followed& followed, const Vector2d& start) {
     const auto& [orbit, error, stepped] = followed;
-    if (!stepped) {
+    if (!stepped && orbit.end() != PlanarEnd::rest) {
       add("check", "not compared: the solution or the steps give no state");
-    } else {
+    } else if (stepped) {
       add("check", fmt::format("by steps to {}: differs by {:.0e}{}", at(start, stepped->time), stepped->difference,
                                followed.refuted() ? ", not confirmed" : ""));
     }
@@ -585,6 +596,16 @@ class Blackboard {
     if (count > most) return add("equilibria", fmt::format("{}; --details lists them", count));
     for (const reduction::Equilibrium& each : equilibria.points) {
       add("equilibrium", fmt::format("{}: {}", place(each.x), each.kind));
+    }
+  }
+
+  /// Adds the parts of switching curves along which motions slide, at which they rest, or which they leave.
+  void add_switching(const std::vector<portraits::SwitchingPart>& parts) {
+    constexpr std::size_t most = 9;
+    if (parts.size() > most) return add("switching", fmt::format("{} parts; --details lists them", parts.size()));
+    for (const portraits::SwitchingPart& part : parts) {
+      const auto [kind, ends] = words_of(part);
+      add(kind, fmt::format("from {} to {}", place(ends[0]), place(ends[1])));
     }
   }
 
@@ -639,7 +660,7 @@ class Blackboard {
       case PlanarEnd::periodic:
         return "none: the orbit is closed, with the period " + digits_(orbit.period().value());
       case PlanarEnd::rest:
-        return (when.empty() ? "" : when + ": ") + "it comes to rest";
+        return (when.empty() ? "" : when + ", ") + fmt::format("{}: it comes to rest", place(orbit.at(time)));
       case PlanarEnd::equilibrium:
         return "it nears an equilibrium for ever";
       case PlanarEnd::cycle:
@@ -745,8 +766,19 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   }
   reduction::Equilibria equilibria = reduction::find_equilibria(field, around);
   compare_kinds(equilibria, plane);
+  const auto switching = portraits::switching_parts(field, equilibria.low, equilibria.high);
+  portraits::leave_out_rests(equilibria, switching);
   answer.members.update(members_of_plane(equilibria));
-  add_text(answer, [=](const Digits& digits) { return text_of(plane.tried()) + text_of(equilibria, digits); });
+  answer.members["switching"] = portraits::switching_member<Json>(switching);
+  add_text(answer, [=](const Digits& digits) {
+    std::string text = text_of(plane.tried()) + text_of(equilibria, digits);
+    for (const portraits::SwitchingPart& part : switching) {
+      const auto [kind, ends] = words_of(part);
+      text += fmt::format("{:<12}from ({}, {}) to ({}, {})\n", kind, digits(ends[0][0]), digits(ends[0][1]),
+                          digits(ends[1][0]), digits(ends[1][1]));
+    }
+    return text;
+  });
 
   const bool by_factor = plane.solved() && !plane.scaling();
   const bool cleared = by_factor && plane.tried().back().cleared;
@@ -764,6 +796,12 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   } else if (plane.solved()) {
     add_factor(answer, plane, steps);
     if (given) followed = add_end(answer, plane, start);
+  } else if (const auto orbit = plane.orbit(start); given && orbit.end() == PlanarEnd::rest) {
+    followed = Followed{orbit, 0, std::nullopt};
+    answer.members.update({{"end", name(orbit.end())}, {"tau_stop", infinity}, {"end_time", orbit.end_time()}});
+    add_text(answer, [orbit](const Digits& digits) {
+      return fmt::format("tau_stop    inf: by steps it comes to rest elsewhere, after {}\n", digits(orbit.end_time()));
+    });
   } else if (!found.generators.empty()) {
     add_text(answer, [why = words_of(plane.why_not())](const Digits&) {
       return fmt::format("solution    none by quadrature: {}\n", why);
@@ -789,6 +827,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       board.add_constancy(plane, start);
     }
     board.add_equilibria(equilibria);
+    board.add_switching(switching);
     return board.text() + (details ? numbers(digits) : "");
   };
   answer = finished(answer, found, plane.solved() || steps.integral);
@@ -975,6 +1014,9 @@ std::vector<FieldText> reduce_system_fields() {
         {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`, `equilibria_curve`", "",
          "within: ranges of u and v in which equilibria are sought and reversors compared, up to 2.5 max(|u0|, |v0|). "
          "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
+        {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "",
+         "curves at which the equations jump and that motions do not cross: rests, slides (along the curve), or leaves "
+         "(both sides point away, and the motion is not unique)"},
         {"JSON `reversors`", "",
          "reversors: maps of the plane that turn each motion into a motion backward in time, such as (u, -v)"},
         {"JSON `turn` {`factor`, `sigma`}", "",
@@ -987,6 +1029,7 @@ std::vector<FieldText> reduce_system_fields() {
         {"`tau_stop`", "",
          "time at which the motion reaches the centre. inf: the motion does not reach the centre. null: the motion "
          "comes to a border before, or its end was not found"},
+        {"`end_time`", "", "time of the end, such as rest, a border or infinity; absent if it is not finite"},
         {"`accuracy`", "", "relative error of tau_stop, of period, or of the time at which the motion is at infinity"},
         {"`end`", "", "end of the motion"},
         {"every `end`", "", fmt::format("{}; null if the end was not found", fmt::join(named_ends(), ", "))},

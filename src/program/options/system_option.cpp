@@ -33,7 +33,7 @@ void SystemOption::add(CLI::App& app) {
              });
   app.option_defaults()->group("");  // the help of --start names them
   x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", number);
-  y0_.add(app, "--y0", "Y", "value of the letter y at the start of --system", number);
+  y0_.add(app, "--y0", "Y", "value of the letter y, or of x' in x'' = F, at the start of --system", number);
   for (Argument* each : {static_cast<Argument*>(&x0_), static_cast<Argument*>(&y0_), static_cast<Argument*>(&start_)}) {
     each->needs(system_, "is in the letters of typed equations");
   }
@@ -69,7 +69,7 @@ std::optional<Eigen::Vector2d> SystemOption::read_start(const TypedSystem& typed
     if (const auto& speed = *options.speeds().at(i); speed.given()) set(speed, i, *speed);
   }
   if (x0_.given()) set(x0_, place_of("x"), *x0_);
-  if (y0_.given()) set(y0_, place_of("y"), *y0_);
+  if (y0_.given()) set(y0_, place_of(letters[1] == "x'" ? "x'" : "y"), *y0_);
   if (start_.given()) {
     for (const auto& [letter, value] : *start_) set(start_, place_of(letter), value);
   }

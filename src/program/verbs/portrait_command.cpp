@@ -124,6 +124,7 @@ std::vector<FieldText> system_portrait_fields() {
        "type of the solution as in reduce; absent for a scaling; null if the orbits are computed in time steps"},
       {"JSON `centre` [U, V]", "", "centre of the scaling symmetry; null if there is none"},
       {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane of u and v that is drawn"},
+      {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "", "as in reduce: jumps that motions do not cross"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`, `index`}], `equilibria_within`, `equilibria_complete`, "
        "`equilibria_curve`",
        "", "points of the window at which u and v do not change, as in reduce --system"},

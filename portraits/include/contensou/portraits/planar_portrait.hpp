@@ -14,6 +14,20 @@
 
 namespace contensou::portraits {
 
+/// A part of a switching curve on which motions slide or rest, or which they leave to both sides, README (R69).
+struct SwitchingPart {
+  reduction::SwitchingMotion::Kind motion;
+  std::vector<Eigen::Vector2d> points;  ///< in the direction in which motions slide
+};
+
+/// Returns these parts of all switching curves in a rectangle. Their ends are exact to rounding. Parts shorter than
+/// 1/1000 of the rectangle can be missed. Empty for a field without switching functions.
+std::vector<SwitchingPart> switching_parts(const reduction::SmoothField& field, const Eigen::Vector2d& low,
+                                           const Eigen::Vector2d& high);
+
+/// Leaves out the equilibria that lie on parts at which motions rest, because they are not isolated.
+void leave_out_rests(reduction::Equilibria& equilibria, const std::vector<SwitchingPart>& parts);
+
 /// The plane of any planar system as data, without a drawing. An isochrone is a line of states with the same time to
 /// the centre of the scaling, or to infinity.
 struct PlanarPortrait : Portrait {
@@ -21,6 +35,7 @@ struct PlanarPortrait : Portrait {
   reduction::PlanarReduction plane;
   std::array<std::string, 2> variables = {"u", "v"};  ///< names on the axes, such as x and x'
   reduction::Equilibria equilibria = {};              ///< equilibria in the window
+  std::vector<SwitchingPart> switching = {};          ///< sliding, rest and ambiguity on switching curves
   // Only for a system without a scaling:
   std::vector<PortraitOrbit> separatrices = {};  ///< separatrices of the saddles
   std::vector<PortraitOrbit> invariant = {};     ///< curves on which the inverse integrating factor V is 0
@@ -43,7 +58,8 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// Returns the portrait as JSON.
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
-/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members; on request highlight and
+/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members and
+/// switching_member; on request highlight and
 /// through (orbits). Without a scaling centre is null, and there are also form, separatrices (orbits) and invariant
 /// [{u, v}], the curves V = 0.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
@@ -75,6 +91,24 @@ Json equilibria_members(const reduction::Equilibria& equilibria) {
 /// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or
 /// isochrone; tau is the time left.
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
+
+/// Returns the member switching [{motion, u [...], v [...]}]; motion is "slides", "rests" or "leaves".
+/// @tparam Json  nlohmann::ordered_json
+template <class Json>
+Json switching_member(const std::vector<SwitchingPart>& parts) {
+  using Kind = reduction::SwitchingMotion::Kind;
+  Json list = Json::array();
+  for (const SwitchingPart& part : parts) {
+    Json u = Json::array(), v = Json::array();
+    for (const Eigen::Vector2d& x : part.points) {
+      u.push_back(x[0]);
+      v.push_back(x[1]);
+    }
+    const char* motion = part.motion == Kind::slides ? "slides" : part.motion == Kind::rests ? "rests" : "leaves";
+    list.push_back({{"motion", motion}, {"u", std::move(u)}, {"v", std::move(v)}});
+  }
+  return list;
+}
 
 /// Draws the portrait. In PortraitStyle::Field, motion and regularised both mean the directions of the field.
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style = {});
