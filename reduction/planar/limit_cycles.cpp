@@ -1,0 +1,352 @@
+// Limit cycles. A closed orbit turns about equilibria whose indices have the sum 1. Therefore it crosses a ray from one
+// of them. The return map of the ray moves the place s, at which an orbit crosses the ray, to the place P(s) after one
+// turn. A fixed point with a change of sign of ln P(s)/s is a limit cycle: stable if the sign changes from + to -.
+//
+// Where the orbit does not return, the map of the reversed motion, P^-1, is taken. P contracts towards a stable cycle
+// and P^-1 towards an unstable one, so Newton's or any other method for roots meets no growth of errors.
+//
+// Multiplier. Let d be the distance of a neighbouring orbit across the motion. The rate of |f| d is div f |f| d
+// (Liouville). Where f jumps from f- to f+ on a curve with the normal n, d f is multiplied by (n . f+)/(n . f-),
+// because both orbits cross the curve along its tangent. The product over a turn is P'(s) at the fixed point. The slope
+// of the map by differences is the second source.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include "contensou/reduction/detail/root.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+#include "planar/inverse_factor.hpp"
+#include "planar/region.hpp"
+
+namespace contensou::reduction {
+
+using Eigen::Vector2d;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double rough = 1e-9;  ///< tolerance of the orbits that only show where cycles are
+
+/// Returns the field with a limited number of values; after that many, it throws.
+SmoothField limited(const SmoothField& field, const std::shared_ptr<int>& left) {
+  SmoothField result = field;
+  result.value = [value = field.value, left](const Vector2d& x) {
+    if (--*left < 0) throw std::domain_error("the search for limit cycles has taken too many values of the field");
+    return value(x);
+  };
+  if (field.branch) {
+    result.branch = [branch = field.branch, left](const Vector2d& x) { return limited(branch(x), left); };
+  }
+  return result;
+}
+
+/// One turn of an orbit about a point, from a ray to the ray.
+struct Turn {
+  double place;  ///< place on the ray at the end
+  PlanarOrbit orbit;
+  std::vector<double> times;  ///< times between which the orbit turns by a small angle; the last is that of the turn
+};
+
+/// The return map of a ray.
+class ReturnMap {
+ public:
+  /// @param half  unit of lengths along both coordinates
+  ReturnMap(const SmoothField& field, const Vector2d& centre, const Vector2d& half, double tolerance)
+      : forth_(by_steps(field, tolerance)), back_(by_steps(backward(field), tolerance)), centre_(centre), half_(half) {}
+
+  Vector2d point(double place) const { return centre_ + place * half_.cwiseProduct(way()); }
+
+  /// Returns the turn that begins at a place on the ray; empty if the orbit does not turn.
+  std::optional<Turn> turn(double place, bool back) const;
+
+  /// Returns ln P(s)/s, or -ln P^-1(s)/s from the reversed motion; NaN if the orbit does not turn.
+  double growth(double place, bool back) const {
+    const auto made = turn(place, back);
+    const double grown = made ? std::log(made->place / place) : std::numeric_limits<double>::quiet_NaN();
+    return back ? -grown : grown;
+  }
+  /// Returns ln P(s)/s of the motion that turns; NaN if neither does.
+  double growth(double place) const {
+    const double grown = growth(place, false);
+    return std::isfinite(grown) ? grown : growth(place, true);
+  }
+
+ private:
+  /// A direction that is no axis, because axes often are orbits.
+  static Vector2d way() { return {0.98, 0.2}; }
+
+  PlanarReduction forth_, back_;
+  Vector2d centre_, half_;
+};
+
+std::optional<Turn> ReturnMap::turn(double place, bool back) const {
+  constexpr int most = 500;
+  constexpr double widest = 0.6, least = 1e-4, far = 1e3, still = 1e-6, long_time = 1e3;
+  const auto scaled = [&](const Vector2d& x) { return Vector2d((x - centre_).cwiseQuotient(half_)); };
+  try {
+    const PlanarReduction& system = back ? back_ : forth_;
+    const double speed = system.field()(point(place)).cwiseQuotient(half_).norm();
+    Turn turn{place, system.orbit(point(place)), {0}};
+    Vector2d here = scaled(point(place));
+    double angle = 0, step = 0.1 * place / speed;
+    const double unit = place / speed;
+    if (!(speed > 0)) return std::nullopt;
+    for (int i = 0; i < most; ++i) {
+      const double time = turn.times.back();
+      Vector2d next;
+      double turned = infinity, grown = infinity;
+      try {
+        next = scaled(turn.orbit.at(time + step));
+        turned = std::atan2(cross(here, next), here.dot(next));
+        grown = std::log(next.norm() / here.norm());
+      } catch (const std::domain_error&) {
+        if (step < still * unit) return std::nullopt;
+      }
+      if (!(std::abs(turned) < widest && std::abs(grown) < widest)) {
+        step /= 2;
+        if (!(time + step > time)) return std::nullopt;
+        continue;
+      }
+      if (std::abs(angle + turned) >= 2 * pi) {
+        const auto across = [&](double t) { return cross(way(), scaled(turn.orbit.at(t))); };
+        turn.times.push_back(root_between(across, time, time + step));
+        turn.place = scaled(turn.orbit.at(turn.times.back())).norm() / way().norm();
+        return turn;
+      }
+      const double moved = (next - here).norm(), distance = next.norm();
+      if (distance < least * place || distance > far * place || (moved < still * distance && step > long_time * unit)) {
+        return std::nullopt;
+      }
+      angle += turned;
+      here = next;
+      turn.times.push_back(time + step);
+      if (std::abs(turned) < widest / 3 && std::abs(grown) < widest / 3) step *= 1.5;
+    }
+  } catch (const std::domain_error&) {
+    // The field has no value at the place.
+  }
+  return std::nullopt;
+}
+
+/// Returns the factor by which the distance from a closed orbit grows in a turn, by the integral of the divergence.
+double multiplier_of(const SmoothField& field, const Turn& turn) {
+  constexpr unsigned depth = 8;
+  constexpr double accurate = 1e-9, beside = 1e-12;
+  double exponent = 0, factor = 1;
+  const auto divergence = [&](double t) {
+    const auto jet = jet_of(field, turn.orbit.at(t));
+    return jet ? jet->slopes.trace() : std::numeric_limits<double>::quiet_NaN();
+  };
+  const auto switches = [&](double t) { return Eigen::VectorXd(field.switches(turn.orbit.at(t)).col(0)); };
+  for (std::size_t i = 1; i < turn.times.size(); ++i) {
+    const double from = turn.times[i - 1], to = turn.times[i];
+    std::vector<double> ends{from, to};
+    if (field.switches) {
+      const Eigen::VectorXd before = switches(from), after = switches(to);
+      for (Eigen::Index row = 0; row < before.size(); ++row) {
+        if (!(before[row] * after[row] < 0)) continue;
+        const double at = root_between([&](double t) { return switches(t)[row]; }, from, to);
+        const Vector2d x = turn.orbit.at(at), normal = field.switches(x).row(row).tail<2>();
+        const auto flux = [&](double t, double sign) {
+          const Vector2d way = field(turn.orbit.at(t));
+          return normal.dot(Region(field, x, sign * way).field()(x));
+        };
+        factor *= flux(at + beside * (to - from), 1) / flux(at - beside * (to - from), -1);
+        ends.push_back(at);
+      }
+      std::ranges::sort(ends);
+    }
+    for (std::size_t k = 1; k < ends.size(); ++k) {
+      exponent += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(divergence, ends[k - 1], ends[k], depth,
+                                                                                accurate);
+    }
+  }
+  return factor * std::exp(exponent);
+}
+
+/// Returns the slope of the return map, or of the reversed map, at a fixed point.
+double slope_of(const ReturnMap& map, double place, bool back) {
+  constexpr double step = 5e-4;
+  const auto slope = [&](double part) {
+    const auto above = map.turn(place * (1 + part), back), below = map.turn(place * (1 - part), back);
+    return above && below ? (above->place - below->place) / (2 * part * place)
+                          : std::numeric_limits<double>::quiet_NaN();
+  };
+  return (4 * slope(step) - slope(2 * step)) / 3;
+}
+
+/// The search for limit cycles about equilibria.
+class CycleSearch {
+ public:
+  CycleSearch(const SmoothField& field, const Vector2d& half)
+      : left_(std::make_shared<int>(0)), field_(limited(field, left_)), half_(half) {}
+
+  void about(const Vector2d& centre, double reach);
+  std::vector<LimitCycle> take() { return std::move(found_); }
+
+ private:
+  struct Sample {
+    double place, growth;  ///< ln P(s)/s; NaN if the orbit does not turn
+  };
+
+  void examine(const Vector2d& centre, const Sample& inside, const Sample& outside);
+
+  std::shared_ptr<int> left_;  ///< values of the field that the search may still take
+  SmoothField field_;
+  Vector2d half_;
+  std::vector<LimitCycle> found_;
+};
+
+/// Finds the fixed point between two places with growths of different signs.
+void CycleSearch::examine(const Vector2d& centre, const Sample& inside, const Sample& outside) {
+  constexpr double accurate = 1e-12, closed = 1e-9, beside = 0.01, differ = 1e-6, still = 1e-9, same = 1e-6;
+  constexpr int most_values = 2'000'000;
+  const bool stable = inside.growth > 0;
+  *left_ = most_values;
+  const ReturnMap coarse(field_, centre, half_, rough), fine(field_, centre, half_, accurate);
+  // The motion that nears the cycle also turns if it starts between the two places.
+  const auto root = [&](const ReturnMap& map, double low, double high) {
+    return root_between([&](double place) { return map.growth(place, !stable); }, low, high);
+  };
+  constexpr double around = 1e-4;
+  double place = root(coarse, inside.place, outside.place);
+  place = root(fine, place * (1 - around), std::min(place * (1 + around), outside.place));
+  const auto turn = fine.turn(place, !stable);
+  if (!turn || !(std::abs(std::log(turn->place / place)) <= closed)) return;
+  // The growth changes its sign here and not only somewhere between the two places.
+  const double below = fine.growth(place * (1 - beside), !stable), above = fine.growth(place * (1 + beside), !stable);
+  if (!(below * inside.growth > 0 && above * outside.growth > 0)) return;
+  if (!(std::min(std::abs(below), std::abs(above)) > closed)) return;
+  LimitCycle cycle{fine.point(place), turn->times.back(), std::numeric_limits<double>::quiet_NaN(), stable, {}};
+  constexpr int parts = 10;
+  for (std::size_t i = 1; i < turn->times.size(); ++i) {
+    for (int k = 0; k < parts; ++k) {
+      const double from = turn->times[i - 1], to = turn->times[i];
+      cycle.line.push_back(turn->orbit.at(from + (to - from) * k / parts));
+    }
+  }
+  cycle.line.push_back(cycle.x);
+  const auto is_same = [&](const LimitCycle& other) {
+    const auto distance = [&](const Vector2d& x) { return (x - cycle.x).cwiseQuotient(half_).norm(); };
+    double nearest = infinity, longest = 0;
+    for (std::size_t i = 1; i < other.line.size(); ++i) {
+      nearest = std::min(nearest, distance(other.line[i]));
+      longest = std::max(longest, (other.line[i] - other.line[i - 1]).cwiseQuotient(half_).norm());
+    }
+    return other.stable == stable && std::abs(other.period / cycle.period - 1) < same && nearest < longest;
+  };
+  if (std::ranges::any_of(found_, is_same)) return;
+  // Along the reversed motion the multiplier is the inverse.
+  const double slope = slope_of(fine, place, !stable),
+               product = multiplier_of(stable ? field_ : backward(field_), *turn);
+  if (std::abs(slope - product) <= differ && !(product > 1 + differ)) {
+    cycle.multiplier = stable ? product : 1 / product;
+  } else if (field_.switches && std::abs(slope) < still) {
+    cycle.multiplier = stable ? 0 : infinity;  // neighbouring orbits join where the motion slides along a jump
+  }
+  if (!stable) std::ranges::reverse(cycle.line);
+  found_.push_back(std::move(cycle));
+}
+
+void CycleSearch::about(const Vector2d& centre, double reach) {
+  constexpr double nearest = 1e-4;
+  constexpr int most_values = 400'000, halvings = 5, sections = 8;
+  *left_ = most_values;
+  const ReturnMap map(field_, centre, half_, rough);
+  const auto sample = [&](double place) { return Sample{place, map.growth(place)}; };
+  // Every stride halves the distances, so that the values of the field last for a search that is at least coarse.
+  std::vector<Sample> samples;
+  const auto insert = [&](const Sample& next) {
+    if (*left_ < 0) return;  // the sample is missing, although the orbit may turn
+    samples.insert(std::ranges::upper_bound(samples, next.place, {}, &Sample::place), next);
+  };
+  constexpr int count = 48, first = 8;
+  for (int stride = first; stride > 0; stride /= 2) {
+    for (int i = 0; i <= count && *left_ > 0; i += stride) {
+      if (stride == first || i % (2 * stride) != 0) insert(sample(reach * std::pow(nearest, 1 - 1. * i / count)));
+    }
+  }
+  // A change of sign may hide three cycles. Beside a loop of a saddle all cycles lie just within the orbits that turn.
+  const std::vector<Sample> scanned = samples;
+  for (std::size_t i = 1; i < scanned.size(); ++i) {
+    Sample turns = scanned[i - 1], other = scanned[i];
+    if (turns.growth * other.growth < 0) {
+      for (const double part : {0.25, 0.5, 0.75}) {
+        insert(sample(turns.place * std::pow(other.place / turns.place, part)));
+      }
+    }
+    if (std::isfinite(turns.growth) == std::isfinite(other.growth)) continue;
+    if (!std::isfinite(turns.growth)) std::swap(turns, other);
+    for (int k = 0; k < halvings; ++k) {
+      const Sample middle = sample(std::sqrt(turns.place * other.place));
+      (std::isfinite(middle.growth) ? turns : other) = middle;
+      insert(middle);
+    }
+  }
+  // A growth below the error of the orbits is 0. Two such growths in sequence are those of a center's closed orbits.
+  constexpr double roundings = 300;
+  const auto sign = [&](const Sample& at) {
+    const Vector2d x = map.point(at.place);
+    const double error = roundings * rough * (1 + x.cwiseQuotient(half_).norm() / at.place);
+    return at.growth > error ? 1 : at.growth < -error ? -1 : 0;
+  };
+  // Two cycles may lie between three places: there |growth| is small in the middle.
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    const int its = sign(samples[i]);
+    if (its == 0 || sign(samples[i - 1]) != its || sign(samples[i + 1]) != its) continue;
+    const auto size = [](const Sample& at) { return std::abs(at.growth); };
+    if (size(samples[i]) > size(samples[i - 1]) || size(samples[i]) > size(samples[i + 1])) continue;
+    Sample left = samples[i - 1], middle = samples[i], right = samples[i + 1];
+    for (int k = 0; k < sections && sign(middle) == its; ++k) {
+      const bool inner = middle.place / left.place > right.place / middle.place;
+      const Sample tried = sample(std::sqrt(middle.place * (inner ? left : right).place));
+      if (!std::isfinite(tried.growth)) break;
+      const bool better = its * tried.growth < its * middle.growth;
+      (better ? (inner ? right : left) : (inner ? left : right)) = better ? middle : tried;
+      if (better) middle = tried;
+    }
+    if (sign(middle) == -its) insert(middle);
+  }
+  const Sample* last = nullptr;  // last sample with a sign
+  int zeros = 0;
+  for (const Sample& next : samples) {
+    const int its = sign(next);
+    if (!std::isfinite(next.growth)) {
+      last = nullptr;
+    } else if (its == 0) {
+      ++zeros;
+      continue;
+    } else {
+      if (last && sign(*last) == -its && zeros < 2) {
+        try {
+          examine(centre, *last, next);
+        } catch (const std::domain_error&) {
+          // The cycle takes too many values of the field.
+        }
+      }
+      last = &next;
+    }
+    zeros = 0;
+  }
+}
+
+}  // namespace
+
+std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equilibria& equilibria, double reach) {
+  constexpr int most = 6;
+  CycleSearch search(field, (equilibria.high - equilibria.low) / 2);
+  int centres = 0;
+  for (const Equilibrium& each : equilibria.points) {
+    if (each.index.value_or(1) > 0 && ++centres <= most) search.about(each.x, reach);
+  }
+  if (equilibria.on_curve && centres < most) search.about(*equilibria.on_curve, reach);
+  return search.take();
+}
+
+}  // namespace contensou::reduction
