@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "data/isochrones.hpp"
+#include "data/planar_window.hpp"
 #include "data/tracing.hpp"
 #include "data/widest_gaps.hpp"
 #include "data/zero_lines.hpp"
@@ -79,7 +81,10 @@ class PlanarTracer {
 
   /// Returns the parts in the window of the orbit through a point, or of its part after the point.
   std::vector<PortraitOrbit> orbit(const Vector2d& x, bool from_here = false) const {
-    return parts_of(line(x, from_here), window_, [this](const Vector2d& at) { return time_left(at); });
+    return parts(line(x, from_here));
+  }
+  std::vector<PortraitOrbit> parts(const Polyline& line) const {
+    return parts_of(line, window_, [this](const Vector2d& at) { return time_left(at); });
   }
 
   /// Returns the number of the sector that contains a point, 0 without sectors; empty if the field has no value.
@@ -323,10 +328,29 @@ Polyline ScaledTracer::spiral(double q, double p, double integral, bool from_her
 /// Traces orbits forwards and backwards in time.
 class TimedTracer final : public PlanarTracer {
  public:
-  TimedTracer(const PlanarReduction& plane, const Window& window)
+  TimedTracer(const PlanarReduction& plane, const Window& window, const std::vector<reduction::LimitCycle>& cycles)
       : PlanarTracer(plane, window),
-        forth_{plane, reduction::by_steps(plane.field())},
-        back_{plane.reversed(), forth_.by_steps.reversed()} {}
+        forth_{plane, reduction::by_steps(plane.field()), {}},
+        back_{plane.reversed(), forth_.by_steps.reversed(), {}} {
+    for (const reduction::LimitCycle& cycle : cycles) {
+      for (std::size_t i = 1; i < cycle.line.size(); ++i) {
+        const Vector2d step = cycle.line[i] - cycle.line[i - 1];
+        const int pieces = 1 + static_cast<int>(2 * cells * step.cwiseQuotient(window.sides()).norm());
+        for (int k = 0; k < pieces; ++k) {
+          const Cell cell = cell_of(cycle.line[i - 1] + step * k / pieces);
+          constexpr int around = 3;
+          for (int j = 0; j < (2 * around + 1) * (2 * around + 1); ++j) {
+            (cycle.stable ? forth_ : back_)
+                .cycles.insert(
+                    {cell.first + j % (2 * around + 1) - around, cell.second + j / (2 * around + 1) - around});
+          }
+        }
+      }
+    }
+  }
+
+  /// Returns the motion from a point on, or the motion before it from the point backwards.
+  Polyline branch(const Vector2d& x, bool back) const { return follow(back ? back_ : forth_, x); }
 
   std::optional<std::size_t> sector(const Vector2d& x) const override {
     try {
@@ -337,10 +361,19 @@ class TimedTracer final : public PlanarTracer {
   }
 
  private:
-  /// A system and its orbits by steps in time.
+  using Cell = std::pair<int, int>;
+  static constexpr int cells = 300;  ///< cells of the picture along a side
+
+  /// A system, its orbits by steps in time, and the cells about the limit cycles that its motions near.
   struct Way {
     PlanarReduction plane, by_steps;
+    std::set<Cell> cycles;
   };
+
+  Cell cell_of(const Vector2d& x) const {
+    const Vector2d place = (x - window_.low).cwiseQuotient(window_.sides()).cwiseMax(-9).cwiseMin(9) * cells;
+    return {static_cast<int>(std::floor(place[0])), static_cast<int>(std::floor(place[1]))};
+  }
 
   Polyline line(const Vector2d& x, bool from_here) const override {
     Polyline line;
@@ -377,8 +410,9 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
   double time = 0, step = near / speed;
   const double last = motion.period().value_or(infinity);
   // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
-  constexpr int cells = 300, turns = 3;
-  std::map<std::pair<int, int>, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
+  constexpr int turns = 3;
+  std::map<Cell, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
+  bool apart = !way.cycles.contains(cell_of(x));
   for (int i = 0; i < most && time < last; ++i) {
     const double next = std::min(time + step, last);
     Vector2d there;
@@ -402,9 +436,12 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
       if (!(time + step > time)) break;
       continue;
     }
-    const Vector2d part = (there - window_.low).cwiseQuotient(sides) * cells;
+    // The cycle itself is drawn, so the orbit ends before it covers the cycle.
+    const bool at_cycle = way.cycles.contains(cell_of(there));
+    if (apart && at_cycle) break;
+    apart = !at_cycle;
     if (beyond == 0) {
-      auto& [when, count] = visits[{static_cast<int>(part[0]), static_cast<int>(part[1])}];
+      auto& [when, count] = visits[cell_of(there)];
       const bool again = count > 0 && static_cast<int>(line.size()) - when > cells / 10;
       when = static_cast<int>(line.size());
       count += count == 0 || again ? 1 : 0;
@@ -420,11 +457,21 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
   return line;
 }
 
-/// Returns the orbits that leave or enter the saddles, from points just beside the saddles.
-std::vector<PortraitOrbit> separatrices(const PlanarTracer& tracer, const reduction::Equilibria& equilibria,
-                                        const Window& window) {
-  std::vector<PortraitOrbit> all;
-  for (const reduction::Equilibrium& saddle : equilibria.points) {
+/// A motion along a manifold of a saddle, from the saddle on. A motion along a stable manifold is traced backwards.
+struct SaddleBranch {
+  std::size_t saddle;
+  bool stable;
+  Polyline line;
+  std::size_t to = 0;  ///< number of the saddle at the other end, if the branch joins two saddles
+  bool joins = false;
+};
+
+/// Returns the motions that leave or enter the saddles, from points just beside the saddles.
+std::vector<SaddleBranch> branches_of(const TimedTracer& tracer, const reduction::Equilibria& equilibria,
+                                      const Window& window) {
+  std::vector<SaddleBranch> all;
+  for (std::size_t i = 0; i < equilibria.points.size(); ++i) {
+    const reduction::Equilibrium& saddle = equilibria.points[i];
     // A saddle with an eigenvalue 0 has separatrices, too, but not all are tangent to eigenvectors that are known.
     if (saddle.kind != "saddle" || !saddle.eigenvalues) continue;
     const auto [stable, unstable] = *saddle.eigenvalues;
@@ -437,17 +484,70 @@ std::vector<PortraitOrbit> separatrices(const PlanarTracer& tracer, const reduct
       along *= beside / along.cwiseQuotient(window.sides()).norm();
       for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
         if (!tracer.sector(x)) continue;
-        std::ranges::move(tracer.orbit(x), std::back_inserter(all));
+        SaddleBranch branch{i, value < 0, {{saddle.x[0], saddle.x[1]}}};
+        std::ranges::copy(tracer.branch(x, value < 0), std::back_inserter(branch.line));
+        all.push_back(std::move(branch));
       }
     }
   }
   return all;
 }
 
+/// Ends branches at the saddle that they come to, and leaves out the second branch of each connection. A connection
+/// is certain if the unstable branch of one saddle comes to the other, and the stable branch of the other to the first.
+void join_branches(std::vector<SaddleBranch>& branches, const reduction::Equilibria& equilibria, const Window& window) {
+  constexpr double left = 0.02, arrived = 3e-4;  // fractions of the window
+  const auto distance = [&](Point a, std::size_t saddle) {
+    return (vector_of(a) - equilibria.points[saddle].x).cwiseQuotient(window.sides()).norm();
+  };
+  std::vector<std::optional<std::size_t>> ends;  // index of the point at which a branch comes to a saddle
+  for (SaddleBranch& branch : branches) {
+    std::optional<std::size_t>& end = ends.emplace_back();
+    std::optional<std::size_t> border;  // index of the first point outside the window
+    bool away = false;
+    for (std::size_t k = 0; k < branch.line.size() && !end; ++k) {
+      const Point& here = branch.line[k];
+      away |= distance(here, branch.saddle) > left;
+      if (!border && !window.contains({here.x, here.y})) border = k;
+      for (const SaddleBranch& other : branches) {
+        if (end || !away || other.stable == branch.stable || !(distance(here, other.saddle) < arrived)) continue;
+        end = k;
+        branch.to = other.saddle;
+      }
+    }
+    if (!end || !border) continue;
+    // Outside the window the branch has passed another saddle. Behind it, rounding has chosen the side.
+    branch.line.resize(*border + 1);
+    end.reset();
+  }
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    SaddleBranch& out = branches[i];
+    if (out.stable || !ends[i]) continue;
+    for (std::size_t j = 0; j < branches.size() && !out.joins; ++j) {
+      SaddleBranch& in = branches[j];
+      if (!in.stable || !ends[j] || in.saddle != out.to || in.to != out.saddle || in.line.empty()) continue;
+      // Both run along one curve: the middle of one lies near the other.
+      const Vector2d middle = vector_of(in.line[*ends[j] / 2]);
+      if (std::ranges::none_of(out.line, [&](Point at) {
+            return (vector_of(at) - middle).cwiseQuotient(window.sides()).norm() < left;
+          })) {
+        continue;
+      }
+      out.joins = true;
+      out.line.resize(*ends[i]);
+      const Vector2d& saddle = equilibria.points[out.to].x;
+      out.line.push_back({saddle[0], saddle[1]});
+      in.line.clear();
+    }
+  }
+  std::erase_if(branches, [](const SaddleBranch& branch) { return branch.line.empty(); });
+}
+
 /// Returns orbits that fill the window. Each goes through the middle of the widest gap. If the mirror images of an
 /// orbit have as much room, they are added, too, because most systems have such a symmetry.
+/// @param drawn  other lines of the picture, which need room, too
 std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
-                                   std::optional<int> count) {
+                                   std::optional<int> count, const std::vector<Polyline>& drawn) {
   const Panel panel = panel_of(window);
   constexpr double gap = 0.055;  // smallest gap that gets an orbit, as a fraction of the window's side
   constexpr int most = 80, across = 41;
@@ -458,6 +558,9 @@ std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& win
     return its ? std::optional(Gaps::Seed{place, x, *its}) : std::nullopt;
   };
   Gaps gaps(across, across, seed_at, {1, 1});
+  for (const Polyline& line : drawn) {
+    for (const Point& at : line) gaps.pass(0, on_paper(panel, at));
+  }
   std::vector<PortraitOrbit> orbits;
   std::vector<Point> mirrored;  // places to try first
   const Point centre = on_paper(panel, {middle[0], middle[1]});
@@ -496,60 +599,175 @@ Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
+/// Returns a chosen view, wider by a margin, by the separatrices and by the orbit of the start. Lines that leave the
+/// surroundings of the view do not count.
+Window widened(const PlanarReduction& plane, const PlanarView& view, const PortraitRequest& request) {
+  const Vector2d sides = view.window.sides();
+  const Window room{view.window.low - sides, view.window.high + sides};
+  const PlanarReduction steps = reduction::by_steps(plane.field());
+  const TimedTracer tracer(steps, room, view.cycles);
+  std::vector<Polyline> lines;
+  const reduction::Equilibria equilibria = reduction::find_equilibria(plane.field(), view.window.low, view.window.high);
+  for (SaddleBranch& branch : branches_of(tracer, equilibria, room)) lines.push_back(std::move(branch.line));
+  if (request.highlight && tracer.sector(vector_of(*request.highlight))) {
+    lines.push_back(tracer.branch(vector_of(*request.highlight), false));
+  }
+  Window window = view.window;
+  for (const Polyline& line : lines) {
+    Window around{window};
+    for (const Point& at : line) around = united(around, vector_of(at));
+    bool stays = true;
+    for (int axis = 0; axis < 2; ++axis) {
+      stays &= view.periodic[static_cast<std::size_t>(axis)] ||
+               (around.low[axis] >= room.low[axis] && around.high[axis] <= room.high[axis]);
+    }
+    if (stays) window = around;
+  }
+  constexpr double margin = 0.08;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double added = margin * window.sides()[axis];
+    window.low[axis] = view.periodic[i] || view.fixed_low[i] ? view.window.low[axis] : window.low[axis] - added;
+    window.high[axis] = view.periodic[i] ? view.window.high[axis] : window.high[axis] + added;
+  }
+  return window;
+}
+
+/// Returns the parts of a window's curves f = 0 on which a condition holds, for one component of the field.
+template <class Holds>
+std::vector<PortraitOrbit> zero_curves(const reduction::SmoothField& field, int component, const Window& window,
+                                       const Holds& holds) {
+  const auto value = [&](const Vector2d& x) {
+    try {
+      return field(x)[component];
+    } catch (const std::exception&) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  };
+  std::vector<PortraitOrbit> curves;
+  for (const Polyline& line : zero_lines({window.low, window.high, value}, window.sides())) {
+    Polyline part;
+    for (std::size_t i = 0; i <= line.size(); ++i) {
+      if (i < line.size() && holds(vector_of(line[i]))) {
+        part.push_back(line[i]);
+      } else if (part.size() > 1) {
+        curves.push_back(columns(std::exchange(part, {}), infinity));
+      } else {
+        part.clear();
+      }
+    }
+  }
+  return curves;
+}
+
+/// Returns the curves of equilibria in a window.
+std::vector<PortraitOrbit> curves_of_equilibria(const reduction::SmoothField& field, const Window& window) {
+  double largest = 0;
+  constexpr int across = 7;
+  const auto speed = [&](const Vector2d& x) {
+    try {
+      return field(x).norm();
+    } catch (const std::exception&) {
+      return infinity;
+    }
+  };
+  for (int i = 0; i < across * across; ++i) {
+    const double at = speed(
+        window.low + Vector2d((i % across + 0.41) / across, (i / across + 0.43) / across).cwiseProduct(window.sides()));
+    if (std::isfinite(at)) largest = std::max(largest, at);
+  }
+  constexpr double zero = 1e-6;
+  const auto vanishes = [&](const Vector2d& x) { return speed(x) <= zero * largest; };
+  std::vector<PortraitOrbit> curves = zero_curves(field, 0, window, vanishes);
+  return curves.empty() ? zero_curves(field, 1, window, vanishes) : curves;
+}
+
 /// Returns the requested window or the default window, and checks the request.
-Window window_of(const PlanarReduction& plane, const PortraitRequest& request) {
+PlanarView view_of(const PlanarReduction& plane, const PortraitRequest& request) {
   if (request.view || request.comparison || request.uncoupled || request.stepped || request.linear ||
       request.drawn_only || request.time_unit != 1) {
     throw std::domain_error("portrait: views, laws, routes, scales and units of time are only for (2.6)");
   }
+  PlanarView view{request.window.value_or(Window{})};
   const Vector2d middle = middle_of(plane);
-  double half = 0;
-  const double room = plane.scaling() ? 1.2 : 2.5;
-  const auto include = [&](const State& x) {
-    half = std::max(half, room * (vector_of(x) - middle).lpNorm<Eigen::Infinity>());
-  };
-  if (request.highlight) include(*request.highlight);
-  std::ranges::for_each(request.through, include);
-  const Vector2d half_sides = request.sides.value_or(Vector2d::Constant(half > 0 ? half : 1));
-  const Window window = request.window.value_or(Window{middle - half_sides, middle + half_sides});
+  std::vector<Vector2d> points;
+  for (const State& x : request.through) points.push_back(vector_of(x));
+  if (request.highlight) points.insert(points.begin(), vector_of(*request.highlight));
+  if (request.sides && !request.window) {
+    view.window = {middle - *request.sides, middle + *request.sides};
+  } else if (!request.window && plane.scaling() != nullptr) {
+    double half = 0;
+    constexpr double room = 1.2;
+    for (const Vector2d& x : points) half = std::max(half, room * (x - middle).lpNorm<Eigen::Infinity>());
+    const Vector2d sides = Vector2d::Constant(half > 0 ? half : 1);
+    view.window = {middle - sides, middle + sides};
+  } else if (!request.window && std::ranges::all_of(points, [](const Vector2d& x) { return x.allFinite(); })) {
+    view = chosen_view(plane, points);
+    view.window = widened(plane, view, request);
+  }
+  const Window& window = view.window;
   if (!(window.sides().minCoeff() > 0) || !window.sides().allFinite() || !window.low.allFinite()) {
     throw std::domain_error(
         fmt::format("portrait: the window must be finite and have two positive sides, got {} to {} by {} to {}",
                     window.low[0], window.high[0], window.low[1], window.high[1]));
   }
   require(request, window);
-  return window;
+  if ((request.window || request.sides) && plane.scaling() == nullptr) view.cycles = cycles_within(plane, window);
+  return view;
 }
 
 }  // namespace
 
 PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
-  const Window window = window_of(plane, request);
+  PlanarView view = view_of(plane, request);
+  const Window& window = view.window;
   PlanarPortrait portrait{{window, {}, {}, 0, {}, {}, request.through}, std::move(name), plane};
+  portrait.cycles = std::move(view.cycles);
+  portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
+  compare_kinds(portrait.equilibria, plane);
+  portrait.switching = switching_parts(plane.field(), window.low, window.high);
+  leave_out_rests(portrait.equilibria, portrait.switching);
   std::unique_ptr<const PlanarTracer> traced;
+  std::vector<Polyline> drawn;  // lines beside which ordinary orbits are not needed
   if (plane.scaling() != nullptr) {
     traced = std::make_unique<const ScaledTracer>(portrait.plane, window);
   } else {
-    traced = std::make_unique<const TimedTracer>(portrait.plane, window);
+    auto timed = std::make_unique<const TimedTracer>(portrait.plane, window, portrait.cycles);
+    for (const reduction::LimitCycle& cycle : portrait.cycles) {
+      Polyline& line = drawn.emplace_back();
+      for (const Vector2d& x : cycle.line) line.push_back({x[0], x[1]});
+    }
+    std::vector<SaddleBranch> branches = branches_of(*timed, portrait.equilibria, window);
+    join_branches(branches, portrait.equilibria, window);
+    for (SaddleBranch& branch : branches) {
+      if (branch.stable) std::ranges::reverse(branch.line);
+      for (PortraitOrbit& part : timed->parts(branch.line)) {
+        portrait.separatrices.push_back({std::move(part), branch.joins    ? "connection"
+                                                          : branch.stable ? "stable"
+                                                                          : "unstable"});
+      }
+      drawn.push_back(std::move(branch.line));
+    }
+    if (portrait.equilibria.on_curve) portrait.lines_of_equilibria = curves_of_equilibria(plane.field(), window);
+    for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
+      for (const Polyline& line : zero_lines(piece, window.sides())) {
+        portrait.invariant.push_back(columns(line, infinity));
+      }
+    }
+    traced = std::move(timed);
   }
   const PlanarTracer& tracer = *traced;
-  portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits);
+  portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits, drawn);
   const auto asked = [&](const State& x, bool from_here) {
     plane.end(vector_of(x));  // throws for a point without a value
     return tracer.orbit(vector_of(x), from_here);
   };
   if (request.highlight) portrait.highlight = asked(*request.highlight, true);
   for (const State& x : request.through) std::ranges::move(asked(x, false), std::back_inserter(portrait.through));
-  portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
-  compare_kinds(portrait.equilibria, plane);
-  portrait.switching = switching_parts(plane.field(), window.low, window.high);
-  leave_out_rests(portrait.equilibria, portrait.switching);
-  if (plane.scaling() == nullptr) {
-    portrait.separatrices = separatrices(tracer, portrait.equilibria, window);
-    for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
-      for (const Polyline& line : zero_lines(piece, window.sides())) {
-        portrait.invariant.push_back(columns(line, infinity));
-      }
+  if (request.nullclines) {
+    for (int i : {0, 1}) {
+      portrait.nullclines[static_cast<std::size_t>(i)] =
+          zero_curves(plane.field(), i, window, [](const Vector2d&) { return true; });
     }
   }
   const std::vector<double> times = tracer.times_at_border();

@@ -129,6 +129,7 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
     rays.push_back({{"angle", ray.q}, {"attracts", ray.attracts}, {"to_centre", ray.to_centre}});
   }
   Json json{{"system", portrait.name},
+            {"variables", portrait.variables},
             {"kind", plane.kind().empty() ? Json() : Json(plane.kind())},
             {"centre", plane.scaling() ? Json{plane.centre()[0], plane.centre()[1]} : Json()},
             {"window", ends_of(portrait.window)},
@@ -174,8 +175,19 @@ std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source
   Json json{{"schema", 1}};
   json.update(origin_of(portrait, source));
   add_curves(json, portrait, nullptr);
-  if (!portrait.separatrices.empty()) json["separatrices"] = json_of(portrait.separatrices, nullptr);
-  for (const auto& line : portrait.invariant) json["invariant"].push_back({{"u", list(line.u)}, {"v", list(line.v)}});
+  for (const Separatrix& each : portrait.separatrices) {
+    json["separatrices"].push_back(json_of(each, nullptr));
+    json["separatrices"].back()["manifold"] = each.manifold;
+  }
+  const auto add_lines = [&](const char* name, const std::vector<PortraitOrbit>& lines) {
+    for (const auto& line : lines) json[name].push_back({{"u", list(line.u)}, {"v", list(line.v)}});
+  };
+  add_lines("invariant", portrait.invariant);
+  add_lines("equilibria_lines", portrait.lines_of_equilibria);
+  add_lines("u_nullclines", portrait.nullclines[0]);
+  add_lines("v_nullclines", portrait.nullclines[1]);
+  json["cycles"] = Json::array();
+  for (const reduction::LimitCycle& each : portrait.cycles) json["cycles"].push_back(cycle_members<Json>(each));
   return json_document(json);
 }
 
@@ -208,7 +220,7 @@ std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source)
   table.add("orbit", portrait.orbits);
   table.add("highlight", portrait.highlight);
   table.add("through", portrait.through);
-  table.add("separatrix", portrait.separatrices);
+  table.add("separatrix", std::vector<PortraitOrbit>(portrait.separatrices.begin(), portrait.separatrices.end()));
   table.add("invariant", portrait.invariant);
   table.add("isochrone", portrait.isochrones);
   return csv_remarks(origin_of(portrait, source)) + table.heading() + table.rows;

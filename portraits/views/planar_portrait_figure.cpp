@@ -76,6 +76,81 @@ Text variable(std::string name) {
   return math(name);
 }
 
+/// Adds the curves V = 0, without the parts that are drawn as separatrices, limit cycles or curves of equilibria.
+void add_invariant_curves(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
+  constexpr double near = 0.008;  // a fraction of the window
+  constexpr std::size_t least = 8;
+  std::vector<Point> others;
+  const auto add = [&](double u, double v) { others.push_back(on_paper(layers.panel(), {u, v})); };
+  const auto add_all = [&](const PortraitOrbit& line) {
+    for (Eigen::Index i = 0; i < line.rows(); ++i) add(line.u[i], line.v[i]);
+  };
+  std::ranges::for_each(portrait.separatrices, add_all);
+  std::ranges::for_each(portrait.lines_of_equilibria, add_all);
+  for (const reduction::LimitCycle& cycle : portrait.cycles) {
+    for (const Vector2d& x : cycle.line) add(x[0], x[1]);
+  }
+  Lines lines{{},
+              {palette.comparison, 3},
+              "invariant curves: " + math("V = 0") + " (" + math("V") + ": inverse integrating factor)"};
+  for (const TimedLine& curve : layers.lines_of(portrait.invariant)) {
+    Polyline part;
+    for (std::size_t i = 0; i <= curve.line.size(); ++i) {
+      const bool apart = i < curve.line.size() && std::ranges::none_of(others, [&](Point other) {
+                           const Point here = on_paper(layers.panel(), curve.line[i]);
+                           return std::hypot(here.x - other.x, here.y - other.y) < near;
+                         });
+      if (apart) {
+        part.push_back(curve.line[i]);
+      } else if (Polyline whole = std::exchange(part, {}); whole.size() > least) {
+        lines.lines.push_back(std::move(whole));
+      }
+    }
+  }
+  if (!lines.lines.empty()) layers.panel().lines.push_back(std::move(lines));
+}
+
+/// Returns the mark of an equilibrium: filled if it is stable.
+Marks::Shape shape_of(std::string_view kind) {
+  if (kind == "saddle") return Marks::Shape::square;
+  return kind.starts_with("stable") || kind == "center" ? Marks::Shape::dot : Marks::Shape::circle;
+}
+
+/// Adds the limit cycles, each with its period and multiplier in the legend.
+void add_cycles(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
+  for (const reduction::LimitCycle& cycle : portrait.cycles) {
+    constexpr double wide = 4;
+    Lines line{{{}}, {palette.comparison, wide, !cycle.stable}, ""};
+    for (const Vector2d& x : cycle.line) line.lines.front().push_back({x[0], x[1]});
+    if (clipped(layers.panel(), line.lines.front()).empty()) continue;
+    line.legend = Text(cycle.stable ? "stable limit cycle, " : "unstable limit cycle, ") + math("T") +
+                  fmt::format(" = {:.5g}", cycle.period);
+    if (std::isfinite(cycle.multiplier)) line.legend += Text(fmt::format(", multiplier {:.3g}", cycle.multiplier));
+    layers.add_invariant(std::move(line));
+  }
+}
+
+/// Adds the separatrices, one layer for each manifold.
+void add_separatrices(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
+  struct Look {
+    std::string_view manifold;
+    bool dashed;
+    double width;
+    const char* legend;
+  };
+  for (const Look& look : {Look{"stable", true, 2, "stable manifolds of saddles"},
+                           Look{"unstable", false, 2, "unstable manifolds of saddles"},
+                           Look{"connection", false, 3, "orbits that join saddles"}}) {
+    std::vector<PortraitOrbit> curves;
+    std::ranges::copy_if(portrait.separatrices, std::back_inserter(curves),
+                         [&](const Separatrix& each) { return each.manifold == look.manifold; });
+    if (curves.empty()) continue;
+    Lines lines{{}, {palette.comparison, look.width, look.dashed}, look.legend};
+    for (TimedLine& curve : layers.lines_of(curves)) lines.lines.push_back(std::move(curve.line));
+    layers.add_invariant(std::move(lines));
+  }
+}
+
 /// Returns the parts of the unit square in which a condition does not hold. Columns of the square are searched; in
 /// neighbouring columns with the same number of gaps, the gaps are joined.
 std::vector<Polyline> gaps_of(const std::function<bool(Point)>& holds) {
@@ -188,29 +263,39 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     layers.add_directions(drift, "direction of the motion");
   }
   if (style.invariant && scaling) add_rays(layers, portrait, look.palette);
-  if (style.invariant && !portrait.invariant.empty()) {
-    Lines lines{{}, {look.palette.comparison, 3}, "invariant curves: V = 0"};
-    for (TimedLine& curve : layers.lines_of(portrait.invariant)) lines.lines.push_back(std::move(curve.line));
+  if (style.invariant) {
+    add_invariant_curves(layers, portrait, look.palette);
+    add_separatrices(layers, portrait, look.palette);
+    add_cycles(layers, portrait, look.palette);
+  }
+  if (!portrait.lines_of_equilibria.empty()) {
+    Lines lines{{}, {look.palette.invariant, 4, false, true}, "equilibria"};
+    for (TimedLine& curve : layers.lines_of(portrait.lines_of_equilibria)) lines.lines.push_back(std::move(curve.line));
     layers.panel().lines.push_back(std::move(lines));
   }
-  if (style.invariant && !portrait.separatrices.empty()) {
-    layers.add_plain(layers.lines_of(portrait.separatrices), {look.palette.comparison, 2}, "separatrices of saddles");
+  for (std::size_t i : {0U, 1U}) {
+    if (portrait.nullclines[i].empty()) continue;
+    Lines lines{{}, {look.palette.invariant, 1.5, i == 1, i == 0}, variable(portrait.variables[i] + "'") + " = 0"};
+    for (TimedLine& curve : layers.lines_of(portrait.nullclines[i])) lines.lines.push_back(std::move(curve.line));
+    layers.panel().lines.push_back(std::move(lines));
   }
   add_switching(layers, portrait.switching, look.palette);
   layers.add_highlights();
   if (scaling) {
     // No other equilibrium is isolated.
     const Vector2d& centre = portrait.plane.centre();
-    layers.panel().marks.push_back(
-        {{{centre[0], centre[1]}}, look.palette.invariant, 1.2, Marks::Shape::dot, "centre of the symmetry"});
+    layers.panel().marks.push_back({{{centre[0], centre[1]}},
+                                    look.palette.invariant,
+                                    1.2,
+                                    shape_of(portrait.plane.kind()),
+                                    "centre of the symmetry"});
   } else {
     std::map<std::string_view, Marks> of_kind;
     for (const reduction::Equilibrium& each : portrait.equilibria.points) {
-      const auto mark = each.kind.starts_with("stable") ? Marks::Shape::dot
-                        : each.kind == "saddle"         ? Marks::Shape::square
-                                                        : Marks::Shape::circle;
       Marks& marks =
-          of_kind.try_emplace(each.kind, Marks{{}, look.palette.invariant, 1.2, mark, std::string(each.kind)})
+          of_kind
+              .try_emplace(each.kind,
+                           Marks{{}, look.palette.invariant, 1.2, shape_of(each.kind), std::string(each.kind)})
               .first->second;
       marks.points.push_back({each.x[0], each.x[1]});
     }
@@ -228,6 +313,11 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
                         ? kind
                         : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
                                       portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
+  Text values;
+  for (const auto& [letter, value] : portrait.parameters) {
+    values += (values.empty() ? Text() : Text(", ")) + math(letter) + fmt::format(" = {}", value);
+  }
+  if (!values.empty()) figure.subtitle = values + "; " + figure.subtitle;
   if (has_gaps) figure.subtitle += "; grey: the field has no value";
   figure.size = size;
   figure.theme = look.palette.theme;

@@ -224,7 +224,7 @@ void CycleSearch::examine(const Vector2d& centre, const Sample& inside, const Sa
   if (!(below * inside.growth > 0 && above * outside.growth > 0)) return;
   if (!(std::min(std::abs(below), std::abs(above)) > closed)) return;
   LimitCycle cycle{fine.point(place), turn->times.back(), std::numeric_limits<double>::quiet_NaN(), stable, {}};
-  constexpr int parts = 10;
+  constexpr int parts = 24;  // enough for a smooth line on paper
   for (std::size_t i = 1; i < turn->times.size(); ++i) {
     for (int k = 0; k < parts; ++k) {
       const double from = turn->times[i - 1], to = turn->times[i];
@@ -347,6 +347,35 @@ std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equili
   }
   if (equilibria.on_curve && centres < most) search.about(*equilibria.on_curve, reach);
   return search.take();
+}
+
+bool nears(const SmoothField& field, const LimitCycle& cycle, const Vector2d& start) {
+  constexpr int most = 100;
+  constexpr double close = 1e-3, closed = 1e-6;
+  Vector2d low = cycle.x, high = cycle.x;
+  for (const Vector2d& x : cycle.line) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const auto distance = [&](const Vector2d& way) { return way.cwiseQuotient(high - low).norm(); };
+  try {
+    const PlanarOrbit orbit = by_steps(field, rough).orbit(start);
+    Vector2d here = start;
+    for (int i = 1; cycle.stable && i <= most; ++i) {
+      const Vector2d next = orbit.at(i * cycle.period), moved = next - here;
+      here = next;
+      if (!(distance(moved) <= closed)) continue;
+      for (std::size_t k = 1; k < cycle.line.size(); ++k) {
+        const Vector2d side = cycle.line[k] - cycle.line[k - 1], way = here - cycle.line[k - 1];
+        const double part = std::clamp(way.dot(side) / side.squaredNorm(), 0., 1.);
+        if (distance(way - part * side) <= close) return true;
+      }
+      return false;
+    }
+  } catch (const std::domain_error&) {
+    // The steps do not follow the orbit so far.
+  }
+  return false;
 }
 
 }  // namespace contensou::reduction

@@ -1,9 +1,12 @@
 #include "contensou/portraits/planar_portrait.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,7 @@ using Catch::Matchers::Contains;
 using Eigen::Vector2d;
 using reduction::PlanarField;
 using reduction::PlanarReduction;
+using reduction::State;
 
 namespace {
 
@@ -284,4 +288,163 @@ TEST_CASE("a planar portrait does not depend on the unit of length", "[symmetry]
       }
     }
   }
+}
+
+namespace {
+
+PlanarPortrait stepped_portrait(const PlanarField& field, const PortraitRequest& request = {}) {
+  return planar_portrait(reduction::by_steps({field}), "a system", request);
+}
+
+const PlanarField pendulum = [](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0])); };
+const PlanarField van_der_pol = [](const Vector2d& x) { return Vector2d(x[1], (1 - x[0] * x[0]) * x[1] - x[0]); };
+
+}  // namespace
+
+TEST_CASE("the window of a planar portrait shows what the system has", "[output]") {
+  // The limit cycle, whose amplitudes are 2.0086 and 2.6726 (SciPy's DOP853).
+  const Window cycle = stepped_portrait(van_der_pol).window;
+  CHECK(-cycle.low[0] == Approx(2.5).epsilon(0.2));
+  CHECK(cycle.high[1] == Approx(3.3).epsilon(0.2));
+  // One and a half periods, and the orbits that turn over.
+  const Window periods = stepped_portrait(pendulum).window;
+  CHECK(periods.low[0] == Approx(-1.5 * std::numbers::pi));
+  CHECK(periods.high[0] == Approx(1.5 * std::numbers::pi));
+  CHECK(periods.high[1] > 2.3);
+  CHECK(periods.high[1] < 5);
+  // About a start that lies some periods away.
+  const Window moved = stepped_portrait(pendulum, {.highlight = {{20, 0.1}}}).window;
+  CHECK((moved.low[0] + moved.high[0]) / 2 == Approx(6 * std::numbers::pi));
+  // The positive quadrant of a population.
+  const PlanarField animals = [](const Vector2d& x) { return Vector2d(x[0] * (1 - x[1]), x[1] * (x[0] - 1)); };
+  const Window population = stepped_portrait(animals).window;
+  CHECK(population.low == Vector2d(0, 0));
+  CHECK(population.high.minCoeff() > 1.7);
+  CHECK(population.high.maxCoeff() < 4);
+  CHECK(stepped_portrait(animals, {.highlight = {{1, -0.5}}}).window.low[1] < -0.5);
+  // The loop of a saddle, which reaches from 0 to 1.5.
+  const Window loop = stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], x[0] - x[0] * x[0]); }).window;
+  CHECK(loop.high[0] > 1.5);
+  CHECK(loop.high[0] < 3);
+  CHECK(loop.low[0] < -0.2);
+  // Equilibria of y' = F(x, y).
+  const Window growth = stepped_portrait([](const Vector2d& x) { return Vector2d(1, x[1] * (1 - x[1] / 10)); }).window;
+  CHECK(growth.high[1] > 10);
+  CHECK(growth.high[1] < 20);
+  const Window asked{{-3, -1}, {2, 4}};
+  CHECK(stepped_portrait(van_der_pol, {.window = asked}).window.low == asked.low);
+}
+
+TEST_CASE("limit cycles are drawn once, and other orbits end beside them", "[output]") {
+  const PlanarField two = [](const Vector2d& x) -> Vector2d {  // cycles of radius 0.5 and 1
+    const double square = x.squaredNorm();
+    return (square - 0.25) * (1 - square) * x + Vector2d(-x[1], x[0]);
+  };
+  const PlanarPortrait portrait = stepped_portrait(two, {.highlight = {{0.7, 0.1}}});
+  REQUIRE(portrait.cycles.size() == 2);
+  const double side = portrait.window.sides()[0];
+  REQUIRE(portrait.orbits.size() > 8);
+  for (const PortraitOrbit& orbit : portrait.orbits) {
+    for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
+      const double r = std::hypot(orbit.u[i], orbit.v[i]);
+      CHECK(std::min(std::abs(r - 0.5), std::abs(r - 1)) > 0.005 * side);
+    }
+  }
+  // The orbit of the start comes near the stable cycle and ends.
+  REQUIRE(portrait.highlight.size() == 1);
+  const PortraitOrbit& asked = portrait.highlight.front();
+  CHECK(std::hypot(asked.u[asked.rows() - 1], asked.v[asked.rows() - 1]) == Approx(1).margin(0.03 * side));
+  const auto json = nlohmann::json::parse(to_json(portrait));
+  REQUIRE(json["cycles"].size() == 2);
+  for (const auto& cycle : json["cycles"]) {
+    CHECK(cycle["period"].get<double>() == Approx(2 * std::numbers::pi).epsilon(1e-9));
+    const double square = std::pow(cycle["u"].get<double>(), 2) + std::pow(cycle["v"].get<double>(), 2);
+    CHECK(cycle["stable"] == square > 0.5);
+    CHECK(square == Approx(square > 0.5 ? 1 : 0.25).epsilon(1e-9));
+    // The rate of the radius r has the slope 2 r^2 (1.25 - 2 r^2) at the cycle.
+    CHECK(std::log(cycle["multiplier"].get<double>()) ==
+          Approx(2 * std::numbers::pi * 2 * square * (1.25 - 2 * square)).epsilon(1e-7));
+  }
+  const Panel panel = draw(portrait).panels[0];
+  const Lines &stable = layer(panel, "stable limit cycle, T = 6.2832, multiplier 8.07e-05"),
+              &unstable = layer(panel, "unstable limit cycle, T = 6.2832, multiplier 10.6");
+  CHECK(!stable.stroke.dashed);
+  CHECK(unstable.stroke.dashed);
+  CHECK(stable.lines.size() == 1);
+  CHECK(panel.lines.back().legend == Text("orbit of the start"));
+}
+
+TEST_CASE("separatrices have a direction, and a connection is one line", "[output]") {
+  const auto count = [](const PlanarPortrait& portrait, std::string_view manifold) {
+    return std::ranges::count(portrait.separatrices, manifold, &Separatrix::manifold);
+  };
+  const PlanarPortrait swings = stepped_portrait(pendulum);
+  CHECK(count(swings, "connection") == 2);
+  CHECK(count(swings, "stable") == 2);
+  CHECK(count(swings, "unstable") == 2);
+  for (const Separatrix& each : swings.separatrices) {
+    for (Eigen::Index i = 0; i < each.rows(); ++i) {
+      CHECK(std::abs(each.v[i]) == Approx(2 * std::abs(std::cos(each.u[i] / 2))).margin(1e-4));
+    }
+  }
+  const PlanarPortrait loop = stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], x[0] - x[0] * x[0]); });
+  CHECK(count(loop, "connection") == 1);
+  const PlanarPortrait damped =
+      stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], x[0] - std::pow(x[0], 3) - 0.2 * x[1]); });
+  CHECK(count(damped, "connection") == 0);
+  CHECK(count(damped, "unstable") == 2);
+  const auto json = nlohmann::json::parse(to_json(damped));
+  CHECK(json["separatrices"].size() == damped.separatrices.size());
+  CHECK(json["separatrices"][0]["manifold"] == damped.separatrices[0].manifold);
+}
+
+TEST_CASE("curves of equilibria and nullclines are drawn as such", "[output]") {
+  const PlanarField infection = [](const Vector2d& x) {
+    return Vector2d(-0.5 * x[0] * x[1], 0.5 * x[0] * x[1] - 0.2 * x[1]);
+  };
+  const PlanarPortrait portrait = planar_portrait(reduction::reduce({infection}, {1, 1}), "a system",
+                                                  {.window = Window{{-0.2, -0.2}, {1, 1}}, .nullclines = true});
+  REQUIRE(portrait.lines_of_equilibria.size() == 1);
+  CHECK(portrait.lines_of_equilibria[0].v.abs().maxCoeff() < 1e-6);
+  CHECK(portrait.lines_of_equilibria[0].u.maxCoeff() - portrait.lines_of_equilibria[0].u.minCoeff() > 1.1);
+  // v' = 0 on v = 0 and on u = 0.4.
+  bool found = false;
+  for (const PortraitOrbit& line : portrait.nullclines[1]) {
+    found |= (line.u - 0.4).abs().maxCoeff() < 1e-6;
+    CHECK(((line.u - 0.4) * line.v).abs().maxCoeff() < 1e-6);
+  }
+  CHECK(found);
+  const Panel panel = draw(portrait).panels[0];
+  CHECK(!layer(panel, "equilibria").lines.empty());
+  for (const Polyline& line : layer(panel, "invariant curves").lines) {
+    for (const Point& at : line) CHECK(std::abs(at.x) < 1e-6);
+  }
+  CHECK(!layer(panel, "u′ = 0").lines.empty());
+  CHECK(!layer(panel, "v′ = 0").lines.empty());
+}
+
+TEST_CASE("filled marks are stable equilibria, open marks unstable ones", "[output]") {
+  const PlanarPortrait portrait = stepped_portrait(
+      [](const Vector2d& x) { return Vector2d(x[0] * (3 - x[0] - 2 * x[1]), x[1] * (2 - x[0] - x[1])); });
+  const Panel panel = draw(portrait).panels[0];
+  const auto shape = [&](std::string_view kind) {
+    const auto its = std::ranges::find_if(panel.marks, [&](const Marks& marks) { return marks.legend == Text(kind); });
+    REQUIRE(its != panel.marks.end());
+    return its->shape;
+  };
+  CHECK(shape("stable node") == Marks::Shape::dot);
+  CHECK(shape("unstable node") == Marks::Shape::circle);
+  CHECK(shape("saddle") == Marks::Shape::square);
+  // The centre of a symmetry, too.
+  for (const double sign : {-1, 1}) {
+    const PlanarPortrait scaled =
+        portrait_of([=](const Vector2d& x) { return Vector2d(sign * x[0], sign * 3 * x[1]); });
+    CHECK(draw(scaled).panels[0].marks.back().shape == (sign < 0 ? Marks::Shape::dot : Marks::Shape::circle));
+  }
+}
+
+TEST_CASE("values of parameters stand below the title", "[output]") {
+  PlanarPortrait portrait = stepped_portrait(van_der_pol);
+  portrait.parameters = {{"mu", 0.1}, {"b", 2}};
+  CHECK(draw(portrait).subtitle.words().starts_with("b = 2, mu = 0.1; "));
 }

@@ -807,6 +807,15 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       return fmt::format("solution    none by quadrature: {}\n", why);
     });
   }
+  std::optional<reduction::LimitCycle> cycle;
+  const PlanarEnd end = followed ? followed->orbit.end() : PlanarEnd::undecided;
+  if (given && !plane.scaling() && (end == PlanarEnd::undecided || end == PlanarEnd::cycle)) {
+    constexpr double reach = 20;
+    for (reduction::LimitCycle& each : find_limit_cycles(field, equilibria, reach)) {
+      if (!cycle && nears(field, each, start)) cycle = std::move(each);
+    }
+  }
+  if (cycle) answer.members["cycle"] = portraits::cycle_members<Json>(*cycle);
   const double until = steps.branch && followed ? end_of_branch(steps, followed->orbit, start) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
     Blackboard board(system, steps, digits);
@@ -825,6 +834,10 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       board.add_orbit(*followed, start);
     } else if (given) {
       board.add_constancy(plane, start);
+    }
+    if (cycle) {
+      board.add("cycle", fmt::format("the orbit nears a limit cycle with the period {}{}", digits(cycle->period),
+                                     std::isnan(cycle->multiplier) ? "" : "; multiplier " + digits(cycle->multiplier)));
     }
     board.add_equilibria(equilibria);
     board.add_switching(switching);
@@ -1033,6 +1046,9 @@ std::vector<FieldText> reduce_system_fields() {
         {"`accuracy`", "", "relative error of tau_stop, of period, or of the time at which the motion is at infinity"},
         {"`end`", "", "end of the motion"},
         {"every `end`", "", fmt::format("{}; null if the end was not found", fmt::join(named_ends(), ", "))},
+        {"JSON `cycle` {`u`, `v`, `period`, `multiplier`, `stable`}", "",
+         "limit cycle that the orbit nears: a point, the period, and the factor of a small distance in a turn; absent "
+         "without one"},
         {"`period`", "", "time after which the motion returns to its start"},
         {"JSON `by_steps` {`difference`, `time`, `error`, `confirmed`}", "",
          "relative difference between this solution and an integration in time steps, at this time. error: estimated "

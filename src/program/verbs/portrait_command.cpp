@@ -115,10 +115,11 @@ std::vector<FieldText> portrait_fields() {
 std::vector<FieldText> system_portrait_fields() {
   return {
       {"CSV `kind`, `index`", "",
-       "type of the line: orbit, highlight, through, separatrix, isochrone; number of the line within its type"},
+       "type of the line: orbit, highlight, through, separatrix, invariant, isochrone; number within the type"},
       {"CSV `u`, `v`, `tau`", "",
        "states on the line; tau: time that is left until the centre, or inf if the motion does not reach the centre"},
-      {"JSON `system`", "", "equations as typed"},
+      {"JSON `system`, `variables` [x, y]", "",
+       "equations as typed, and their letters; u and v stand for them in the other fields"},
       {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "type of the centre, and rays, as in reduce"},
       {"JSON `form`", "",
        "type of the solution as in reduce; absent for a scaling; null if the orbits are computed in time steps"},
@@ -131,10 +132,17 @@ std::vector<FieldText> system_portrait_fields() {
       {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "",
        "list of orbits, each with lists of its states and of the times left until the stop"},
       {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "lines on which the time left is equal"},
+      {"JSON `cycles` [{`u`, `v`, `period`, `multiplier`, `stable`}]", "",
+       "limit cycles with a point of each; multiplier: factor of a small distance from the cycle in a turn, or null if it "
+       "is not certain"},
       {"JSON `highlight`, `through`, `separatrices` [...]", "",
-       "orbit of the start, orbits through the points of --through, and orbits that end in saddles. Their form is that "
-       "of an entry of orbits"},
+       "orbit of the start, orbits through the points of --through, and orbits that begin or end in saddles. Their form "
+       "is that of an entry of orbits"},
+      {"JSON `manifold` of `separatrices`", "",
+       "unstable: the orbit begins in a saddle; stable: it ends there; connection: it does both"},
       {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor is 0"},
+      {"JSON `equilibria_lines`, `u_nullclines`, `v_nullclines` [{`u`, `v`}]", "",
+       "curves of equilibria; with --nullclines the curves on which u, or v, does not change"},
   };
 }
 
@@ -226,10 +234,12 @@ class PortraitCommand final : public Verb {
       request_.highlight = {(*start)[0], (*start)[1]};
       if (!start->isZero(0)) around = *start;
     }
+    request_.nullclines = nullclines_;
     const Output output = read_output();
     portraits::PlanarPortrait portrait =
         portraits::planar_portrait(reduction::reduce(typed.field, around), system_.text(), request_);
     portrait.variables = typed.variables();
+    portrait.parameters = law_.parameters();
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
   }
 
@@ -291,8 +301,8 @@ class PortraitCommand final : public Verb {
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V). The form U1:U2,V1:V2 is for the "
-        "views uv, patch, pair and for --system",
+        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V, default: equilibria, limit cycles "
+        "and start). The form U1:U2,V1:V2 is for the views uv, patch, pair and for --system",
         [this](const std::string& typed) { read_window(typed, request_); });
     window_ = &looks_.back();
     add("--orbits", "N",
@@ -333,6 +343,9 @@ class PortraitCommand final : public Verb {
     add("--colour,--color", "BY",
         "colour of orbits: time (default; shows the time left until the stop) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
+    nullclines_.add(app, "--nullclines",
+                    "with --system: add the curves on which one of the two letters does not change");
+    nullclines_.needs(system_.argument(), "is for typed equations");
     estimate_.add(app, "--estimate", "add the approximate solution for small mu as dashed lines, in --view time");
     against_.add_second(
         app, "--against", "LAW",
@@ -363,7 +376,7 @@ class PortraitCommand final : public Verb {
   const Argument *window_ = nullptr, *view_ = nullptr, *scale_ = nullptr;
   portraits::PortraitRequest request_;
   Style style_;
-  Flag facts_, estimate_;
+  Flag facts_, estimate_, nullclines_;
   PictureOptions output_{{{"a portrait", with_pictures({}, {"csv", "json"}), "portrait.svg"},
                           {"a table of facts", answer_formats("text")}}};
 };

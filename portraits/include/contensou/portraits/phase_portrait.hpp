@@ -141,6 +141,7 @@ struct PortraitRequest {
   std::optional<int> isochrones = {};
   /// Times of isochrones, in time units, each > 0. They replace the number of isochrones.
   std::vector<double> isochrone_times = {};
+  bool nullclines = false;  ///< only for another system than (2.6): compute the curves u' = 0 and v' = 0
   // Only for (2.6):
   std::optional<reduction::Law> comparison = {};
   bool uncoupled = false;  ///< true: also the requested motions under the uncoupled model

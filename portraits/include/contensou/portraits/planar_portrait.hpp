@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,22 +31,34 @@ std::vector<SwitchingPart> switching_parts(const reduction::SmoothField& field, 
 /// Leaves out the equilibria that lie on parts at which motions rest, because they are not isolated.
 void leave_out_rests(reduction::Equilibria& equilibria, const std::vector<SwitchingPart>& parts);
 
+/// A motion along a manifold of a saddle.
+struct Separatrix : PortraitOrbit {
+  /// "stable": it ends in a saddle; "unstable": it begins there; "connection": it joins two saddles, or one to itself.
+  std::string_view manifold;
+};
+
 /// The plane of any planar system as data, without a drawing. An isochrone is a line of states with the same time to
 /// the centre of the scaling, or to infinity.
 struct PlanarPortrait : Portrait {
   std::string name;  ///< name of the system
   reduction::PlanarReduction plane;
   std::array<std::string, 2> variables = {"u", "v"};  ///< names on the axes, such as x and x'
+  std::map<std::string, double> parameters = {};      ///< values of letters in the name, for the subtitle
   reduction::Equilibria equilibria = {};              ///< equilibria in the window
   std::vector<SwitchingPart> switching = {};          ///< sliding, rest and ambiguity on switching curves
   // Only for a system without a scaling:
-  std::vector<PortraitOrbit> separatrices = {};  ///< separatrices of the saddles
-  std::vector<PortraitOrbit> invariant = {};     ///< curves on which the inverse integrating factor V is 0
+  std::vector<reduction::LimitCycle> cycles = {};             ///< limit cycles, also outside the window
+  std::vector<Separatrix> separatrices = {};                  ///< separatrices of the saddles
+  std::vector<PortraitOrbit> lines_of_equilibria = {};        ///< curves on which the field is 0
+  std::vector<PortraitOrbit> invariant = {};                  ///< curves on which the inverse integrating factor V is 0
+  std::array<std::vector<PortraitOrbit>, 2> nullclines = {};  ///< curves u' = 0 and v' = 0, on request
 };
 
-/// Computes the portrait. Each orbit goes through the middle of the widest gap between earlier orbits. The default
-/// window is a square about the centre, or about the origin, that contains the requested points. Without points it is
-/// |u|, |v| <= 1.
+/// Computes the portrait. Each orbit goes through the middle of the widest gap between earlier lines. The default
+/// window of a system with a scaling is a square about the centre that contains the requested points, or |u|, |v| <= 1.
+/// The default window of another system contains the equilibria near the origin, the limit cycles about them, the
+/// requested points and the separatrices that stay near these. It is the positive quadrant for a population, whose axes
+/// are orbits, and one and a half periods of a periodic field.
 ///
 /// If there is a scaling, every orbit is a scaled copy of the curve of its sector, and isochrones are copies likewise.
 /// If there is only an inverse integrating factor, quadrature gives the orbits, and there are no isochrones. Without a
@@ -58,10 +73,10 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// Returns the portrait as JSON.
 ///
 /// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
-/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members and
-/// switching_member; on request highlight and
-/// through (orbits). Without a scaling centre is null, and there are also form, separatrices (orbits) and invariant
-/// [{u, v}], the curves V = 0.
+/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members and switching_member; on request
+/// highlight and through (orbits). Without a scaling centre is null, and there are also form, separatrices (orbits with
+/// the member manifold), cycles (cycle_members), and lines [{u, v}]: invariant, the curves V = 0; equilibria_lines,
+/// curves of equilibria; u_nullclines and v_nullclines.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// Returns the members equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]], index}], equilibria_within [[u, u],
@@ -86,6 +101,17 @@ Json equilibria_members(const reduction::Equilibria& equilibria) {
       {"equilibria_within", {{low[0], high[0]}, {low[1], high[1]}}},
       {"equilibria_complete", equilibria.complete},
       {"equilibria_curve", equilibria.on_curve ? Json{(*equilibria.on_curve)[0], (*equilibria.on_curve)[1]} : Json()}};
+}
+
+/// Returns the members u, v, period, multiplier and stable of a limit cycle; a multiplier that is not certain is null.
+/// @tparam Json  nlohmann::ordered_json
+template <class Json>
+Json cycle_members(const reduction::LimitCycle& cycle) {
+  return {{"u", cycle.x[0]},
+          {"v", cycle.x[1]},
+          {"period", cycle.period},
+          {"multiplier", std::isnan(cycle.multiplier) ? Json() : Json(cycle.multiplier)},
+          {"stable", cycle.stable}};
 }
 
 /// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or

@@ -406,4 +406,8 @@ struct LimitCycle {
 /// @param reach       length of the rays, in half sides of this rectangle; rays begin at reach/10000
 std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equilibria& equilibria, double reach);
 
+/// Returns true if the motion from a start, by steps, nears a stable limit cycle: within 100 periods it comes to 1e-3 of
+/// the size of the cycle, and returns after one period to 1e-6 of this size.
+bool nears(const SmoothField& field, const LimitCycle& cycle, const Eigen::Vector2d& start);
+
 }  // namespace contensou::reduction

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contensou/portraits/phase_portrait.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
+
+namespace contensou::portraits {
+
+/// A part of the plane that shows a system without a scaling.
+struct PlanarView {
+  Window window;
+  std::vector<reduction::LimitCycle> cycles = {};
+  std::array<bool, 2> fixed_low = {}, periodic = {};  ///< sides that no curve moves: axes of a population; periods
+};
+
+/// Returns a view that contains the equilibria with their surroundings, the limit cycles and the requested points. If
+/// the field is periodic along an axis, the view contains one and a half periods. If both axes are orbits, the points
+/// are not negative, and no reflection maps the field onto itself, the field is that of a population, and the view is
+/// the positive quadrant.
+PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vector<Eigen::Vector2d>& points);
+
+/// Returns the limit cycles that turn about equilibria of a window and its surroundings.
+std::vector<reduction::LimitCycle> cycles_within(const reduction::PlanarReduction& plane, const Window& window);
+
+/// Returns the smallest window that contains a window and a point.
+Window united(const Window& window, const Eigen::Vector2d& x);
+
+}  // namespace contensou::portraits
