@@ -55,41 +55,70 @@ std::string words_of(const py::handle& value) {
   return words.size() > most ? words.substr(0, most) + "..." : words;
 }
 
-/// Writes the friction of contacts to `values`, and its slopes to `slopes`, if that has entries; NaN from NaN.
-/// @param given  loads, then friction, radius and creep of the patches; each has one value for each contact, or one for
-///               all
+/// Numbers of a result, by their first entry, and their number for each contact.
+struct Result {
+  double* first;
+  py::ssize_t size;
+};
+
+/// Calls `compute` for each contact, with its index, its motion and its other numbers. Writes NaN where one of them is
+/// NaN.
+/// @param given    other numbers; each has one value for each contact, or one for all
+/// @param compute  function that writes the results and returns a description of a wrong number; null if there is none
 /// @throws std::domain_error  for the first contact with a wrong number; the message names this contact by its index
-void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 4>& given, py::array_t<double>& values,
-              py::array_t<double>& slopes) {
+template <std::size_t size, class Compute>
+void for_contacts(const Numbers& motions, const std::array<Numbers, size>& given, const std::vector<Result>& results,
+                  const Compute& compute) {
   const double* const speeds = motions.data();
-  double* const value_at = values.mutable_data();
-  double* const slope_at = slopes.size() == 0 ? nullptr : slopes.mutable_data();
-  std::array<const double*, 4> from{};
-  std::array<py::ssize_t, 4> step{};
-  for (std::size_t j = 0; j < 4; ++j) {
-    from[j] = given[j].data();
-    step[j] = given[j].size() == 1 ? 0 : 1;
-  }
-  const py::ssize_t count = values.size() / 3;
+  std::array<const double*, size> from{};
+  std::array<py::ssize_t, size> stride{};
+  for (std::size_t j = 0; j < size; ++j) from[j] = given[j].data(), stride[j] = given[j].size() == 1 ? 0 : 1;
+  const py::ssize_t count = motions.size() / 3;
   const py::gil_scoped_release released;
-  const si::PatchFriction friction(law);
   Interruption interruption;
   for (py::ssize_t i = 0; i < count; ++i) {
     interruption.check();
-    const auto at = [&](std::size_t j) { return from[j][i * step[j]]; };
     const Eigen::Vector3d motion(speeds[3 * i], speeds[3 * i + 1], speeds[3 * i + 2]);
-    si::Wrench wrench;
-    if (const char* fault = friction.evaluate(motion, at(0), {at(1), at(2), at(3)}, wrench)) {
-      const bool is_known =
-          !motion.hasNaN() && !std::isnan(at(0)) && !std::isnan(at(1)) && !std::isnan(at(2)) && !std::isnan(at(3));
-      if (is_known) throw std::domain_error(fmt::format("contact {}: {}", i, fault));
-      wrench.value.setConstant(std::numeric_limits<double>::quiet_NaN());
-      wrench.jacobian.setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-    Eigen::Map<Eigen::Vector3d>(value_at + 3 * i) = wrench.value;
-    if (slope_at == nullptr) continue;
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(slope_at + 9 * i) = wrench.jacobian;
+    Eigen::Array<double, size, 1> numbers;
+    for (std::size_t j = 0; j < size; ++j) numbers[j] = from[j][i * stride[j]];
+    const char* const fault = compute(i, motion, numbers);
+    if (fault == nullptr) continue;
+    if (!motion.hasNaN() && !numbers.hasNaN()) throw std::domain_error(fmt::format("contact {}: {}", i, fault));
+    for (const Result& result : results)
+      std::fill_n(result.first + result.size * i, result.size, std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+/// Writes the friction of contacts to `values`, and its slopes to `slopes`, if that has entries.
+/// @param given  loads, then friction, radius and creep of the patches
+void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 4>& given, py::array_t<double>& values,
+              py::array_t<double>& slopes) {
+  std::vector<Result> results{{values.mutable_data(), 3}};
+  if (slopes.size() > 0) results.push_back({slopes.mutable_data(), 9});
+  const si::PatchFriction friction(law);
+  for_contacts(motions, given, results, [&](py::ssize_t i, const Eigen::Vector3d& motion, const auto& at) {
+    si::Wrench wrench;
+    const char* const fault = friction.evaluate(motion, at[0], {at[1], at[2], at[3]}, wrench);
+    Eigen::Map<Eigen::Vector3d>(results[0].first + 3 * i) = wrench.value;
+    if (results.size() > 1)
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(results[1].first + 9 * i) = wrench.jacobian;
+    return fault;
+  });
+}
+
+/// Writes slip and spin of contacts after a time step to `motions_after`, and their mean friction to `values`.
+/// @param given  loads, friction and radius of the patches, changes of slip and spin by units of impulse, time steps
+void steps(const Law& law, const Numbers& motions, const std::array<Numbers, 6>& given,
+           py::array_t<double>& motions_after, py::array_t<double>& values) {
+  const std::vector<Result> results{{motions_after.mutable_data(), 3}, {values.mutable_data(), 3}};
+  const si::PatchFriction friction(law);
+  for_contacts(motions, given, results, [&](py::ssize_t i, const Eigen::Vector3d& motion, const auto& at) {
+    kernel::Step<double> after;
+    const char* const fault = friction.step(motion, {at[3], at[4]}, at[0], {at[1], at[2], 0}, at[5], after);
+    Eigen::Map<Eigen::Vector3d>(results[0].first + 3 * i) << after.vx, after.vy, after.w;
+    Eigen::Map<Eigen::Vector3d>(results[1].first + 3 * i) << after.fx, after.fy, after.m;
+    return fault;
+  });
 }
 
 /// Calls `work` for each of `count` rows on several threads.
@@ -391,6 +420,7 @@ void bind_si(py::module_& module) {
   });
   module.attr("quantities") = list_of(si::quantities(), &si::Quantity::name);
   module.def("wrenches", &wrenches);
+  module.def("steps", &steps);
   module.def(
       "engines",
       [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {

@@ -60,7 +60,8 @@ void cell(const Call& call) {
   fmt::print(" {:.0f}, {:.0f} |", nanoseconds<T>(0, call), slowest);
 }
 
-/// Prints the cells for the header: force and moment in double and in float, and with their derivatives in double.
+/// Prints the cells for the header: force and moment in double and in float, with their derivatives in double, and a
+/// step of 1/60 s of a pool ball.
 template <class Law>
 void kernel_cells() {
   const auto values = [](const auto& at) {
@@ -72,20 +73,26 @@ void kernel_cells() {
   cell<double>([](const auto& at) {
     return kernel::wrench_slopes<Law>(at[0], at[1], at[2], patch.friction * load, patch.radius, patch.creep);
   });
+  cell<double>([](const auto& at) {
+    constexpr double mass = 0.17, radius = 0.0285;
+    return kernel::step<Law>(at[0], at[1], at[2], 3.5 / mass, 2.5 / (mass * radius * radius), patch.friction * load,
+                             patch.radius, 1.0 / 60);
+  });
 }
 
 }  // namespace
 
 int main() {
   fmt::print(
-      "| ns of a call | header | header, float | header, slopes | C interface, slopes |\n|---|---|---|---|---|\n");
+      "| ns of a call | header | header, float | header, slopes | header, step | C interface, slopes |\n"
+      "|---|---|---|---|---|---|\n");
   for (const std::string name : {"pade", "elliptic", "exact", "uniform", "punch"}) {
     fmt::print("| {} |", name);
     if (name == "pade") kernel_cells<kernel::Pade>();
     if (name == "elliptic") kernel_cells<kernel::Elliptic>();
     if (name == "exact") kernel_cells<kernel::Exact>();
     if (name == "uniform") kernel_cells<kernel::Uniform>();
-    if (name == "punch") fmt::print(" - | - | - |");
+    if (name == "punch") fmt::print(" - | - | - | - |");
     const std::unique_ptr<contensou_law, void (*)(contensou_law*)> law(contensou_law_new(name.c_str()),
                                                                        contensou_law_free);
     cell<double>([&](const auto& motion) {

@@ -31,7 +31,8 @@ CALLS = {
     "ndarray": [
         "ct.stop_time(u=a, v=1, mu=0.3)", "ct.stop_time(u=[1, 2], v=1, mu=0.3)", "ct.stop_time(u=1, v=1, mu=a / 2)", "law(a)[1]",
         "ct.stop_time(u=1, v=a, mu=0.3, gradient=True)[1]['u']", "flow.stop_time(u=a, v=1, out=np.empty(3))", "orbit.slip_length(a)",
-        "ct.wrench('exact', (1, 0, 100), 1.7, patch)", "ct.wrench('exact', m, 1.7, patch, slopes=True)[1]", "orbit.gradient(a)['u']['v']",
+        "ct.wrench('exact', (1, 0, 100), 1.7, patch)", "ct.wrench('exact', m, 1.7, patch, slopes=True)[1]", "ct.step('exact', m, 1.7, (0.2, 3e-3), 20, 2e4, 0.01)[0]",
+        "orbit.gradient(a)['u']['v']",
         "plane.stop_time(u=a, v=1)", "paper.canonical(a, 1)[0]", "orbit.at(tau_left=a)", "pool.roll(slip=1)(a)", "pool.roll(slip=a)(1)",
         "plane.orbit(1, 1).at(a)", "pool.roll(slip=a).path", "pool.roll(slip=a).rest", "pool.roll(slip=a).events", "orbit.sample(3)"],
     "void": ["orbit.at(1)", "orbit.at(beta=0.1)", "pool.roll(slip=1)(0.1)", "plane.orbit(1, 1).at(1)"],

@@ -190,18 +190,22 @@ TEST_CASE("time steps stop a pool ball when it stops", "[analytic]") {
   }
 }
 
-TEST_CASE("one Newton step per time step brings sliding to rest where the creep is a dt/2", "[limit]") {
-  const PatchFriction friction(reduction::HertzLaw{});
-  const double dt = 1e-3;
-  const Vector3d per_mass(2, 2, 1e5);
-  const auto end = [&](double share) {
-    const Patch of{0.2, 3e-3, share * 2 * 0.2 * normal_force * dt};
-    Vector3d motion(0.1, 0, 0);
-    for (int i = 0; i < 2000; ++i) motion = stepped(friction, motion, normal_force, of, per_mass, dt);
-    return motion.norm();
-  };
-  CHECK(end(0.5) < 1e-12);
-  CHECK(end(0.01) > 0.4 * 2 * 0.2 * normal_force * dt);
+TEST_CASE("an implicit step under any law is that of its friction", "[analytic]") {
+  for (const reduction::Law& law : reduction::named_laws()) {
+    const PatchFriction friction(law);
+    for (const Vector3d& motion : motions()) {
+      kernel::Step<double> after;
+      REQUIRE(friction.step(motion, {20, 2e6}, normal_force, patch, 0.01, after) == nullptr);
+      const double size = std::max(std::hypot(after.vx, after.vy), patch.radius * std::abs(after.w));
+      if (size == 0) continue;
+      const Patch dry{patch.friction, patch.radius, 1e-14 * size};  // the law pade is linear in k at k = 0
+      const Vector3d value = friction({after.vx, after.vy, after.w}, normal_force, dry).value;
+      const double start = std::max(motion.head<2>().norm(), patch.radius * std::abs(motion.z()));
+      CAPTURE(law.name(), motion.transpose());
+      CHECK((value - Vector3d(after.fx, after.fy, value.z())).norm() <= 1e-12 * limit * std::max(1.0, start / size));
+      CHECK(std::abs(value.z() - after.m) <= 1e-12 * limit * patch.radius * std::max(1.0, start / size));
+    }
+  }
 }
 
 TEST_CASE("no call allocates, of any law", "[limit]") {
@@ -212,6 +216,11 @@ TEST_CASE("no call allocates, of any law", "[limit]") {
     const long before = allocations();
     double sum = 0;
     for (const Vector3d& motion : all) sum += friction(motion, normal_force, patch).value.z();
+    for (const Vector3d& motion : all) {
+      kernel::Step<double> step;
+      CHECK(friction.step(motion, {20, 2e4}, normal_force, patch, 1e-3, step) == nullptr);
+      sum += step.w;
+    }
     const long after = allocations();
     CAPTURE(law.name());
     CHECK(after == before);
@@ -282,6 +291,31 @@ TEST_CASE("the C interface gives numbers or zeros, and throws nothing", "[limit]
   CHECK(contensou_patch_wrench(law.get(), nullptr, normal_force, &good, &wrench) == 1);
   CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), normal_force, nullptr, &wrench) == 1);
   CHECK(contensou_patch_wrench(law.get(), Vector3d(1, 0, 0).data(), normal_force, &good, nullptr) == 1);
+
+  contensou_step after;
+  const double mobility[2] = {20, 2e4};
+  const auto step = [&](const Vector3d& motion, const double* of, double weight, const contensou_patch& on, double dt) {
+    after = {{nan, nan, nan}, {nan, nan}, nan};
+    return contensou_patch_step(law.get(), motion.data(), of, weight, &on, dt, &after);
+  };
+  const auto zeros = [&] { return (Eigen::Map<const Eigen::Array<double, 6, 1>>(after.motion) == 0).all(); };
+  CHECK(step({1, -2, 300}, mobility, 1.7, {0.2, 3e-3, 0}, 0.01) == 0);
+  const auto same = kernel::step<kernel::Exact>(1.0, -2.0, 300.0, 20.0, 2e4, 0.2 * 1.7, 3e-3, 0.01);
+  CHECK((after.motion[0] == same.vx && after.motion[1] == same.vy && after.motion[2] == same.w));
+  CHECK((after.force[0] == same.fx && after.force[1] == same.fy && after.moment == same.m));
+  for (const double bad : {nan, infinity, -1.0}) {
+    const double first[2] = {bad, 1}, second[2] = {1, bad};
+    const int allowed = bad == -1 ? 0 : 1;  // a load below 0 is no contact
+    CHECK((step({1, 0, 1}, first, 1, good, 0.01) == 1 && zeros()));
+    CHECK((step({1, 0, 1}, second, 1, good, 0.01) == 1 && zeros()));
+    CHECK((step({1, 0, 1}, mobility, bad, good, 0.01) == allowed && after.motion[0] == 1 - allowed));
+    CHECK((step({1, 0, 1}, mobility, 1, good, bad) == 1 && zeros()));
+    CHECK((step({1, 0, 1}, mobility, 1, {bad, 1, 1}, 0.01) == 1 && zeros()));
+    CHECK((step({1, 0, 1}, mobility, 1, {1, bad, 1}, 0.01) == 1 && zeros()));
+    if (bad != -1) CHECK((step({bad, 0, 1}, mobility, 1, good, 0.01) == 1 && zeros()));
+  }
+  CHECK(contensou_patch_step(law.get(), Vector3d(1, 0, 0).data(), nullptr, 1, &good, 1, &after) == 1);
+  CHECK(contensou_patch_step(law.get(), Vector3d(1, 0, 0).data(), mobility, 1, &good, 1, nullptr) == 1);
   for (const char* name : {"exakt", "", "elliptic:x", "elliptic:7", static_cast<const char*>(nullptr)}) {
     CHECK(contensou_law_new(name) == nullptr);
   }

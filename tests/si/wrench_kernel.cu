@@ -26,6 +26,7 @@ __device__ void both(T* at) {
   const Wrench<T> value = wrench<Law>(at[0], at[1], at[2], at[3], at[4]);
   const WrenchSlopes<T> slopes = wrench_slopes<Law>(at[0], at[1], at[2], at[3], at[4], at[5]);
   at[6] = value.fx + value.fy + value.m + slopes.slopes[2][2];
+  at[7] = step<Law>(at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7]).w;
 }
 
 template <class T>

@@ -25,10 +25,10 @@ from ._flow import Check, Checks, End, Flow, FlowReduction, Orbit, Ray, Singular
 from ._law import Law, law
 from ._portrait import Portrait, portrait
 from ._reduce import Equilibrium, Generator, PlanarOrbit, PlanarRay, Reduction, reduce
-from ._wrench import wrench
+from ._wrench import step, wrench
 
 __all__ = [
     "Ball", "Check", "Checks", "End", "Equilibrium", "Estimate", "Event", "Fit", "Flow", "FlowReduction", "Generator", "Law", "Orbit",
     "PlanarOrbit", "PlanarRay", "Portrait", "Ray", "Reduction", "Roll", "Rolls", "SingularPoint", "Terminal", "__version__", "aim",
-    "balls", "check", "engine", "engines", "fit", "fit_plan", "law", "portrait", "reduce", "stop_time", "wrench",
+    "balls", "check", "engine", "engines", "fit", "fit_plan", "law", "portrait", "reduce", "step", "stop_time", "wrench",
 ]

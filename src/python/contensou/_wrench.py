@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, Optional, overload
+from typing import TYPE_CHECKING, Any, Literal, Optional, Sequence, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +17,16 @@ if TYPE_CHECKING:
     from ._numbers import Foreign
 
 
+def _columns(given: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+    return [each.reshape(-1)[:1] if not any(each.strides) else each.reshape(-1) for each in given]
+
+
 def _write(law: Law, motions: NDArray[np.float64], *rest: NDArray[np.float64]) -> None:
-    given = [each.reshape(-1)[:1] if not any(each.strides) else each.reshape(-1) for each in rest[:4]]
-    _core.wrenches(law._core, motions, given, rest[4], rest[5] if len(rest) > 5 else np.empty(0))
+    _core.wrenches(law._core, motions, _columns(rest[:4]), rest[4], rest[5] if len(rest) > 5 else np.empty(0))
+
+
+def _write_steps(law: Law, motions: NDArray[np.float64], *rest: NDArray[np.float64]) -> None:
+    _core.steps(law._core, motions, _columns(rest[:6]), rest[6], rest[7])
 
 
 @overload
@@ -53,3 +60,37 @@ def wrench(law: LawLike, motion: Any, load: Any, patch: tuple[Any, Any, Any], *,
     wrenches = ArrayFunction("wrench", ("motion", "load", "friction", "radius", "creep"), partial(_write, law_of(law)),
                              ("vx", "vy", "omega"), (1, 2) if flag("slopes", slopes) else (1,))
     return wrenches(motion, load, *patch, out=out, where=where)
+
+
+@overload
+def step(law: LawLike, motion: Foreign, load: Any, patch: tuple[Any, Any], by_force: Any, by_moment: Any, dt: Any, *,
+         where: Any = True) -> tuple[Any, Any]: ...
+@overload
+def step(law: LawLike, motion: ArrayLike, load: ArrayLike, patch: tuple[Any, Any], by_force: ArrayLike, by_moment: ArrayLike,
+         dt: ArrayLike, *, out: Optional[tuple[NDArray[Any], NDArray[Any]]] = None,
+         where: ArrayLike = True) -> tuple[NDArray[Any], NDArray[Any]]: ...
+def step(law: LawLike, motion: Any, load: Any, patch: tuple[Any, Any], by_force: Any, by_moment: Any, dt: Any, *, out: Any = None,
+         where: Any = True) -> tuple[Any, Any]:
+    """Returns slip and spin of contact patches after an implicit time step under dry friction, and the mean Fx, Fy in N and
+    moment in N m of this step, each along the last axis of an array. The friction times dt is the impulse to apply.
+
+    The step never adds energy. A contact rests after it if friction can stop it within dt. The error is of first order in dt.
+
+    law:       a name, a Law or a function, as in `law`; exact, uniform, elliptic and pade are the fastest
+    motion:    vx, vy, omega as in `wrench`, changed already by all other forces of the step
+    load:      N in newtons; for 0 or less there is no contact, and the motion does not change
+    patch:     (f, radius in m), both >= 0
+    by_force:  change of slip by a unit of impulse at the contact, 1/kg, >= 0; for a ball 3.5/m, for a disc 1/m
+    by_moment: change of spin by a unit of angular impulse, 1/(kg m^2), >= 0; 1/J_z
+    dt:        time step in s, >= 0
+    out:       pair of arrays for the results
+    where:     True for each contact to compute; the others keep the value of out, or are NaN without it
+
+    All arguments broadcast. NaN and numbers out of their range are treated as in `wrench`.
+    """
+    if not isinstance(patch, (tuple, list)) or len(patch) != 2:
+        raise needs("patch", "(friction, radius)", patch)
+    names = ("motion", "load", "friction", "radius", "by_force", "by_moment", "dt")
+    steps = ArrayFunction("step", names, partial(_write_steps, law_of(law)), ("vx", "vy", "omega"), (1, 1))
+    result: tuple[Any, Any] = steps(motion, load, *patch, by_force, by_moment, dt, out=out, where=where)
+    return result

@@ -13,7 +13,7 @@ namespace contensou::si {
 struct Patch {
   double friction;  ///< f, >= 0
   double radius;    ///< eps in m, >= 0; 0: a point, without a moment
-  double creep;     ///< speed s in m/s, > 0, below which friction is viscous (see PatchFriction)
+  double creep;     ///< speed s in m/s, > 0, below which friction is viscous (see PatchFriction); unused by step()
 };
 
 /// Force and moment of a patch's friction on a body, and their derivatives by the motion.
@@ -43,9 +43,8 @@ struct Wrench {
 /// Under a moment Q < f N eps Psi(0) alone, eps |omega| = s/k with Psi(k) = Q/(f N eps); for small Q, s Q/(K f N eps).
 /// At speeds above s the effect of s is of the order of s^2 divided by the square of the larger speed.
 ///
-/// A stepper with one Newton step per time step dt needs s >= a dt/2, where a is the deceleration by friction alone
-/// (for a ball 7/2 f g). For a smaller s, a body that slides without spinning oscillates about rest by up to a dt/2.
-/// Steps that iterate to convergence need no such bound.
+/// An engine that advances in time steps should call step(), which needs no creep speed. The slopes are for methods
+/// that solve for many contacts at once.
 class PatchFriction {
  public:
   explicit PatchFriction(const reduction::Law& law);
@@ -61,9 +60,21 @@ class PatchFriction {
   /// @return        description of the error; null if there is none
   const char* evaluate(const Eigen::Vector3d& motion, double load, const Patch& patch, Wrench& wrench) const;
 
+  /// Computes an implicit time step under dry friction, without exceptions (kernel::step).
+  /// @param mobility  changes of slip and spin by a unit of impulse and of angular impulse, in 1/kg and 1/(kg m^2), >=
+  /// 0
+  /// @param dt        time step in s, >= 0
+  /// @param after     result; zeros if there is an error
+  /// @return          description of the error; null if there is none
+  const char* step(const Eigen::Vector3d& motion, const Eigen::Vector2d& mobility, double load, const Patch& patch,
+                   double dt, kernel::Step<double>& after) const;
+
  private:
   std::function<kernel::WrenchSlopes<double>(double vx, double vy, double w, double limit, double radius, double creep)>
       wrench_;
+  std::function<kernel::Step<double>(double vx, double vy, double w, double by_force, double by_moment, double limit,
+                                     double radius, double dt)>
+      step_;
 };
 
 }  // namespace contensou::si
