@@ -21,15 +21,6 @@ constexpr const char* frame = "frame";
 /// Name of the spin in CSV output of a motion.
 constexpr const char* spin_of_motion = "wz";
 
-/// Returns false for an empty field, and for the words that numpy and R write for a missing value.
-bool is_measured(std::string_view field) {
-  field = without_spaces(field);
-  for (std::string_view nothing : {"", "nan", "NaN", "NAN", "NA"}) {
-    if (field == nothing) return false;
-  }
-  return true;
-}
-
 struct SeriesColumns {
   fit::Observable observable;
   SiColumn value;
@@ -80,6 +71,14 @@ std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
 }
 
 }  // namespace
+
+bool is_measured(std::string_view field) {
+  field = without_spaces(field);
+  for (std::string_view nothing : {"", "nan", "NaN", "NAN", "NA"}) {
+    if (field == nothing) return false;
+  }
+  return true;
+}
 
 std::vector<std::string> observable_names() {
   std::vector<std::string> names;

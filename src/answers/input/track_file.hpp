@@ -29,6 +29,9 @@ struct Unused {
   bool fps = false, pixel = false;
 };
 
+/// Returns false for an empty field, and for the words that numpy and R write for a missing value.
+bool is_measured(std::string_view field);
+
 /// Returns the names of all observables of a ball.
 std::vector<std::string> observable_names();
 

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "answers/input/headings.hpp"
+#include "answers/input/track_file.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/contact_cone.hpp"
 #include "contensou/si/engine.hpp"
@@ -43,7 +44,9 @@ struct Reading {
 struct LoggedRow {
   long line;
   double t;
-  Eigen::Vector3d velocity, turning;  ///< without a rigid body: slip and spin in the first and the last place
+  /// Velocities; without a rigid body, slip and spin in the first and the last place. In a table of positions, place
+  /// and angle until by_differences() has converted them.
+  Eigen::Vector3d velocity, turning;
 };
 
 /// The columns of a table that describe a motion.
@@ -55,17 +58,24 @@ class MotionColumns {
     const auto time = find_column(table, "time", "s");
     if (time && time->column.place != time_.column.place)
       fail("columns t and time are both there: leave one of them out");
-    const auto slip = find_column(table, "slip", "m/s");
+    const auto slip = find_column(table, "slip", "m/s"), x = find_column(table, "x", "m");
     rigid_ = !slip && find_column(table, "vx", "m/s");
+    if (!rigid_ && !slip && x) {
+      if (!ball.body.lies_flat()) {
+        fail(
+            "positions do not tell the slip of a ball: add columns vx, vy, wx, wy, wz, or let 'contensou fit' read x, y "
+            "and angle");
+      }
+      velocity_ = {x, require_column(table, "y", "m")};
+      const auto angle = find_column(table, "angle", "rad");
+      turning_[2] = angle ? *angle : require_column(table, "wz", "rad/s");
+      positions_ = rigid_ = true, angles_ = angle.has_value();
+      return;
+    }
     if (!rigid_ && !slip) {
-      const bool positions = std::ranges::any_of(table.names(), [](const std::string& heading) {
-        const std::string name = usual_name(heading_of(heading).name);
-        return name == "x" || name == "y" || name == "angle";
-      });
       fail(
-          fmt::format("no column is called 'slip': a motion has columns t (or time), slip and spin (or wz), or of a "
-                      "rigid body vx, vy, wx, wy, wz{}",
-                      positions ? "; 'contensou fit' reads positions and angles" : ""));
+          "no column is called 'slip': a motion has columns t (or time), slip and spin (or wz), of a rigid body vx, vy, "
+          "wx, wy, wz, or of a flat body x, y, angle");
     }
     const auto spin = find_column(table, "spin", "rad/s"), wz = find_column(table, "wz", "rad/s");
     turning_[2] = spin ? *spin : wz ? *wz : require_column(table, rigid_ ? "wz" : "spin", "rad/s");
@@ -81,6 +91,34 @@ class MotionColumns {
       turning_[i] =
           ball.body.lies_flat() ? find_column(table, names[i], "rad/s") : require_column(table, names[i], "rad/s");
     }
+  }
+
+  /// Returns false for a row in which a needed number is missing.
+  bool is_complete(const CsvRow& row) const {
+    return std::ranges::all_of(std::array{velocity_[0], rigid_ ? velocity_[1] : std::nullopt, turning_[2],
+                                          ball_.body.lies_flat() ? std::nullopt : turning_[0],
+                                          ball_.body.lies_flat() ? std::nullopt : turning_[1]},
+                               [&](const auto& column) { return !column || is_measured(row[column->column.place]); });
+  }
+
+  /// Converts rows of positions to rows of mean velocities between them. Under a constant deceleration, these are the
+  /// velocities at the middle of the interval. Angles within one turn may have lost whole turns.
+  std::vector<LoggedRow> by_differences(std::vector<LoggedRow> rows) const {
+    if (!positions_) return rows;
+    constexpr double turn = 2 * std::numbers::pi;
+    const auto [least, largest] = std::ranges::minmax(rows, {}, [](const LoggedRow& row) { return row.turning.z(); });
+    const bool wrapped = largest.turning.z() - least.turning.z() <= turn * (1 + 1e-9);
+    std::vector<LoggedRow> means;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const LoggedRow &before = rows[i - 1], &after = rows[i];
+      const double dt = after.t - before.t;
+      if (dt == 0) continue;
+      const double angle = after.turning.z() - before.turning.z();
+      const double spin = !angles_ ? (after.turning.z() + before.turning.z()) / 2
+                                   : (wrapped ? std::remainder(angle, turn) : angle) / dt;
+      means.push_back({after.line, before.t + dt / 2, (after.velocity - before.velocity) / dt, {0, 0, spin}});
+    }
+    return means;
   }
 
   LoggedRow read(const CsvRow& row) const {
@@ -141,7 +179,7 @@ class MotionColumns {
 
   const CsvReader& table_;
   const si::Ball& ball_;
-  bool rigid_ = false;
+  bool rigid_ = false, positions_ = false, angles_ = false;
   SiColumn time_;
   std::array<std::optional<SiColumn>, 3> velocity_, turning_;
   std::optional<SiColumn> same_;
@@ -150,6 +188,7 @@ class MotionColumns {
 std::vector<LoggedRow> read_rows(CsvReader& table, const MotionColumns& columns) {
   std::vector<LoggedRow> rows;
   table.for_each_row([&](const CsvRow& row) {
+    if (!columns.is_complete(row)) return;
     const LoggedRow logged = columns.read(row);
     const Instant instant = columns.read(logged, {});
     if (rows.empty() && instant.speeds.slip < 0)  // a later slip may be negative by an error of measurement
@@ -162,6 +201,7 @@ std::vector<LoggedRow> read_rows(CsvReader& table, const MotionColumns& columns)
     }
     rows.push_back(logged);
   });
+  rows = columns.by_differences(std::move(rows));
   if (rows.size() < 2) {
     throw table.complaint(
         rows.empty() ? table.header_line() : rows.back().line,

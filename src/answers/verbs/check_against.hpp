@@ -61,8 +61,9 @@ struct MotionsBeside {
 /// the headings name no unit, each log is also read with angular velocities in degrees/s and rpm.
 ///
 /// @param path       file with columns t (or time), slip and spin (or wz, as `roll` writes); for a rigid body it may
-///                   have vx, vy, wx, wy, wz in place of slip and spin. Units are SI or those behind the names; "-" is
-///                   standard input
+///                   have vx, vy, wx, wy, wz in place of slip and spin, and for a flat body x, y, angle (or wz), whose
+///                   differences are mean velocities. Units are SI or those behind the names. Rows without a needed
+///                   number are left out; "-" is standard input
 /// @param ball       ball whose start is the first row
 /// @param values     values that replace values of the first row
 /// @param tolerance  largest error that passes, as a share of the start, > 0

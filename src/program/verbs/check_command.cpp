@@ -25,10 +25,11 @@ class CheckCommand final : public Verb {
     start_.add_drive(app);
     law_.add(app);
     app.option_defaults()->group("Against a table");
-    against_.add(app, "--against", "FILE",
-                 "table of a motion from an engine or a camera, - for standard input. The motion of --ball under --law "
-                 "is compared with this table. Columns: t, and slip,spin or vx,vy,wx,wy,wz, in SI units or as 'wz "
-                 "[rpm]'. The first row is the start, unless --slip and --spin are given");
+    against_.add(
+        app, "--against", "FILE",
+        "table of a motion from an engine or a camera, - for standard input. The motion of --ball under --law "
+        "is compared with this table. Columns: t, and slip,spin or vx,vy,wx,wy,wz, or of a flat body "
+        "x,y,angle, in SI units or as 'wz [rpm]'. The first row is the start, unless --slip and --spin are given");
     tolerance_.add(app, "--tolerance", "SHARE",
                    fmt::format("largest difference that passes, divided by slip and spin at the start (default {})",
                                standard_tolerance),

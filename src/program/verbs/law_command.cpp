@@ -1,12 +1,18 @@
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "answers/input/csv.hpp"
 #include "contensou/portraits/theory_figures.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/body.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/start_options.hpp"
 #include "verb.hpp"
 
 namespace contensou::program {
@@ -28,7 +34,26 @@ constexpr ColumnField<LawReport> law_columns[]{
     {"psi", "", "moment of friction divided by f N and by the patch radius", [](const LawReport& r) { return &r.psi; }},
 };
 
+/// The friction of a ball at one slip and spin.
+struct ContactReport {
+  std::string law;
+  double slip, spin, load, patch_radius, k, force, moment;
+};
+
+constexpr Field<ContactReport> contact_fields[]{
+    {"law", "", "name of the law of friction", [](const ContactReport& r) -> Json { return r.law; }},
+    {"slip", "m/s", "sliding speed of the point of contact", [](const ContactReport& r) -> Json { return r.slip; }},
+    {"spin", "rad/s", "angular velocity about the vertical", [](const ContactReport& r) -> Json { return r.spin; }},
+    {"load", "N", "load", [](const ContactReport& r) -> Json { return r.load; }},
+    {"patch_radius", "m", "radius of the contact patch", [](const ContactReport& r) -> Json { return r.patch_radius; }},
+    {"k", "", "slip divided by the speed of the rim of the patch", [](const ContactReport& r) { return Json(r.k); }},
+    {"force", "N", "force of friction, against the slip", [](const ContactReport& r) -> Json { return r.force; }},
+    {"moment", "N m", "moment of friction about the vertical, against the spin",
+     [](const ContactReport& r) -> Json { return r.moment; }},
+};
+
 std::vector<FieldText> law_texts() { return joined({texts_of(law_fields), texts_of(law_columns)}); }
+std::vector<FieldText> contact_texts() { return texts_of(contact_fields); }
 
 class LawCommand final : public Verb {
  public:
@@ -38,6 +63,8 @@ class LawCommand final : public Verb {
     k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
     batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input");
     k_.excludes({&batch_});
+    start_.add_ball(app, "real body in SI units, instead of --k: prints force and moment at its slip and spin");
+    start_.ball().excludes({&k_, &batch_, &surface_}, "slip and spin of the ball determine k");
     surface_.add(app, "--surface",
                  "draw the limit surface, force against moment, of --law beside exact, pade, uniform and ring");
     output_.add(app);
@@ -46,7 +73,11 @@ class LawCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     if (surface_) require_picture("--surface", output);
-    const reduction::Law law = law_.read(std::string(si::Body{}.law));
+    const reduction::Law law = law_.read(start_.standard_law());
+    if (start_.ball_given()) {
+      if (output.picture) throw BadInput("a picture needs no --ball: leave it out");
+      return output.write(contact_answer(law));
+    }
     if (output.picture) {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
       std::vector<reduction::Law> laws = reduction::paper_laws();
@@ -60,7 +91,7 @@ class LawCommand final : public Verb {
     }
     if (!k_.given() && !batch_.given()) {
       throw BadInput(
-          "--k missing: give --k K1,K2,... or --batch FILE; "
+          "--k missing: give --k K1,K2,..., --batch FILE, or --ball NAME --slip V --spin W; "
           "or a picture, -o FILE ending in svg, pdf, png, eps, gp or tex");
     }
     const LawReport report = evaluate(law, k_.given() ? *k_ : read_column(batch_.text(), "k", Infinity::allowed));
@@ -68,6 +99,23 @@ class LawCommand final : public Verb {
   }
 
  private:
+  Answer contact_answer(const reduction::Law& law) const {
+    const si::Experiment ball = start_.read_ball(law);
+    const double slip = si::slip_at_start(ball), spin = si::spin_at_start(ball), a = si::patch_radius_of(ball, law);
+    const double load = ball.ball.mass * si::pressing(ball.environment), limit = ball.contact.friction * load;
+    const auto [force, moment] = law({slip, a * std::abs(spin)});
+    if (slip == 0 && spin == 0) {
+      start_.reject_ball(
+          fmt::format("slip and spin are 0: at rest the force is anything up to {} N, and the moment up "
+                      "to {} N m; give --slip V or --spin W",
+                      limit, limit * a * law.pivoting_moment()));
+    }
+    const ContactReport report{law.name(),        slip, spin, load, a, slip / (a * std::abs(spin)), limit * force,
+                               limit * a * moment};
+    const Json members = members_of(contact_fields, report);
+    return {.members = members, .rows = {members}};
+  }
+
   static std::vector<double> parse_ratios(const std::string& typed) {
     std::vector<double> ratios = parse_numbers(typed, Infinity::allowed);
     for (double k : ratios) {
@@ -88,6 +136,7 @@ class LawCommand final : public Verb {
     return {law, k, phi, psi};
   }
 
+  StartOptions start_;
   LawOption law_;
   ArgumentOf<std::vector<double>> k_;
   Argument batch_;
@@ -96,8 +145,8 @@ class LawCommand final : public Verb {
 };
 
 const RegisteredVerb<LawCommand> law_verb(Purpose::draw, "law", "Compute or draw the force and moment of friction",
-                                          "contensou law --law exact --k 0,0.5,1,2,inf", {{"", law_texts}},
-                                          {"u", "v", "mu", "k", "f, N"});
+                                          "contensou law --law exact --k 0,0.5,1,2,inf",
+                                          {{"", law_texts}, {"--ball", contact_texts}}, {"u", "v", "mu", "k", "f, N"});
 
 }  // namespace
 
