@@ -20,7 +20,6 @@
 
 #include "answers/asked/formula_law.hpp"
 #include "answers/asked/portrait_spec.hpp"
-#include "answers/input/pressure_profile.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
@@ -47,16 +46,9 @@ using reduction::Orbit;
 using reduction::ReducedSystem;
 using reduction::State;
 
-/// Prefix of the name of a law by a pressure table of the reader. The rest of this name is the table as CSV.
-constexpr std::string_view table_of_pressure = "table:";
-
 Law law_of(const std::string& name) {
   static std::map<std::string, Law> known;
   if (const auto found = known.find(name); found != known.end()) return found->second;
-  if (name.starts_with(table_of_pressure)) {
-    answers::CsvReader table(name.substr(table_of_pressure.size()), "pressure.csv");
-    return known.emplace(name, answers::read_pressure_profile(table, "pressure.csv")).first->second;
-  }
   if (auto law = answers::find_law_or_formulas(name)) return known.emplace(name, *law).first->second;
   std::vector<std::string> names;
   for (std::string_view known_name : reduction::names_of_laws()) names.emplace_back(known_name);
@@ -178,7 +170,7 @@ class Plane {
     return own;
   }
 
-  /// Returns the TeX file that the program writes for a request.
+  /// Returns the TeX file that the program writes for a request. Only the tests use it.
   std::string portrait_file(const val& asked) const {
     const answers::PortraitSpec question = question_of(asked, flow());
     return portraits::pgfplots(question.figure(question.portrait()));
@@ -209,16 +201,19 @@ class Plane {
     return object("tau", columns.tau, "u", columns.u, "v", columns.v, "lnV", columns.ln_v, "k", columns.k);
   }
 
-  /// Returns the state at tau of the motion from (u, v), the friction divided by f N, and the place in each panel.
+  /// Returns the friction of a state against the sliding, divided by f N; 0 at rest.
+  double force(double u, double v) const {
+    const double pivoting = system().mu() * std::abs(u);
+    return v > 0 || pivoting > 0 ? system().law()({.sliding = v, .pivoting = pivoting}).force : 0;
+  }
+
+  /// Returns the state at tau of the motion from (u, v), and its place in each panel.
   val instant(double u, double v, double tau) const {
     const Orbit orbit = flow().orbit({.u = u, .v = v});
     const auto point = orbit.at_time(tau);
-    const double pivoting = system().mu() * std::abs(point.u);
-    const bool moves = point.v > 0 || pivoting > 0;
-    const double force = moves ? system().law()({.sliding = point.v, .pivoting = pivoting}).force : 0;
     const double left = std::max(0.0, orbit.stop_time() - point.tau);
     const Instant now{point.u, point.v, point.ln_v, std::log(point.k), left};
-    return object("tau", point.tau, "u", point.u, "v", point.v, "k", point.k, "force", force, "places",
+    return object("tau", point.tau, "u", point.u, "v", point.v, "k", point.k, "places",
                   places(now, state({u, v}, orbit.stop_time())));
   }
 
@@ -399,10 +394,7 @@ std::string suggestion_of(const std::string& typed, const val& names) {
 }
 
 /// Returns the name of a law in the library.
-std::string law_name(const std::string& called) {
-  const Law law = law_of(called);
-  return called.starts_with(table_of_pressure) ? called : law.name();
-}
+std::string law_name(const std::string& called) { return law_of(called).name(); }
 
 /// Returns the start (start_value) that a stroke with a cue gives to a ball.
 /// The arguments are those of si::CueStrike.
@@ -439,13 +431,11 @@ std::string complaint(const std::string& body, double mu) {
   return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }
 
-/// Returns for each view {name, layered: true if it has isochrones and a field}. Views of moments, where a click
-/// determines no state, and the view of two panels are left out.
+/// Returns for each view of the page {name, layered: true if it has isochrones and a field}. The other views are the
+/// program's alone.
 val views() {
-  std::vector<portraits::View> shown = portraits::views();
-  std::erase_if(shown, [](portraits::View view) {
-    return portraits::shows_moments(view) || view == portraits::View::pair || view == portraits::View::story;
-  });
+  using portraits::View;
+  constexpr std::array shown{View::uv, View::log, View::blowup, View::disc};
   return list(shown, [](portraits::View view) {
     return object("name", portraits::name(view), "layered", portraits::shows_window(view));
   });
@@ -493,8 +483,9 @@ val contact(const std::string& law, const val& fields) {
       experiment.ball.radius, 1, experiment.contact.friction, experiment.environment.gravity,
       law_of(law).pivoting_moment(), experiment.ball.body.inertia.gamma);
   return object("mu", si::patch_ratio(experiment, law_of(law)), "patchRadius", radius, "spinDeceleration",
-                radius / per_deceleration, "secondsPerTau", si::seconds(experiment, 1), "drive",
-                si::drive_of(experiment), "without", without);
+                radius / per_deceleration, "momentArm",
+                experiment.contact.friction * radius * law_of(law).pivoting_moment(), "secondsPerTau",
+                si::seconds(experiment, 1), "drive", si::drive_of(experiment), "without", without);
 }
 
 }  // namespace
@@ -513,6 +504,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("stop", answering<&Plane::stop>)
       .function("stopBy", answering<&Plane::stop_by>)
       .function("motion", answering<&Plane::motion>)
+      .function("force", answering<&Plane::force>)
       .function("instant", answering<&Plane::instant>)
       .function("place", answering<&Plane::place>)
       .function("at", answering<&Plane::at>)

@@ -16,11 +16,13 @@ import { drawPanes, panes } from "./share/panes_figure.js";
 import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
 import { rounds, tour } from "./state/presets.js";
+import { today } from "./hero/tries.js";
 import { makePresets } from "./controls/presets_nav.js";
 import { makeShare } from "./share/share.js";
 import { Store } from "./state/store.js";
 import { ScreenSurface } from "./drawing/screen_surface.js";
 import { makeThrowing } from "./hero/throwing.js";
+import { makeWhy } from "./hero/why.js";
 import { makeTour } from "./controls/tour.js";
 
 function start(library) {
@@ -38,23 +40,36 @@ function start(library) {
   const plane = new Plane(store);
   const controls = makeControls(store);
   makeSettings(controls, store, plane);
+  const why = makeWhy(store, controls, player);
   const { picture: cue, start: startByCue } = makeCue(store, controls, player);
   const bounce = makeBounce(store, controls);
   makeOrbits(store, plane);
-  const address = new Address(store);
-  makeShare(store, { plane, hero, player, address, film: makeFilm(store, player) });
+  const address = new Address(store, hero);
+  makeShare(store, { plane, hero, why, player, address, film: makeFilm(store, player) });
   const go = (fragment, done = () => player.begin()) => store.ask((state) => {
-    const { theme, embed, lab } = state;
-    Object.assign(state, fromFragment(fragment, library), { theme, embed, lab });
+    const { theme, embed, project, lab } = state;
+    Object.assign(state, fromFragment(fragment, library), { theme, embed, project, lab });
   }, done);
   // Buttons for the question and for the game.
-  const toRound = (index) => go(rounds[index % rounds.length], () => {
+  const toRound = (round) => go(round, () => {
     player.toggle(false);
+    hero.say("");
     $("lanes").focus();
   });
   $("again").addEventListener("click", () => go("", () => hero.ask()));
-  $("to-line").addEventListener("click", () => toRound(0));
-  $("next-line").addEventListener("click", () => toRound(rounds.findIndex((round) => round.includes(`line=${store.state.line}`)) + 1));
+  $("to-line").addEventListener("click", () => toRound(rounds[0]));
+  $("today-line").addEventListener("click", () => toRound(`day=${today()}`));
+  $("next-line").addEventListener("click", () => toRound(rounds[(rounds.findIndex((round) => round.includes(`line=${store.state.line}`)) + 1) % rounds.length]));
+  const project = (on = !store.state.project) => store.ask((state) => (state.project = on));
+  $("project").addEventListener("click", () => project());
+  addEventListener("keydown", ({ key, target }) => {
+    if (key === "P" && !(target instanceof HTMLInputElement && target.inputMode === "decimal") && target !== $("formulas")) project();
+    if (key === "Escape" && store.state.project) project(false);
+  });
+  $("try-line").addEventListener("click", () => {
+    $("lanes").scrollIntoView({ block: "center" });
+    $("lanes").focus();
+  });
   makeTour(store, go);
   makePresets(store, go);
   makeThrowing(store, hero, player, plane, startByCue);
@@ -68,6 +83,7 @@ function start(library) {
     const { contact, now, end, timeFactor } = store;
     plane.draw();
     hero.draw();
+    why.picture.drawInSight();
     bounce.drawInSight();
     paneSurface.drawInSight();
     copies.drawInSight();
@@ -75,15 +91,16 @@ function start(library) {
     write($("instant"), now
       ? `${contact ? `t = ${shown(now.tau * timeFactor, 5)} s` : `τ = ${shown(now.tau, 5)}`} of ` +
         `${shown(end * timeFactor, 5)}:  u = ${shown(now.u, 4)}, v = ${shown(now.v, 4)}${now.u === 0 && now.v === 0 ? ", no slip" : `, k = ${shown(now.k, 4)}`}`
-      : "No motion yet: click the plane.");
+      : "No motion yet: choose a place in the plane.");
   };
 
   store.changed = (moment) => {
     if (!moment) {
-      for (const kind of ["embed", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
+      for (const kind of ["embed", "project", "lab"]) document.documentElement.classList.toggle(kind, store.state[kind]);
       document.documentElement.dataset.shows = tour[store.state.step].shows;
       store.show();
     }
+    $("project").setAttribute("aria-pressed", String(store.state.project));
     draw();
     if (!player.playing || !moment) address.rememberSoon();
   };
@@ -94,7 +111,7 @@ function start(library) {
     const { theme, fraction } = store.state;
     screen = { theme, fraction };
     store.ask((state) => Object.assign(state, { theme: "light", fraction: 1 }));
-    for (const surface of [hero.lanes, hero.patch, plane.surface, bounce, cue, paneSurface, copies]) surface.draw();
+    for (const surface of [hero.lanes, why.picture, plane.surface, bounce, cue, paneSurface, copies]) surface.draw();
   });
   addEventListener("afterprint", () => store.ask((state) => Object.assign(state, screen)));
   $("app").hidden = false;
@@ -102,7 +119,7 @@ function start(library) {
   store.ask(() => {}, undefined, problems);
   // Without a link, the page asks the question. A link to a moment shows this moment; other links play.
   if (store.moves && opens && !store.state.embed) hero.ask();
-  else if (store.state.fraction === 0) player.begin();
+  else if (store.state.fraction === 0 && !store.state.line) player.begin();
   return { store, player, hero, plane, library, get state() { return store.state; } };
 }
 

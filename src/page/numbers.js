@@ -34,6 +34,12 @@ export const length = (metres, unit) => (!unit ? inWords(metres, 1e-4, "") : met
 /** A time in words; without a unit, a number. */
 export const duration = (t, unit) => (unit ? inWords(t, 1e-3, " s") : inWords(t, 1e-4, ""));
 
+/** An angular velocity in words, from rad/s. */
+export const turnsOf = (spin, words = "turns/s") => `${shown(spin / 2 / Math.PI, 3)} ${words}`;
+
+/** A spin in turns per second, in the Lab also in rad/s, or without units. */
+export const spinText = (u, { ball, lab }) => (ball ? `${turnsOf(u / ball.radius)}${lab ? ` (${shown(u / ball.radius, 3)} rad/s)` : ""}` : `u = ${shown(u, 3)}`);
+
 /** The largest of 1, 2, 5 times a power of ten that is at most x. */
 export function roundDown(x) {
   const power = 10 ** Math.floor(Math.log10(x));

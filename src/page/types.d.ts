@@ -19,7 +19,7 @@ interface State {
   law: string; body: string; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean; lab: boolean; step: number; line: number; drop: number; restitution: number;
+  ball: Ball | null; theme: string; embed: boolean; project: boolean; lab: boolean; step: number; line: number; day: string; tries: number; drop: number; restitution: number;
 }
 
 interface Ball {
@@ -31,7 +31,7 @@ interface Ball {
 interface Law { name: string; meaning: string; letter?: string; example?: number }
 interface Body { name: string; chi: number; gamma: number; mu?: number }
 interface View { name: string; title: string; hint: string; layered: boolean }
-interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string }
+interface Contact { mu: number; patchRadius: number; spinDeceleration: number; secondsPerTau: number; drive: number; without: string; momentArm: number }
 
 /** The request for a portrait, made by portrait_request.js. */
 interface PortraitRequest extends Pick<State, "law" | "mu" | "chosen" | "view" | "window" | "isochrones" | "field" | "against"> {
@@ -41,7 +41,7 @@ interface PortraitRequest extends Pick<State, "law" | "mu" | "chosen" | "view" |
 /** Columns. */
 interface Motion { tau: Float64Array; u: Float64Array; v: Float64Array; k: Float64Array; lnV: Float64Array }
 interface OwnOrbit extends Omit<Motion, "lnV"> { stop: number; panels: { line: Float64Array; arrow: Float64Array }[] }
-interface Instant extends Speeds { tau: number; k: number; force: number; places: Float64Array }
+interface Instant extends Speeds { tau: number; k: number; places: Float64Array }
 /** SI units. end: time when sliding ends; path: path of the centre until then; turned: change of its direction, degrees; stop: time when slip and spin end. */
 interface Slide { end: number; path: number; turned: number; stop: number }
 /** SI units. down, up: normal speeds; before, after: speeds along the floor. */
@@ -100,6 +100,7 @@ interface LibraryPlane {
   portraitFile(request: PortraitRequest): string;
   stop(u: number, v: number): number;
   stopBy(law: string, mu: number, u: number, v: number): number;
+  force(u: number, v: number): number;
   instant(u: number, v: number, tau: number): Instant;
   place(u: number, v: number): Float64Array;
   at(panel: number, x: number, y: number): Speeds | null;

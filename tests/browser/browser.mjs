@@ -14,8 +14,8 @@ export const file = join(folder, "page.html");
 const address = pathToFileURL(file).href;
 
 const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
-// The views of moments, such as that of beta, and of two panels are the program's alone.
-export const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name).filter((name) => !["time", "regularised", "pair"].includes(name));
+// The other views are the program's alone.
+export const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name).filter((name) => !["patch", "similarity", "time", "regularised", "pair"].includes(name));
 
 /** ms; what a test waits for comes, on a slow machine later: only a failure takes so long. */
 export const patience = 300_000;

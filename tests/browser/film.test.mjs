@@ -150,7 +150,7 @@ test("a film of 100 000 pictures is fitted, all of it", async () => {
 test("pictures are of any width, and of the plane, the balls, the patch and the motion in time", async () => {
   await open("#ball=pool&orbits=3,4,0.9,0.9&part=whole&rollingFriction=0.01");
   await page.evaluate(() => globalThis.page.store.move({ fraction: 0.3 }));
-  const words = { plane: /time left/, lanes: /spinning, 105 rad\/s/, patch: /friction slows the slide/, panes: /t \(s\)/ };
+  const words = { plane: /time left/, lanes: /spinning, 16\.7 turns\/s/, patch: /friction slows the slide/, panes: /t \(s\)/ };
   for (const [picture, text] of Object.entries(words)) {
     await page.selectOption("#picture", picture);
     const svg = String(await saved("#save-svg"));

@@ -1,42 +1,12 @@
 // Laws of friction, rolling friction and slopes that a reader gives, against the program.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertClose, close, folder, json, open, page, program, programStop, saved, state, stopTimes } from "./browser.mjs";
+import { assertClose, close, folder, json, open, page, program, programStop, state, stopTimes } from "./browser.mjs";
 
 const linkWith = (words) => page.waitForFunction((words) => decodeURIComponent(location.hash).includes(words) && location.hash, words).then((link) => link.jsonValue());
-
-test("a pressure of the reader's own is the program's, in the plane, in the link and against another law", async () => {
-  const table = "rho,pressure\n0,1\n0.4,1\n0.4,0.5\n1,0\n";
-  const file = join(folder, "pressure.csv");
-  writeFileSync(file, table);
-  const take = (text) => page.setInputFiles("#pressure", { name: "mine.csv", mimeType: "text/csv", buffer: Buffer.from(text) });
-  await open("#mu=0.3&orbits=0.8,3.5&law=pade&against=uniform");
-  const [other] = [json("stop", "--mu", "0.3", "--u0", "0.8", "--v0", "3.5", "--law", "uniform").tau_stop];
-  assert.match(await page.textContent("#orbits .stop"), new RegExp(`by uniform τ\\* = ${other.toPrecision(7)}`.replace(/0+$/, "")));
-  await take(table);
-  await page.waitForFunction(() => globalThis.page.state.law.startsWith("table:"));
-  assertClose((await stopTimes())[0], json("stop", "--mu", "0.3", "--u0", "0.8", "--v0", "3.5", "--law", file).tau_stop, 1e-11, "stops");
-  assert.match(await page.textContent("#command"), /--law pressure\.csv --against uniform/);
-  assert.match(await page.inputValue("#law"), /^table:/);
-  const { law } = await state();
-  const link = await linkWith("law=table");
-  await close();
-  await open(link);
-  assert.equal((await state()).law, law);
-  assert.equal(String(await saved("#save-pressure")), table);
-  // What is wrong is said, and the law stays.
-  for (const [text, problem] of [["a,b\n0,1\n", /pressure\.csv.*rho/], ["rho,pressure\n0.1,1\n1,0\n", /pressure\.csv:2: .*rho must begin at 0/], ["rho,pressure\n0,x\n1,0\n", /pressure\.csv:2/]]) {
-    await take(text);
-    await page.waitForFunction(() => document.getElementById("problem").textContent !== "");
-    assert.match(await page.textContent("#problem"), problem);
-    assert.equal((await state()).law, law);
-    await page.click("#fit");
-  }
-  await close();
-});
 
 test("a law's formulas of the reader's own are the program's, in the plane, in the link and in the command line", async () => {
   await open("#mu=0.3&orbits=0.8,3.5");

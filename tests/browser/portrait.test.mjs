@@ -58,22 +58,21 @@ async function assertSamePicture(what) {
     assert.equal(us.length, rows.length + 1, `${what}: points of orbit ${i}`);
     rows.forEach((row, j) => assert.ok(near(us[j + 1], orbit.u[row]) && near(vs[j + 1], orbit.v[row]), `${what}: point ${j} of orbit ${i}`));
   });
-  const speeds = { uv: 1, pair: 1, patch: placed[0] }[state.view];
-  if (!speeds) return;
+  if (state.view !== "uv") return;
   assert.equal(isochrones, portrait.isochrones.length > 0, `${what}: isochrones`);
   // The axis of v is linear, or bent: h = (x + x^s)/2 with x = v/V.
   const linear = placed[1] < 1e-200 * V;
   const exponent = Math.log(2 * placed[1]) / Math.log(1e-300);
   const height = (lnX) => (linear ? V * Math.exp(lnX) : (Math.exp(lnX) + Math.exp(exponent * lnX)) / 2);
-  const placeOf = (orbit, row) => [speeds * orbit.u[row], height(orbit.tau_left[row] === 0 ? -Infinity : orbit.ln_v[row] - Math.log(V))];
+  const placeOf = (orbit, row) => [orbit.u[row], height(orbit.tau_left[row] === 0 ? -Infinity : orbit.ln_v[row] - Math.log(V))];
   const isNear = ([x, y]) => ([px, py]) => near(px, x) && near(py, y);
   for (const orbit of [...portrait.orbits, ...(portrait.against?.orbits ?? [])]) {
     assert.ok(drawn.some(isNear(placeOf(orbit, 0))), `${what}: an orbit from ${orbit.u[0]}, ${orbit.v[0]}`);
   }
   listed.forEach((orbit, i) => {
     const { u, v, line } = orbits[i];
-    const rows = [[speeds * u, height(Math.log(v / V))], ...orbit.u.map((_, row) => placeOf(orbit, row))];
-    const onBorder = (x, y) => near(Math.abs(x), speeds * U) || near(y, height(0));
+    const rows = [[u, height(Math.log(v / V))], ...orbit.u.map((_, row) => placeOf(orbit, row))];
+    const onBorder = (x, y) => near(Math.abs(x), U) || near(y, height(0));
     for (let at = 0; at < line.length; at += 2) {
       const [x, y] = line.slice(at, at + 2);
       assert.ok(Number.isNaN(x) || onBorder(x, y) || rows.some(isNear([x, y])), `${what}: ${x}, ${y} of the line of orbit ${i}`);
@@ -82,7 +81,7 @@ async function assertSamePicture(what) {
 }
 
 test("another view has a window of its own", async () => {
-  await open("#law=exact&mu=0.3&view=patch&orbits=0.8,3.5");
+  await open("#law=exact&mu=0.3&view=log&orbits=0.8,3.5");
   await page.click("#zoom-in");
   assert.ok((await state()).window);
   await page.click("#views [value=uv]");
@@ -230,15 +229,15 @@ test("all views are drawn, and a click in each starts the orbit that it points a
       clicks += 1;
     }
   }
-  assert.equal(pictures.size, 6);
-  assert.equal(clicks, 8);
+  assert.equal(pictures.size, 4);
+  assert.equal(clicks, 5);
   await close();
 });
 
 test("a link reproduces the page", async () => {
   await open("#law=exact&mu=0.25&window=2,3&orbits=1,2");
   await clickPlane(0.7, 1.2);
-  await page.click("#views [value=patch]");
+  await page.click("#views [value=log]");
   await page.fill("[name=mu]", "0.125");
   await dragSlider("time", 0.02, 0.3, 5);
   await page.click("#copy-link");
@@ -353,7 +352,7 @@ test("fields and isochrones are switched where a view draws them", async () => {
   assert.match(page.url(), /field=motion&isochrones=0/);
   await page.click("#views [value=disc]");
   assert.ok((await page.isDisabled("#field")) && (await page.isDisabled("#isochrones")));
-  await page.click("#views [value=patch]");
+  await page.click("#views [value=uv]");
   assert.match(await legend(), /direction of the motion/);
   await close();
 });
@@ -368,7 +367,7 @@ test("the keyboard alone is enough", async () => {
   assert.equal((await stopTimes()).length, 1);
   await page.focus("#views :checked");
   await page.keyboard.press("ArrowRight");
-  assert.equal((await state()).view, "patch");
+  assert.equal((await state()).view, "log");
   await close();
 });
 

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { duration, length, shown } from "../../src/page/numbers.js";
+import { duration, length, shown, turnsOf } from "../../src/page/numbers.js";
 import { question } from "../../src/page/hero/story.js";
-import { assertClose, close, drawn, file, json, open, page, pass, pixelOf, saved, state } from "./browser.mjs";
+import { assertClose, close, drawn, file, json, open, page, pass, pixelOf, saved, slide, state } from "./browser.mjs";
 
 /** Where a body is on the screen: the one that spins, or the other. */
 const body = (index = 1) => page.evaluate((index) => {
@@ -127,7 +127,7 @@ test("a second finger turns what is thrown, and a finger beside the bodies scrol
   for (let i = 1; i <= 5; ++i) await touch("touchMove", [x + ((at[0] - x) * i) / 5, y + 4 * i]);
   await touch("touchStart", at, second(0));
   for (let i = 1; i <= 6; ++i) await touch("touchMove", at, second((i * Math.PI) / 6));
-  assert.match(await told(), /m\/s, 185 rad\/s/, "half a turn to the left is a quarter of 500 rad/s more");
+  assert.match(await told(), /m\/s, 29\.4 turns\/s/, "half a turn to the left is a quarter of 500 rad/s more");
   await touch("touchMove", at);
   assert.equal((await state()).orbits.length, 1, "the second finger lets nothing go");
   await touch("touchEnd");
@@ -150,14 +150,14 @@ test("keys throw, Escape and a short way throw nothing, and a wheel beside the b
   await open();
   await page.focus("#lanes");
   await page.keyboard.press("ArrowRight");
-  assert.equal(await told(), "0.55 m/s, 60 rad/s");
+  assert.equal(await told(), "0.55 m/s, 9.55 turns/s");
   for (const key of ["ArrowUp", "ArrowUp", "Shift+ArrowRight"]) await page.keyboard.press(key);
-  assert.equal(await told(), "0.563 m/s, 85 rad/s");
+  assert.equal(await told(), "0.563 m/s, 13.5 turns/s");
   await page.keyboard.press("Escape");
   assert.equal(await told(), "");
   await page.keyboard.press("Enter");
   assert.equal((await state()).orbits.length, 1);
-  assert.equal(await told(), "0.5 m/s, 60 rad/s");
+  assert.equal(await told(), "0.5 m/s, 9.55 turns/s");
   await page.keyboard.press("ArrowDown");
   await page.keyboard.press("Enter");
   const { orbits, ball } = await state();
@@ -208,8 +208,8 @@ test("every picture is drawn on a phone", async () => {
 /** Where the ring of the body that spins is, at an angle to the left from the right, in rad. */
 const onRing = (angle) => page.evaluate((angle) => {
   const { left, top } = document.getElementById("lanes").getBoundingClientRect();
-  const { x, y, radius } = globalThis.page.hero.places[1];
-  return [left + x + (radius + 12) * Math.cos(angle), top + y - (radius + 12) * Math.sin(angle)];
+  const { x, y, radius } = globalThis.page.hero.places.at(-1);
+  return [left + x + (radius + 25) * Math.cos(angle), top + y - (radius + 25) * Math.sin(angle)];
 }, angle);
 
 /** Pulls the ring from one angle to another, and lets go. */
@@ -238,7 +238,7 @@ test("a line is reached by spin alone: the ring, the wheel without a button, key
   await pass(14_000);
   const [, { u }] = (await state()).orbits;
   const far = json("stop", "--ball", "puck", "--slip", 0.5, "--spin", u / rad).slip_length;
-  assert.equal(await headline(), `${shown(u / rad, 3)} rad/s gives ${length(far, "m")}: ${length(1 - far, "m")} short of the line`);
+  assert.equal(await headline(), `${turnsOf(u / rad, "turns a second")} give ${length(far, "m")}: ${length(1 - far, "m")} short of the line`);
   assert.ok(!(await page.isVisible("#send")));
   // The wheel over the body, without a button; a click lets go.
   await page.mouse.move(...await body());
@@ -252,21 +252,148 @@ test("a line is reached by spin alone: the ring, the wheel without a button, key
   assert.match(await headline(), /beyond the line$/);
   // Keys, as fine as the line is wide.
   await page.focus("#lanes");
-  do await page.keyboard.press("Shift+ArrowDown"); while (parseFloat((await told()).split(", ")[1]) > 121);
+  do await page.keyboard.press("Shift+ArrowDown"); while (parseFloat((await told()).split(", ")[1]) > 19.25);
   await page.keyboard.press("Enter");
   await pass(14_000);
-  assert.match(await headline(), /gives (1|1\.0[012]\d?|0\.9[89]\d?) m: the line, in 3 tries$/);
+  assert.match(await headline(), /give (1|1\.0[012]\d?|0\.9[89]\d?) m: the line, in 3 tries$/);
   const found = page.evaluate(() => globalThis.page.hero.ghostsNow().map(({ words }) => words));
-  assert.deepEqual(await found, (await speeds()).slice(0, 3).map(([its]) => `${shown(its * 0.0381 / rad, 3)} rad/s`));
+  assert.deepEqual(await found, (await speeds()).slice(0, 3).map(([its]) => turnsOf(its * 0.0381 / rad)));
+  // The line and the tries are sent on, and no throw.
+  await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: { writeText: (text) => Promise.resolve(globalThis.copied = text) } }));
   await page.click("#send");
-  await page.waitForFunction(() => document.getElementById("told").textContent !== "");
+  await page.waitForFunction(() => globalThis.copied && document.getElementById("told").textContent !== "");
+  const sent = await page.evaluate(() => globalThis.copied);
+  assert.match(sent, /^contensou, line at 1 m, in 3 tries: (◀️|⏪)(▶️|⏩)🎯\nfile:.*#line=1&tries=3$/);
   const link = page.url();
   await page.click("#next-line");
+  assert.equal(await told(), "");
   assert.deepEqual([(await state()).line, (await state()).orbits.length], [2, 1]);
   await close();
+  // The address has the tries, so that a reload keeps them.
   await open(link.slice(link.indexOf("#")));
   assert.match(await headline(), /: the line, in 3 tries$/);
   await close();
+  await open(sent.slice(sent.indexOf("#")), { stopped: true, reducedMotion: "no-preference" });
+  await pass(3000);
+  assert.equal(await headline(), "A friend reached the line in 3 tries. You?");
+  assert.deepEqual([(await state()).fraction, (await state()).orbits.length], [0, 1], "nothing runs that nobody threw");
+  assert.ok(await page.isVisible("#try-line") && !(await page.isVisible("#play")));
+  await page.click("#try-line");
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowUp");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Shift+ArrowUp");
+  await page.keyboard.press("Enter");
+  await pass(14_000);
+  assert.match(await headline(), /: the line, in 1 try; your friend needed 3$/);
+  await close();
+});
+
+test("the line of a day follows from the day, and everybody who opens it has the same", async () => {
+  await open("#lab=0", { stopped: true });
+  await page.evaluate(() => (globalThis.Date = class extends Date {
+    constructor(...all) {
+      super(...(all.length ? all : ["2026-11-28T23:59:00Z"]));
+    }
+  }));
+  await page.click("#today-line");
+  const { line, day } = await state();
+  assert.deepEqual([line, day], [2.61, "2026-11-28"]);
+  await pass(500);
+  assert.match(page.url(), /#day=2026-11-28$/);
+  assert.match(await page.textContent("#story"), /^Line of 2026-11-28 \(UTC\)\. /);
+  assert.ok(!(await page.isVisible("#today-line")));
+  await close();
+  for (const [fragment, problem] of [["#day=2026-02-30&tries=2", /^day=2026-02-30 of the link is left out/], ["#line=1&tries=1e9", /^tries=1e9/], ["#day=<img src=x onerror=alert(1)>", /is left out/]]) {
+    await open(fragment, {}, false);
+    assert.match(await page.textContent("#problem"), problem);
+    await close();
+  }
+});
+
+test("one and the same pull of the puck gives one spin wherever it begins, by mouse and by finger; the ring is seen all the time", async () => {
+  for (const options of [{}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }, { viewport: { width: 844, height: 390 }, hasTouch: true, isMobile: true }]) {
+    const spins = new Set();
+    let out = 0;
+    await open("#line=1&lab=0", options);
+    for (const [dx, dy] of [[0, 0], [-3, 2], [2, 3], [-1, -3], [3, -1], [9, -9], [-14, 12]]) {
+      await page.evaluate(() => globalThis.page.store.ask((state) => Object.assign(state, { orbits: [state.orbits[0]], chosen: 0, fraction: 0 })));
+      await drawn();
+      const scene = () => page.evaluate(() => globalThis.page.hero.ringAtRest);
+      assert.equal((await scene()).words, "9.55 turns/s");
+      out = 25 + await page.evaluate(() => globalThis.page.hero.places.at(-1).radius);
+      const [x, y] = (await onRing(0)).map((side, i) => side - [out, 0][i]);
+      if (options.hasTouch) {
+        const devtools = await page.context().newCDPSession(page);
+        const touch = (type, ...points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+        await touch("touchStart", [x + dx, y + dy]);
+        for (let i = 1; i <= 4; ++i) await touch("touchMove", [x + dx + 5 * i, y + dy + i]);
+        await touch("touchEnd");
+        assert.doesNotMatch(await page.locator("#hero").innerText(), /wheel|key|click|Enter/i);
+      } else {
+        await page.mouse.move(x + dx, y + dy);
+        await page.mouse.down();
+        await page.mouse.move(x + dx + 20, y + dy + 4, { steps: 4 });
+        await page.mouse.up();
+      }
+      const { orbits, ball } = await state();
+      assert.equal(orbits.length, 2);
+      spins.add(orbits[1].u / ball.radius);
+      assert.ok(await scene());
+    }
+    await close();
+    assert.equal(spins.size, 1, JSON.stringify([...spins]));
+    // 20 pixels of the ring, two turns of which are 500 rad/s.
+    assert.ok(out >= 36, `${out} pixels`);
+    assertClose([...spins][0], 60 + 500 * 20 / (2 * 2 * Math.PI * out), 0.01, "rad/s");
+  }
+});
+
+test("the reader turns the spin of the patch: the arrows turn aside, and the number is the library's force", async () => {
+  await open("#lab=0");
+  const seen = async () => ({
+    label: await page.getAttribute("#patch", "aria-label"), spoken: await page.getAttribute("#why-slider", "aria-valuetext"),
+    picture: await page.$eval("#patch", (canvas) => canvas.toDataURL()),
+  });
+  const pictures = new Set();
+  for (const share of [0, 200, 400, 700, 1000]) {
+    await slide("why-slider", share);
+    await drawn();
+    const { label, spoken, picture } = await seen();
+    pictures.add(picture);
+    const spin = 500 * (share / 1000) ** 2;
+    // The program's law of a uniform pressure, at the ratio of the slide to the rim speed.
+    const { phi: [force] } = json("law", "--law", "uniform", "--k", share ? 0.5 / (spin * 0.0381) : "inf");
+    const percent = shown(100 * force, force < 0.1 ? 1 : 2);
+    assert.ok(label.includes(`${percent} % of it slows the slide`) && spoken.includes(`${percent} % of the friction`), `${label}; ${spoken}`);
+  }
+  assert.equal(pictures.size, 5);
+  // The motion on the table stays. The patch follows it while it plays, and begins with its spin.
+  assert.equal((await state()).orbits[0].u, 2.286);
+  await slide("spin-slider", 300);
+  assert.match((await seen()).spoken, /^23\.9 turns\/s/);
+  const { label } = await seen();
+  await page.evaluate(() => globalThis.page.store.move({ fraction: 0.5 }));
+  await drawn();
+  assert.notEqual((await seen()).label, label);
+  await close();
+});
+
+test("headline, table and plane alone fill a projector, with words of 1.5 % of its width", async () => {
+  for (const width of [1280, 1920]) {
+    await open("#lab=0", { viewport: { width, height: (width * 9) / 16 } });
+    await page.keyboard.press("P");
+    await drawn();
+    await drawn();
+    for (const id of ["#headline", "#lanes", "#plane", "#play"]) assert.ok(await page.isVisible(id), id);
+    for (const id of ["#why-card", "#tour", "#sliders", "#presets", "footer", "#lab"]) assert.ok(!(await page.isVisible(id)), id);
+    const { tall, letter, words } = await page.evaluate(() => ({
+      tall: document.documentElement.scrollHeight, letter: globalThis.page.plane.frames[0].letter, words: parseFloat(getComputedStyle(document.getElementById("story")).fontSize),
+    }));
+    assert.ok(tall <= (width * 9) / 16 + 1 && 0.9 * letter >= 0.0149 * width && words >= 0.015 * width, JSON.stringify({ tall, letter, words, width }));
+    await page.waitForFunction(() => location.hash.includes("project=1"));
+    await page.keyboard.press("Escape");
+    assert.ok(await page.isVisible("#why-card"));
+    await close();
+  }
 });
 
 test("the last throws stay on the table where they ended", async () => {
@@ -287,7 +414,7 @@ test("the last throws stay on the table where they ended", async () => {
 test("each preset says in one sentence what is to be seen, with numbers that are the page's", async () => {
   await open();
   const links = await page.$$("#presets a");
-  assert.equal(links.length, 7);
+  assert.equal(links.length, 5);
   for (const link of links) {
     await link.click();
     assert.equal(await link.getAttribute("aria-current"), "true");
@@ -296,9 +423,9 @@ test("each preset says in one sentence what is to be seen, with numbers that are
     const turningAlone = await page.evaluate(() => globalThis.page.library.plane.stop(globalThis.page.store.orbit.u, 0) * globalThis.page.store.timeFactor);
     const unit = real ? "m" : "";
     const times = own.path / plain.path;
-    const known = [length(own.path, unit), length(plain.path, unit), `${shown(times, 2)} times as far`, `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second`,
+    const known = [length(own.path, unit), length(plain.path, unit), `${shown(times, 2)} times as far`, `${shown(Math.abs(spin) / 2 / Math.PI, 2)} turns a second`,
       `${shown(slip, 3)} m/s`, `${shown(Math.abs(own.turned), 2)}°`, ...(await page.textContent("#bounce-says")).match(/[\d.]+°/g) ?? [], ...[own.end, plain.end, stop, turningAlone].map((t) => duration(t, "s"))];
-    const numbers = says.match(/[\d.]*\d(°| times (as far|a second)| mm?(\/s)?\b| s\b)/g);
+    const numbers = says.match(/[\d.]*\d(°| times as far| turns a second| mm?(\/s)?\b| s\b)/g);
     assert.ok(numbers.length > 0, says);
     for (const number of numbers) assert.ok(known.includes(number), `'${number}' of '${says}' is none of ${known.join(", ")}`);
     assert.equal(says.match(/\d(?![\d.])/g).length, numbers.length, `a number of '${says}' has no unit`);
@@ -315,7 +442,7 @@ test("each preset says in one sentence what is to be seen, with numbers that are
   await page.setViewportSize({ width: 1280, height: 900 });
   // It is said of a link that is pointed at, and not of a motion that is none of them.
   await links[0].hover();
-  assert.match(await page.textContent("#says"), /^Spun 9\.5 times/);
+  assert.match(await page.textContent("#says"), /^With 9\.5 turns/);
   await page.mouse.move(5, 5);
   await page.fill("[name=mu]", "0.9").catch(() => {});
   await page.fill("#ball-fields [name=friction]", "0.2");
@@ -351,13 +478,4 @@ test("a first picture stands in the page before the library does, of what it ope
   await page.locator("#failure").filter({ visible: true }).waitFor();
   assert.ok(!(await first().isVisible()));
   await close([/no native wasm support/]);
-});
-
-test("a citation is copied with the link", async () => {
-  await open("#ball=gel");
-  await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: { writeText: (text) => Promise.resolve(globalThis.copied = text) } }));
-  await page.click("#copy-citation");
-  await page.waitForFunction(() => document.getElementById("copied").textContent === "BibTeX copied.");
-  assert.match(await page.evaluate(() => globalThis.copied), /^@misc\{contensou,\n {2}title = \{contensou \d+\.\d+\.\d+: .*\\url\{file:.*ball=gel/s);
-  await close();
 });

@@ -2,13 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commandLine } from "../../src/page/plane/command_line.js";
-import { citation, csvOfFilm, csvOfOrbits, csvOfRide } from "../../src/page/share/exports.js";
+import { csvOfFilm, csvOfOrbits, csvOfRide } from "../../src/page/share/exports.js";
 import { strikeOf } from "../../src/page/cards/cue.js";
 import { sizeOf } from "../../src/page/plane/copies.js";
 import { panelsOf } from "../../src/page/plane/copies_figure.js";
 import { drawLanes } from "../../src/page/hero/hero_figure.js";
 import { Frame } from "../../src/page/drawing/frame.js";
-import { lawOfTable, lawTitle, tableOfLaw } from "../../src/page/controls/law_field.js";
 import { decades, parseNumber, roundDown, shown, superscript } from "../../src/page/numbers.js";
 import { allowed, bodyOf, fromFragment, initialState, moved, speaksOfNothing, startOf, takeBall, toFragment } from "../../src/page/state/page_state.js";
 import { packed, unpacked } from "../../src/page/packing.js";
@@ -17,7 +16,7 @@ import { presets, tour } from "../../src/page/state/presets.js";
 import { italic, plain, runsOf } from "../../src/page/drawing/runs.js";
 import { Store } from "../../src/page/state/store.js";
 import { answers, goal, judged, question, regimeOf, say } from "../../src/page/hero/story.js";
-import { passageOf, rightOf, stoneOf } from "../../src/page/hero/tries.js";
+import { lineOf, passageOf, rightOf, stoneOf } from "../../src/page/hero/tries.js";
 import { rideOn, rotation, turnedBy } from "../../src/page/hero/turning.js";
 import { described } from "../../src/page/plane/views.js";
 
@@ -33,7 +32,7 @@ const gel = {
 const known = {
   balls: [gel, { ...gel, name: "puck", body: "disc", law: "uniform", patchBy: "whole_face" }],
   bodies: [{ name: "ball", chi: 3.5, gamma: 2.5 }, { name: "disc", chi: 1, gamma: 2, mu: 1 }],
-  views: ["uv", "patch", "log", "disc"].map((name) => ({ name, layered: name !== "disc" })),
+  views: ["uv", "log", "disc"].map((name) => ({ name, layered: name === "uv" })),
   lawName(called) {
     if (!/^(exact|pade|uniform|pressure:-?[\d.]+)$/.test(called)) throw new Error(`no such law: ${called}`);
     return called;
@@ -101,7 +100,7 @@ test("what cannot be read in a link is told, and what can be read is not", () =>
     return problems.join("\n");
   };
   for (const part of ["law=nonsense", "against=nonsense", "body=1", "mu=2", "mu=x", "view=none", "window=1", "window=0,1", "field=up", "isochrones=3", "part=none",
-    "orbits=x", "chosen=-1", "line=-1", "drop=x", "restitution=2", "step=9", "at=2", "isochrone=0", "theme=red", "friction=0.2"]) {
+    "orbits=x", "chosen=-1", "line=-1", "day=2026-02-30", "day=tomorrow", "tries=-1", "tries=1e9", "drop=x", "restitution=2", "step=9", "at=2", "isochrone=0", "theme=red", "friction=0.2"]) {
     const [key] = part.split("=");
     assert.match(told(key === "mu" ? part : `mu=0.3&${part}`), new RegExp(`^${part} of the link is left out: .+\\.$`), part);
   }
@@ -154,7 +153,7 @@ test("what cannot be read in a link keeps its first value", () => {
   assert.equal(fromFragment("mu=7", known).mu, 0.3, "no patch is larger than the body");
   // Nor is a link that was cut or mangled another world.
   for (const link of ["", "#garbage", "#%", "#utm_source=x", "#ball=golf&orbits=1,2&view=log"]) assert.deepEqual(fromFragment(link, known), fromFragment("ball=puck&orbits=2.286,0.5", known), link);
-  assert.ok(fromFragment("#embed", known).embed);
+  assert.deepEqual(["#embed", "#embed=1", "#embed=0"].map((link) => fromFragment(link, known).embed), [true, true, false]);
   // The Lab is open where a link says so, or speaks of what it alone shows.
   assert.deepEqual(["", "#ball=puck&orbits=1,2", "#view=log", "#lab=1", "#view=log&lab=0"].map((link) => fromFragment(link, known).lab), [false, false, true, true, false]);
   assert.deepEqual(["", "#garbage", "#theme=dark", "#embed", "#ball=golf", "#mu=0.3", "#ball=puck"].map((link) => speaksOfNothing(link, known)), [true, true, true, true, true, false, false]);
@@ -167,7 +166,7 @@ test("chi, gamma and a fixed mu are the library's", () => {
 
 test("presets and steps of the tour are links that are understood", () => {
   const balls = ["gel", "pool", "bowling", "puck", "curling-stone"].map((name) => ({ ...gel, name }));
-  const views = ["uv", "patch", "log", "similarity", "blowup", "disc"].map((name) => ({ name }));
+  const views = ["uv", "log", "blowup", "disc"].map((name) => ({ name }));
   for (const { fragment } of [...presets, ...tour]) {
     const state = fromFragment(fragment, { ...known, balls, views });
     const query = new URLSearchParams(fragment);
@@ -189,6 +188,29 @@ test("a link carries what differs from what it would open", () => {
   assert.equal(toFragment({ ...puck, orbits: [startOf(1, 2)], lab: true }), "ball=puck&friction=0.2&orbits=1,2&lab=1");
   assert.equal(toFragment({ ...initialState(), view: "log", lab: true }), "mu=0.3&view=log&orbits=0.8,3.5");
   assert.equal(toFragment({ ...initialState(), lab: false }), "mu=0.3&orbits=0.8,3.5&lab=0");
+});
+
+test("the address of the opening asks: it holds no motion, at its start, at its end, and while the page asks", () => {
+  const opening = fromFragment("", known);
+  for (const [change, asks, text] of /** @type {[Partial<State>, boolean, string][]} */ ([[{}, false, ""], [{ fraction: 1 }, false, ""], [{ fraction: 0.3 }, true, ""],
+    [{ fraction: 0.3 }, false, "ball=puck&orbits=2.286,0.5&at=0.3"], [{ theme: "dark", lab: true }, false, "theme=dark&lab=1"],
+    [{ line: 2 }, false, "line=2"], [{ line: 2, tries: 3 }, false, "line=2&tries=3"], [{ orbits: [startOf(2.3, 0.5)] }, false, "ball=puck&orbits=2.3,0.5"]])) {
+    const fragment = toFragment({ ...opening, ...change }, asks);
+    assert.equal(fragment, text);
+    assert.equal(speaksOfNothing(fragment, known), text === "" || text.startsWith("theme"));
+  }
+});
+
+test("a dare holds the line and the tries, and the line of a day follows from the day alone", () => {
+  const { ball, orbits, line, tries, day } = fromFragment("line=2.5&tries=3", known);
+  assert.deepEqual([ball?.name, orbits, line, tries, day], ["puck", [startOf(2.286, 0.5)], 2.5, 3, ""]);
+  const daily = fromFragment("day=2026-11-28&tries=2", known);
+  assert.deepEqual([daily.line, daily.day, daily.tries], [2.61, "2026-11-28", 2]);
+  assert.equal(toFragment(daily), "day=2026-11-28&tries=2");
+  assert.equal(fromFragment("mu=0.3&day=2026-11-28", known).line, 0, "without units there is no metre");
+  const days = Array.from({ length: 4000 }, (_, i) => lineOf(new Date(86_400_000 * (20_454 + i)).toISOString().slice(0, 10)));
+  assert.ok(days.every((line, i) => line >= 0.6 && line <= 3 && Math.abs(line - days[(i + 1) % days.length]) > 0.1 && line === Number(line.toFixed(2))));
+  assert.ok(new Set(days).size > 230);
 });
 
 test("a law is not compared with itself in a link", () => {
@@ -216,9 +238,9 @@ const puck = { name: "ice hockey puck", rolls: false };
 
 test("what there is to see follows from the numbers, and is said in words without powers of ten", () => {
   const table = [
-    ["much", {}, /slides 19 times as far$/, /slides 12\.5 mm, then rolls, as textbooks predict for both\. .* 48 times a second: it slides 0\.239 m, 19 times as far, and takes 22 times as long\.$/],
-    ["much", { ...puck, own: path(0.515), plain: path(0.127) }, /Spin a puck, and it slides 4\.1 times/, /and stops, as/],
-    ["more", { own: path(1.1), plain: path(1) }, /ball slide 10 % farther/, /slides 1 m, then rolls, as textbooks predict for both/],
+    ["much", {}, /slides 19 times as far$/, /slides 12\.5 mm, then rolls\. Textbooks: 12\.5 mm for both\. .* with 48 turns a second: it slides 0\.239 m, 19 times as far, and takes 22 times as long\.$/],
+    ["much", { ...puck, own: path(0.515), plain: path(0.127) }, /Spin a puck, and it slides 4\.1 times/, /and stops\. Textbooks: 0\.127 m/],
+    ["more", { own: path(1.1), plain: path(1) }, /ball slide 10 % farther/, /slides 1 m, then rolls\. Textbooks: 1 m for both\./],
     ["soon", { own: path(1.000000001), plain: path(1) }, /soon rolls/, /slides 1 m, equally far, and/],
     ["soon", { own: path(1.01), plain: path(1) }, /soon rolls, and keeps spinning/, /Its spin ends after 5\.17 s/],
     ["together", { ...puck, own: path(1.01), plain: path(1) }, /puck slides hardly farther, and spins to the end/, /1 % farther, and takes/],
@@ -256,19 +278,15 @@ test("a guess is judged by what was seen, and a try for the line by where it end
   assert.match(judged(answers.plain, seen), /it went 0\.127 m\. The one that spins went 0\.515 m$/);
   // Until then nothing tells.
   for (const guess of ["", answers.equal]) assert.doesNotMatch(JSON.stringify(question(guess)), /\d/);
-  const tried = (other) => goal({ line: 1, far: 0.999, slip: 0.5, spin: 119, tries: 3, ended: true, hit: true, ...other }).headline;
-  assert.equal(tried({}), "119 rad/s gives 0.999 m: the line, in 3 tries");
+  const tried = (other) => goal({ line: 1, day: "", far: 0.999, slip: 0.5, spin: 119, tries: 3, theirs: 0, ended: true, hit: true, ...other }).headline;
+  assert.equal(tried({}), "18.9 turns a second give 0.999 m: the line, in 3 tries");
+  assert.match(tried({ theirs: 2 }), /in 3 tries; your friend needed 2$/);
+  assert.equal(tried({ theirs: 2, tries: 0, ended: false }), "A friend reached the line in 2 tries. You?");
+  assert.match(tried({ theirs: 1, tries: 0, ended: false, passage: { until: 1, off: 0 } }), /around the stone in 1 try\. You\?$/);
   assert.match(tried({ tries: 1 }), /in 1 try$/);
   assert.match(tried({ far: 0.72, hit: false }), /: 0\.28 m short of the line$/);
   assert.match(tried({ far: 1.25, hit: false }), /: 0\.25 m beyond the line$/);
   assert.equal(tried({ ended: false }), "Same push, 0.5 m/s. Reach the line, by spin alone.");
-});
-
-test("a citation is BibTeX, also of a link with signs that TeX reads otherwise", () => {
-  const text = citation("https://a.example/p.html#ball=puck&orbits=1%20,2", "0.1.0");
-  assert.match(text, /^@misc\{contensou,\n {2}title = \{contensou 0\.1\.0/);
-  assert.ok(text.includes("\\url{https://a.example/p.html\\#ball=puck&orbits=1\\%20,2}"), text);
-  assert.deepEqual([text.match(/\{/g)?.length, text.match(/^@/gm)?.length], [text.match(/\}/g)?.length, 2]);
 });
 
 const requestOf = (state) => portraitRequest(state, bodyOf(state, known), false);
@@ -297,14 +315,6 @@ test("the command line names what differs from what the program would do", () =>
     portrait: "contensou portrait --ball gel --friction 0.25 --slip 0.5 --spin 300 --law exact --view uv --scale linear -o portrait.svg",
     roll: "contensou roll --ball gel --friction 0.25 --velocity 0.5,1.5 --angular-velocity -50,0,300 --law exact",
   });
-});
-
-test("a pressure of the reader's own is a law that a link carries, and a file that the program reads", () => {
-  const text = "\ufeffrho, pressure, note\r\n0,1,x\r\n0.5,0.9,y\r\n1,0,z\r\n";
-  assert.equal(lawOfTable(text), "table:rho, pressure, note\r\n0,1,x\r\n0.5,0.9,y\r\n1,0,z");
-  assert.deepEqual(["table:rho,pressure\n0,1\n1,0", "pade"].map(tableOfLaw), ["rho,pressure\n0,1\n1,0\n", null]);
-  assert.deepEqual(["table:rho,pressure\n0,1", "pade", null].map(lawTitle), ["pressure.csv", "pade", null]);
-  assert.throws(() => lawOfTable(`rho,pressure\n${"0,1\n".repeat(2000)}`), /at most 6000 letters.*--law FILE\.csv/);
 });
 
 test("a cue's stroke follows from the start that it gives", () => {
@@ -367,7 +377,7 @@ test("a ball is seen at an angle, a flat body from above", () => {
     const shapes = [];
     const surface = { width: 400, height: 200, still: (_keys, _ground, draw) => draw(), shape: (lines, style) => shapes.push({ lines, style }), text() {} };
     const lane = { title: "", xs: [0, 1], ys: [0, 0], slid: [0, 0], rolled: [], at: { x: 0, y: 0, path: 0, turn }, colour: "#000000", ruler: null };
-    const { places: [{ x, y, radius }] } = drawLanes(/** @type {any} */ (surface), { lanes: [lane], radius: 0.1, unit: "m", rolls, ghosts: [], line: null, ring: null, aim: null }, theme);
+    const { places: [{ x, y, radius }] } = drawLanes(/** @type {any} */ (surface), { lanes: [lane], radius: 0.1, unit: "m", rolls, ghosts: [], line: null, ring: null, wide: false, aim: null }, theme);
     if (!rolls) return shapes.filter(({ style }) => style.stroke === "card" && !style.fill).flatMap(({ lines }) => lines).map(([, , tx, ty]) => [(tx - x) / radius, (y - ty) / radius]);
     const [{ lines }] = shapes.filter(({ style, lines }) => style.fill === "card" && lines[0].length > 2);
     // The middle of each spot, in radii.
@@ -432,7 +442,7 @@ test("a value is computed again only when what it depends on changes", () => {
 });
 
 test("every view has a title and a hint, and one that is not known its name", () => {
-  for (const name of ["uv", "patch", "log", "similarity", "blowup", "disc"]) assert.ok(described({ name }).hint.length > 20, name);
+  for (const name of ["uv", "log", "blowup", "disc"]) assert.ok(described({ name }).hint.length > 20, name);
   assert.deepEqual(described({ name: "new" }), { name: "new", title: "new", hint: "" });
 });
 

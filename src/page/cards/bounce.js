@@ -67,8 +67,9 @@ export function makeBounce(store, controls) {
       drawBall(surface, { x, y, radius: frame.px(radius) - frame.px(0), rolls: true }, turn, colours[i], theme);
       const style = { colour: colours[i], size: 1.1 * theme.textSize, bold: true, align: "right", halo: theme.card };
       const words = `${shown(angleOf(body), 3)}°`;
-      const right = Math.min(surface.width, x + widthOf(words, style));
-      surface.text(i ? right : right - 1.1 * widthOf(words, style), frame.py(placeAt(time, body)[1] + radius) - 6, words, style);
+      // The angles stand over the tops of the paths, that of the ball without spin to the left.
+      const [topX, topY] = frame.pixel(placeAt(up / gravity, body));
+      surface.text(i ? Math.min(surface.width, topX + widthOf(words, style)) : topX - 6, topY - 6, words, style);
     });
   });
 }

@@ -1,24 +1,6 @@
-// A list of the laws, with a field for the number of a law; the reader's own pressure is a law, too.
+// A list of the laws, with a field for the number of a law.
 import { $ } from "../dom.js";
 import { numberField, fillSelect } from "./fields.js";
-
-const table = "table:";  // prefix of the name of the reader's own law; its CSV follows
-const longest = 6000;   // letters of this CSV, which is part of the link
-
-/** Returns true for a law of formulas. */
-const isFormula = (law) => law?.includes("=");
-
-/** Returns the name of a law; for a table, the file that the program would read. */
-export const lawTitle = (law) => (law?.startsWith(table) ? "pressure.csv" : law);
-
-/** Returns the name of the law of a CSV with columns rho and pressure. @throws {Error} if the CSV is too long */
-export function lawOfTable(text) {
-  if (text.length <= longest) return `${table}${text.replace(/^\ufeff/, "").trim()}`;
-  throw new Error(`This page takes tables of at most ${longest} letters, because its link contains them. The program takes longer ones: --law FILE.csv.`);
-}
-
-/** Returns the table of a law made by lawOfTable, as the file that the program reads; null for another law. */
-export const tableOfLaw = (law) => (law.startsWith(table) ? `${law.slice(table.length)}\n` : null);
 
 /**
  * @param {string} id  id of the list; with -exponent, id of the parent of the number's field
@@ -46,7 +28,7 @@ export function lawField(id, store, { key, none, use }) {
   }));
   return {
     show(law) {
-      const own = tableOfLaw(law ?? "") ? "pressure.csv – your own pressure" : isFormula(law) ? "your own formulas" : null;
+      const own = law?.includes("=") ? "your own formulas" : null;
       const [name, number] = own ? [law] : (law ?? "").split(":");
       if (own) ([...select.options].find(({ text }) => text === own) ?? select.appendChild(new Option(own))).value = name;
       select.value = name;

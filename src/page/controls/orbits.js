@@ -1,6 +1,5 @@
 // The list of the reader's orbits, and the form that starts one.
 import { $, make, showList, write } from "../dom.js";
-import { lawTitle } from "./law_field.js";
 import { parseNumber, shown } from "../numbers.js";
 
 /** @param {Store} store @param {Plane} plane */
@@ -58,7 +57,7 @@ export function makeOrbits(store, plane) {
       choose.setAttribute("aria-pressed", String(index === chosen));
       write(choose.children[0], `u₀ = ${shown(u, 4)}, v₀ = ${shown(v, 4)}` +
         (ball ? `: spin ${shown(u / ball.radius, 4)} rad/s, slip ${shown(v, 4)} m/s` : ""));
-      const other = others ? `; by ${lawTitle(request.against)} ${store.stopText(others[index])}` : "";
+      const other = others ? `; by ${request.against} ${store.stopText(others[index])}` : "";
       write(choose.children[1], `stops at ${store.stopText(motions[index].stop)}${other}`);
       discard.setAttribute("aria-label", `Remove orbit ${index + 1}`);
     });

@@ -4,7 +4,7 @@ import { fromFragment, toFragment } from "../state/page_state.js";
 import { presets } from "../state/presets.js";
 
 /** Returns the part of a link that describes the motion. */
-const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, lab: false });
+const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, project: false, lab: false });
 
 /** @param {Store} store @param go  called with the fragment of a preset */
 export function makePresets(store, go) {

@@ -1,10 +1,9 @@
 // Controls for ball, body and law, for the contents of the plane, the sliders, and the card of a real ball.
 import { $, isStill, make, write } from "../dom.js";
 import { choiceButtons } from "./fields.js";
-import { lawField, lawOfTable, tableOfLaw } from "./law_field.js";
+import { lawField } from "./law_field.js";
 import { isDark } from "../drawing/theme.js";
-import { shown } from "../numbers.js";
-import { save } from "../share/exports.js";
+import { shown, spinText } from "../numbers.js";
 import { bodyOf, initialState, moved, takeBall, unrolled } from "../state/page_state.js";
 
 /** The titles of entries of the library, by their names. */
@@ -38,28 +37,16 @@ function makeChoices(controls, store, plane) {
   controls.choose("ball", ofBalls, ({ ball }) => ball?.name ?? "", (state, value) => {
     const ball = balls.find(({ name }) => name === value);
     if (ball) takeBall(state, ball);
-    else Object.assign(state, { ball: null, line: 0, part: "whole", orbits: state.orbits.map(unrolled) });
+    else Object.assign(state, { ball: null, line: 0, day: "", part: "whole", orbits: state.orbits.map(unrolled) });
   });
   controls.choose("body", titlesOf(bodies), ({ body }) => body, (state, body) => {
     state.body = body;
     state.mu = bodyOf(state, store.library).mu ?? state.mu;
   });
   controls.choose("field", fieldTitles, ({ field }) => field, (state, field) => (state.field = field));
-  ["U", "V"].forEach((name, side) => {
-    const shown = ({ portrait }) => Number(portrait.window[side].toPrecision(6));
-    controls.number($("window"), name, name, shown, (state, value) => {
-      plane.zooming.before = undefined;
-      state.window = store.portrait.window.map((other, i) => (i === side ? value : other));
-    });
-  });
   const useLaw = (key) => (name) => store.change((state) => (state[key] = name && lawName(name)));
   const law = lawField("law", store, { key: "exponent", use: useLaw("law") });
   const against = lawField("against", store, { key: "against-exponent", none: "no other law", use: useLaw("against") });
-  $("pressure").addEventListener("change", async () => {
-    const text = await $("pressure").files[0]?.text().catch(() => "") ?? "";
-    store.attempt(() => useLaw("law")(lawOfTable(text)));
-    $("pressure").value = "";
-  });
   const formulas = $("formulas");
   formulas.addEventListener("change", () => store.attempt(() => {
     try {
@@ -69,7 +56,6 @@ function makeChoices(controls, store, plane) {
       throw new Error(error.message.replace(/give its value with --param (\S+)=VALUE/, "write its value at the end: ; $1 = 0.8"));
     }
   }));
-  $("save-pressure").addEventListener("click", () => save("pressure.csv", tableOfLaw(store.state.law), "text/csv"));
   $("isochrones").addEventListener("change", () => store.ask((state) => {
     state.isochrones = $("isochrones").checked ? initialState().isochrones : 0;
   }));
@@ -85,7 +71,6 @@ function makeChoices(controls, store, plane) {
     $("lab").setAttribute("aria-expanded", String(state.lab));
     law.show(state.law);
     if (state.law.includes("=") && document.activeElement !== formulas) formulas.value = state.law;
-    $("save-pressure").hidden = !tableOfLaw(state.law);
     against.show(request.against);
     for (const option of $("against").options) option.disabled = option.value === state.law;
     $("isochrones").checked = state.isochrones > 0;
@@ -117,7 +102,7 @@ function makeSliders(controls, store, plane) {
   }, (state, share) => move(state, () => ({ v: round(Math.max(share, 0.01) * most(state).slip) })));
   controls.slider("spin", "spin", ({ orbit, state }) => {
     const spin = orbit && orbit.u / radiusOf(state);
-    return orbit && { share: Math.abs(spin) / most(state).spin, text: state.ball ? `${shown(spin, 3)} rad/s` : `u₀ = ${shown(spin, 3)}` };
+    return orbit && { share: Math.abs(spin) / most(state).spin, text: spinText(orbit.u, state) };
   }, (state, share) => move(state, ({ u }) => ({ u: (u < 0 ? -1 : 1) * Number((round(share * most(state).spin) * radiusOf(state)).toPrecision(12)) })));
   controls.slider("friction", "friction f", ({ state: { ball } }) => ball && { share: ball.friction / mostFriction, text: shown(ball.friction, 3) },
     (state, share) => (state.ball.friction = round(Math.max(share, 0.002) * mostFriction)));

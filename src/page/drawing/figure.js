@@ -7,6 +7,7 @@ import { borderOf, widthOf } from "./surface.js";
 
 const lineWidth = 0.9;  // pixels of a line of width 1
 const dash = [5, 4];
+const rim = 3;          // pixels beside a panel into which lines on its border reach
 const tickSize = 0.9;      // size of ticks' texts, in letters
 const leastWidth = 15.5;  // width of a panel with its numbers, in letters
 
@@ -39,8 +40,10 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
     const frames = figure.panels.map(({ x, y }, i) => new Frame(layout.panels[i].box, x, y, letter));
     figure.panels.forEach((panel, i) => {
       const frame = frames[i];
-      surface.inside(frame, () => drawLayers(surface, figure, panel, frame));
       if (!panel.bare) drawAxes(surface, frame, layout.panels[i], figure.faint, tickSize * letter);
+      // Lines and heads of arrows on the border are whole.
+      const { left, top, width, height } = frame;
+      surface.inside({ left: left - rim, top: top - rim, width: width + 2 * rim, height: height + 2 * rim }, () => drawLayers(surface, figure, panel, frame));
       if (labelled) drawLabels(surface, figure, panel, frame);
     });
     // The boxes stand from the bottom up.

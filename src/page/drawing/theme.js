@@ -14,7 +14,7 @@ export const isDark = (choice) => (choice === "auto" ? darkness.matches : choice
 let known = null;
 globalThis.addEventListener?.("resize", () => (known = null));
 
-/** @typedef {Record<"ink" | "soft" | "line" | "card" | "paper" | "kind", string> & {textSize: number, swatch: (index: number) => string}} Theme */
+/** @typedef {Record<"ink" | "soft" | "line" | "card" | "paper" | "kind", string> & {large: boolean, textSize: number, swatch: (index: number) => string}} Theme */
 
 /**
  * Returns the same object until dark, light or the size of the window changes, because reading the style sheet takes long.
@@ -24,11 +24,12 @@ globalThis.addEventListener?.("resize", () => (known = null));
  */
 export function themeOf(choice) {
   const kind = isDark(choice) ? "dark" : "light";
-  if (known?.kind === kind) return known;
+  const large = document.documentElement.classList.contains("project");
+  if (known?.kind === kind && known.large === large) return known;
   document.documentElement.dataset.theme = kind;
   const style = getComputedStyle(document.documentElement);
   const colours = ["ink", "soft", "line", "card", "paper"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);
   const textSize = parseFloat(style.fontSize) * 0.78;
   const swatch = (index) => swatches[kind][index % swatches[kind].length];
-  return (known = { .../** @type {Theme} */ (/** @type {unknown} */ (Object.fromEntries(colours))), kind, textSize, swatch });
+  return (known = { .../** @type {Theme} */ (/** @type {unknown} */ (Object.fromEntries(colours))), kind, large, textSize, swatch });
 }

@@ -1,14 +1,19 @@
 // The top of the page: the motion of a body beside one that does not spin, the question, and the game of the line.
 import { $, make, write } from "../dom.js";
-import { drawLanes, drawPatch } from "./hero_figure.js";
-import { duration, length, shown } from "../numbers.js";
+import { drawLanes } from "./hero_figure.js";
+import { duration, length, shown, turnsOf } from "../numbers.js";
 import { answers, factsOf, goal, judged, nothing, question, say } from "./story.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
-import { borderOf, widthOf } from "../drawing/surface.js";
-import { ghostsOf, reach, rightOf } from "./tries.js";
+import { fullSpeeds, ghostsOf, reach, rightOf } from "./tries.js";
 import { product, rideOn, rotation } from "./turning.js";
 
-const film = { text: 12.5, title: 20, top: 62, rim: 12 };  // pixels in a picture 640 pixels wide: sizes of words, height of the head, rim
+/** The buttons below the table, each with the stages at which it is shown. */
+const buttons = {
+  "try-line": ["dared"], "send": ["hit"], "film-line": ["hit", "judged"], "next-line": ["hit"], "to-line": ["", "judged"], "today-line": ["", "judged", "try"],
+  "again": ["", "judged", "try", "today"],
+};
+
+const lowest = 220;      // pixels, height of a table with two lanes and the ring of the game
 const turning = 20;      // s that the body turns in place while the reader is asked
 
 export class Hero {
@@ -20,7 +25,7 @@ export class Hero {
   places = [];
   /** @type {{from: number[], to: number[], words: string} | null} arrow of a throw */
   aim = null;
-  /** @type {{share: number, words: string} | null} ring around the body that spins */
+  /** @type {{share: number, words: string} | null} ring around the body that spins, while it is pointed at or pulled */
   ring = null;
   /** @type {{key: string, guess: string, ended: boolean, turn: number} | null} the question, while its motion is shown */
   asked = null;
@@ -30,7 +35,6 @@ export class Hero {
     this.store = store;
     this.player = player;
     this.lanes = new ScreenSurface($("lanes"), (surface) => Object.assign(this, this.drawBalls(surface)));
-    this.patch = new ScreenSurface($("patch"), (surface) => this.drawPatch(surface));
     store.shows.push(() => this.show());
     $("answers").append(...Object.values(answers).map((textContent) => make("button", { type: "button", textContent, onclick: () => this.answer(textContent) })));
   }
@@ -45,6 +49,21 @@ export class Hero {
   get mode() {
     const { asked, store: { state, ride } } = this;
     return !ride ? "" : asked ? (asked.ended ? "judged" : asked.guess ? "watching" : "asking") : state.line ? "game" : "";
+  }
+
+  /** Returns the ring for a spin. */
+  ringOf(spin = this.facts.spin) {
+    const { contact } = this.store;
+    return { share: spin / fullSpeeds(contact).spin, words: contact ? turnsOf(spin) : shown(spin, 3) };
+  }
+
+  /** In the game the ring is always seen; after a try the title of the table has its spin. */
+  get ringAtRest() {
+    return !this.isLine ? null : this.store.state.chosen ? { ...this.ringOf(), words: "" } : this.ringOf();
+  }
+
+  get isLine() {
+    return this.mode === "game" && !this.stone;
   }
 
   get stone() {
@@ -86,9 +105,9 @@ export class Hero {
     if (this.asked && this.asked.key !== this.key) this.asked = null;
     const { mode } = this;
     document.documentElement.dataset.mode = mode;
-    for (const id of ["lanes", "patch"]) $(id).hidden = !ride;
+    document.documentElement.dataset.round = mode !== "game" ? "" : this.stone ? "stone" : "line";
+    for (const id of ["lanes", "why-card"]) $(id).hidden = !ride;
     $("answers").hidden = mode !== "asking";
-    $("to-line").hidden = mode === "game";
     if (ride) {
       this.facts = factsOf(store);
       this.bodies = this.bodiesOf(ride);
@@ -112,18 +131,21 @@ export class Hero {
     this.tell(pieces);
     // A screen reader reads the result.
     write($("heard"), mode === "judged" || (mode === "game" && this.tryNow.ended) ? headline : "");
-    const hit = mode === "game" && this.tryNow.ended && this.tryNow.hit;
-    $("send").hidden = $("film-line").hidden = $("next-line").hidden = !hit;
+    const { tries, theirs, ended, hit } = this.tryNow;
+    const stage = mode === "judged" ? mode : mode !== "game" ? "" : theirs && !tries ? "dared" : ended && hit ? "hit" : this.store.state.day ? "today" : "try";
+    for (const [id, stages] of Object.entries(buttons)) $(id).hidden = !stages.includes(stage);
+    // Before the first try there is nothing to play.
+    $("player").style.visibility = mode === "game" && !tries ? "hidden" : "";
     $("lanes").setAttribute("aria-label", `${this.stone ? "A ball and a stone" : "Two equal bodies"} from above. ${$("story").textContent}`);
   }
 
   /** The last try for the line. */
   get tryNow() {
-    const { facts, store: { state: { line, orbits, chosen, fraction }, ride } } = this;
+    const { facts, store: { state: { line, day, tries: theirs, orbits, chosen, fraction }, ride } } = this;
     const far = ride?.own.path ?? 0;
     const passage = ride?.passage;
     const hit = chosen > 0 && orbits.length > 1 && (passage ? passage.hit : Math.abs(far - line) <= reach);
-    return { line, passage, far, slip: facts.slip, spin: facts.spin, tries: chosen, ended: fraction >= 1 && chosen > 0, hit };
+    return { line, day, passage, far, slip: facts.slip, spin: facts.spin, tries: chosen, theirs, ended: fraction >= 1 && chosen > 0, hit };
   }
 
   /** Returns both bodies: their motions, and time and place at which each ceases to slide. */
@@ -131,7 +153,7 @@ export class Hero {
     const { player, facts: { spin }, store: { state: { ball }, orbit, timeFactor } } = this;
     const lasts = end * timeFactor;
     const right = rightOf(orbit, courses[1], this.stone);
-    const titles = ["without spin", spin === 0 ? "this one" : ball ? `spinning, ${shown(spin, 3)} rad/s` : "spinning"];
+    const titles = ["without spin", spin === 0 ? "this one" : ball ? `spinning, ${turnsOf(spin)}` : "spinning"];
     return [plain, own].map(({ end, path }, i) => {
       const ride = rideOn(courses[i], right, player.spinShown);
       const share = Math.min(1, end / lasts);
@@ -158,51 +180,20 @@ export class Hero {
     write($("told"), text);
   }
 
-  drawPatch(surface) {
-    const { now, theme, state: { chosen }, request } = this.store;
-    if (!now) return;
-    const scene = { still: now.u === 0 && now.v === 0, k: now.k, spin: Math.sign(now.u), force: now.force, colour: theme.swatch(chosen), hollow: request.law === "ring" };
-    drawPatch(surface, scene, theme);
-  }
-
-  drawBalls(surface, { theme } = this.store, { aim, ring } = /** @type {{aim: Hero["aim"], ring: Hero["ring"]}} */ (this)) {
+  drawBalls(surface, { theme } = this.store, aim = this.aim, ring = this.ring ?? this.ringAtRest) {
     const { ride, contact, state: { line } } = this.store;
     if (!ride) return { places: [] };
     const { stone } = this;
+    const isAlone = stone || (this.isLine && surface.height < lowest);
     const unit = contact ? "m" : "";
     return drawLanes(surface, {
-      lanes: this.lanesNow().slice(stone ? 1 : 0), radius: ride.radius, rolls: ride.rolls, unit, aim, ring, ghosts: this.ghostsNow(),
+      lanes: this.lanesNow().slice(isAlone ? 1 : 0), radius: ride.radius, rolls: ride.rolls, unit, aim, ring, wide: this.isLine, ghosts: this.ghostsNow(),
       line: line ? { at: line, reach, words: length(line, unit), stone } : null,
     }, theme);
   }
 
   ghostsNow() {
     return ghostsOf(this.store, this.mode);
-  }
-
-  /** Draws a moment of a film on a surface of 640 x 360: headline, address and clock, and the bodies below them. */
-  drawFilm(surface, fraction) {
-    const { player, store, store: { state } } = this;
-    const shown = state.fraction;
-    state.fraction = fraction;
-    const theme = { ...store.theme, textSize: film.text };
-    const { width, height, context } = surface;
-    surface.shape([borderOf(surface)], { fill: theme.card });
-    const { headline } = this.said;
-    const title = { colour: theme.ink, bold: true, size: film.title };
-    surface.text(film.rim, 28, headline, { ...title, size: film.title * Math.min(1, (width - 2 * film.rim) / widthOf(headline, title)) });
-    const small = { colour: theme.soft, size: film.text };
-    // The address shows the source of a film that is sent on.
-    surface.text(film.rim, 50, /^http/.test(location.protocol) ? `${location.host}${location.pathname}` : "contensou", small);
-    surface.text(width - film.rim, 50, [player.timeText(store.now.tau), $("pace").textContent].filter(Boolean).join(", "), { ...small, align: "right" });
-    context.save();
-    // The words of the table begin 4 pixels from its left side.
-    context.translate(film.rim - 4, film.top);
-    Object.assign(surface, { width: width - 2 * film.rim + 8, height: height - film.top });
-    this.drawBalls(surface, { theme }, { aim: null, ring: null });
-    Object.assign(surface, { width, height });
-    context.restore();
-    state.fraction = shown;
   }
 
   lanesNow() {
@@ -222,7 +213,7 @@ export class Hero {
       const slidUntil = Math.min(state.fraction, body.share);
       const track = body.until(slidUntil);
       return {
-        title: mode === "asking" || mode === "game" ? body.title : `${body.title}: ${has[i] ? slid(body) : "slides"}`,
+        title: this.stone && this.aim ? "" : mode === "asking" || mode === "game" ? body.title : `${body.title}: ${has[i] ? slid(body) : "slides"}`,
         xs: body.xs, ys: body.ys, at: places[i], slid: track, rolled: ride.rolls && state.fraction > body.share ? body.until(state.fraction).slice(track.length - 2) : [],
         colour: i === 1 ? theme.swatch(state.chosen) : theme.soft, ruler: i === 1 ? ruler : null,
       };
@@ -230,7 +221,7 @@ export class Hero {
   }
 
   draw() {
-    const { store: { ride, now, state }, mode, asked } = this;
+    const { store: { ride, state }, mode, asked } = this;
     if (!ride) return;
     const ended = state.fraction >= 1;
     if (asked && mode === "watching" && ended) {
@@ -239,8 +230,5 @@ export class Hero {
     } else if (mode === "game" && ended !== this.ended) this.speak();
     this.ended = ended;
     this.lanes.drawInSight();
-    this.patch.drawInSight();
-    $("patch").setAttribute("aria-label", `The contact patch from below: ${shown(100 * now.force, 2)} % of the friction f N acts against the sliding` +
-      (now.k < 1 && now.u !== 0 ? "; one point of it does not slip" : ""));
   }
 }

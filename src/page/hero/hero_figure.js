@@ -4,7 +4,8 @@ import { borderOf, widthOf } from "../drawing/surface.js";
 import { product, rotation, turnedBy } from "./turning.js";
 
 const smallest = 11;    // pixels, radius of a ball
-export const ringWidth = 12;  // pixels between a body and its ring
+/** Pixels between a body and its ring; the ring of the game is 72 pixels wide at least, so that it is seen around a thumb. */
+export const ringGap = (wide) => (wide ? 25 : 12);
 const spotSize = 0.36;  // rad
 const ringed = Math.atan(2);  // rad, of the corners of an icosahedron around the one on top
 const circle = Array.from({ length: 24 }, (_, i) => rotation([0, 0, (i * Math.PI) / 12]))
@@ -44,11 +45,11 @@ export function drawBall(surface, { x, y, radius, rolls }, turn, colour, theme) 
  * @param scene  lanes: title, xs, ys, slid and rolled (lines of the path until now), at (x, y, turn), colour, and ruler:
  *   {from, to: places, more: m} between the end of the other body and this one; radius; unit: "m" or "", lengths in m; rolls: seen
  *   at an angle; ghosts: {x, y, words, colour, perhaps path: a line} of earlier throws; line: {at, reach, words, stone: of tries.js
- *   or null} to reach, or null; ring: {share, words} of the full spin, or null; aim: {from, to: pixels, words} of a throw
+ *   or null} to reach, or null; ring: {share, words} of the full spin, or null; wide: its size, see ringGap; aim: {from, to: pixels, words} of a throw
  * @returns {{places: {x: number, y: number, radius: number}[]}} places of the bodies in pixels; with a stone also the start of the ball
  */
 export function drawLanes(surface, scene, theme) {
-  const { lanes, radius, unit, rolls, ghosts, line, ring, aim } = scene;
+  const { lanes, radius, unit, rolls, ghosts, line, ring, wide, aim } = scene;
   const size = theme.textSize;
   const keys = [radius, unit, theme, line?.at, ...ghosts.map(({ x }) => x), ...lanes.map(({ xs }) => xs)];
   const table = surface.still(keys, theme.card, () => drawTable(surface, scene, theme));
@@ -74,10 +75,12 @@ export function drawLanes(surface, scene, theme) {
       drawRuler(surface, table, i, ruler, `${length(ruler.more, unit)} more`, theme);
     }
     drawBall(surface, { x, y, radius: pixels, rolls }, at.turn, colour, theme);
-    surface.text(cells[i].left + 4, cells[i].top + 0.65 * size, title, { colour: theme.ink, size, baseline: "middle", halo: theme.card });
+    const room = cells[1] && cells[1].top === cells[0].top ? cells[1].left : surface.width;
+    const fitting = Math.min(1, (room - 8) / widthOf(title, { size }));
+    surface.text(cells[i].left + 4, cells[i].top + 0.65 * size, title, { colour: theme.ink, size: fitting * size, baseline: "middle", halo: theme.card });
     return { x, y, radius: pixels };
   });
-  if (ring) drawRing(surface, places[last], ring, theme);
+  if (ring) drawRing(surface, places[last], ring, ringGap(wide), theme);
   if (aim) drawAim(surface, aim, theme);
   const [x, y] = pixel({ x: 0, y: 0 }, last);
   return { places: line?.stone ? [...places, { x, y, radius: pixels }] : places };
@@ -85,11 +88,12 @@ export function drawLanes(surface, scene, theme) {
 
 /** Draws the line to reach; its width is the allowed miss. */
 function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme) {
-  const [[left], [x], [right]] = [at - reach, at, at + reach].map((far) => pixel({ x: far, y: 0 }, 1));
-  const top = cells[1].top + 1.3 * theme.textSize;
+  const [[left], [x], [right]] = [at - reach, at, at + reach].map((far) => pixel({ x: far, y: 0 }, cells.length - 1));
+  const cell = cells[cells.length - 1];
+  const top = cell.top + 1.3 * theme.textSize;
   surface.shape([borderOf({ left, top, width: right - left, height: height - 1.3 * theme.textSize })], { fill: theme.line });
-  surface.shape([[x, top, x, cells[1].top + height]], { stroke: theme.ink, width: 1.5 });
-  surface.text(x, cells[1].top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
+  surface.shape([[x, top, x, cell.top + height]], { stroke: theme.ink, width: 1.5 });
+  surface.text(x, cell.top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
 /** Draws a stone and the mark behind it; the width of the mark is the allowed miss. */
@@ -105,8 +109,8 @@ function drawStone(surface, { pixel, pixels, scale }, { at, reach, words, stone 
 }
 
 /** Draws the ring that the reader pulls to spin a body; an arrow along it shows the spin. */
-function drawRing(surface, { x, y, radius }, { share, words }, theme) {
-  const out = radius + ringWidth;
+function drawRing(surface, { x, y, radius }, { share, words }, gap, theme) {
+  const out = radius + gap;
   const sweep = 1.8 * Math.PI * share;
   const arc = (from, to) => Array.from({ length: 41 }, (_, i) => from + ((to - from) * i) / 40).flatMap((angle) => [x + out * Math.cos(angle), y - out * Math.sin(angle)]);
   surface.shape([arc(0, 2 * Math.PI)], { stroke: theme.soft, width: 2, dash: [2, 5] });
@@ -151,15 +155,15 @@ function drawRuler(surface, { pixel, pixels }, i, { from, to }, words, theme) {
 }
 
 /** Draws the table with its scale; returns the places of the lanes. */
-function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
+function drawTable(surface, { lanes, radius, unit, ghosts, line, wide }, theme) {
   const size = theme.textSize;
   // A ball that curls around a stone may leave the table.
   const seen = line?.stone ? [{ xs: [0, 1.3 * line.at], ys: [-0.15, 0.15].map((share) => share * line.at) }] : lanes;
   const [xs, ys] = ["xs", "ys"].map((key) => [...seen.flatMap((lane) => lane[key]), ...(line?.stone ? [] : ghosts.map((ghost) => ghost[key[0]]))]);
   if (line) xs.push(1.12 * line.at);
   const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const above = 1.3 * size;  // for a title
-  const beside = ringWidth + 3;
+  const above = 1.3 * size + 4;  // for a title
+  const beside = ringGap(wide) + 3;
   const room = surface.height - 3.1 * size;  // without the bar of the scale, and a ruler
   /** Bodies one below the other, or side by side. */
   const tableOf = (columns, rows) => {
@@ -181,55 +185,7 @@ function drawTable(surface, { lanes, radius, unit, ghosts, line }, theme) {
   const start = end - bar * scale;
   surface.shape([[start, base - 4, start, base, end, base, end, base - 4]], { stroke: theme.soft, width: 1.5 });
   const larger = pixels / (radius * scale);
-  const caption = `${length(bar, unit)}${larger > 1.05 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
+  const caption = `${length(bar, unit)}${larger >= 1.3 ? `; drawn ${shown(larger, 2)} times as large` : ""}`;
   surface.text(start - 6, base - 1, caption, { colour: theme.soft, size: 0.95 * size, align: "right" });
   return { pixel, pixels, cells, height, scale };
-}
-
-const arrowShare = 0.06;  // of the patch's radius, the longest slip in it
-const steps = Array.from({ length: 11 }, (_, i) => i - 5);
-/** Points of the patch whose slip is drawn, in radii. */
-const points = steps.flatMap((i) => steps.map((j) => [(i + (j % 2) / 2) / 5.5, (0.92 * j) / 5.5]))
-    .filter(([x, y]) => Math.hypot(x, y) <= 0.88);
-
-/**
- * @param scene  still: no point slips; k, the slip of the centre over that of the rim; spin: its sign; force: fraction of f N;
- *   colour: of the body; hollow: a ring carries the load
- */
-export function drawPatch(surface, { still, k, spin, force, colour, hollow }, theme) {
-  const size = theme.textSize;
-  const radius = Math.min(surface.width / 2 - 4, (surface.height - 4.4 * size) / 2);
-  const [x0, y0] = [surface.width / 2, 1.5 * size + radius];
-  const base = y0 + radius + 1.2 * size;
-  const arrow = (share, fill) => {
-    const tip = x0 - share * radius;
-    surface.shape([[x0, base, Math.min(x0, tip + 6), base]], { stroke: fill, width: 5 });
-    surface.shape([[tip, base, tip + 9, base - 6, tip + 9, base + 6]], { fill });
-  };
-  surface.still([theme], theme.card, () => {
-    surface.text(x0, 0.7 * size, "the patch, from below", { colour: theme.soft, size, align: "center", baseline: "middle" });
-    surface.shape([[x0, y0]], { radius, fill: theme.paper, stroke: theme.soft, width: 1.5 });
-    arrow(1, theme.line);
-  });
-  // From below, a ball that spins to the left when seen from above turns to the right.
-  const [sliding, turning] = still ? [0, 0] : spin === 0 || k === Infinity ? [1, 0] : [k / (1 + k), -spin / (1 + k)];
-  const strokes = points.filter(([x, y]) => !hollow || Math.hypot(x, y) > 0.7).map(([x, y]) => {
-    const [dx, dy] = [sliding - turning * y, -turning * x].map((slip) => slip * 2 * arrowShare * radius);
-    const [px, py] = [x0 + x * radius, y0 - y * radius];
-    return [px - dx, py - dy, px + dx, py + dy];
-  });
-  surface.shape(strokes, { stroke: theme.ink, width: 1.3 });
-  surface.shape(strokes.map((stroke) => stroke.slice(2)), { radius: 1.9, fill: theme.ink });
-  const style = { colour, size, align: "center", baseline: "middle" };
-  if (spin !== 0 && k < 1) {
-    const y = y0 - (sliding / turning) * radius;
-    surface.shape([[x0, y]], { radius: 5, fill: colour, stroke: theme.card, width: 1.5 });
-    const [beside, half] = [y + (y > y0 ? -1 : 1) * 1.4 * size, widthOf("does not slip", style) / 2];
-    surface.shape([borderOf({ left: x0 - half - 3, top: beside - 0.7 * size, width: 2 * half + 6, height: 1.4 * size })], { fill: theme.paper });
-    surface.text(x0, beside, "does not slip", style);
-  }
-  if (force > 0.02) arrow(force, colour);
-  const share = force < 0.001 ? "no" : `${shown(100 * force, force < 0.1 ? 1 : 2)} % of the`;
-  const words = still ? "at rest" : `${share} friction slows the slide`;
-  surface.text(x0, base + 1.2 * size, words, { ...style, size: size * Math.min(1, surface.width / widthOf(words, style)) });
 }

@@ -1,5 +1,5 @@
 // Facts about a motion, in SI units or, without units, in those of v; and sentences made from them.
-import { duration, length, shown } from "../numbers.js";
+import { duration, length, shown, turnsOf } from "../numbers.js";
 
 const hardly = 1e-3;  // m, a path too short to be seen
 const bent = 3;       // degrees, least curvature of a path that is called curved
@@ -47,17 +47,17 @@ function wordsOf(/** @type {Facts} */ facts) {
   const unit = real ? "m" : "";
   const time = (t) => `${real ? "" : "τ = "}${duration(t, unit)}`;
   const leave = along === slip && across === 0 ? "leave at" : "land with a slip of";
-  const turns = spin === 0 ? "does not spin" : real ? `${shown(Math.abs(spin) / 2 / Math.PI, 2)} times a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
+  const turns = spin === 0 ? "does not spin" : real ? `with ${shown(Math.abs(spin) / 2 / Math.PI, 2)} turns a second` : `with u = ${spin < 0 ? "−" : ""}${length(Math.abs(spin), "")}`;
   return {
     ...facts, thing: name.split(" ").at(-1), time, leave, then: rolls ? "then rolls" : "and stops", turns,
     speed: real ? `${shown(slip, 3)} m/s` : `v = ${length(slip, "")}`,
-    far: named("own", length(own.path, unit)), farPlain: named("plain", length(plain.path, unit)),
+    far: named("own", length(own.path, unit)), byBook: length(plain.path, unit), farPlain: named("plain", length(plain.path, unit)),
     times: own.path / plain.path, longer: more(own.end / plain.end, "long"),
   };
 }
 
-const two = ({ name, leave, speed, farPlain, then, turns, far, longer, times }) =>
-  `Two equal ${name}s ${leave} ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}, as textbooks predict for both. ` +
+const two = ({ name, leave, speed, farPlain, byBook, then, turns, far, longer, times }) =>
+  `Two equal ${name}s ${leave} ${speed}. ${named("plain", "One does not spin")}: it slides ${farPlain}, ${then}. Textbooks: ${byBook} for both. ` +
   `${named("own", "The other spins")} ${turns}: it slides ${far}, ${named("times", more(times, "far"))}, and takes ${longer}.`;
 
 const sentences = {
@@ -91,7 +91,7 @@ export function say(/** @type {Facts} */ facts) {
 }
 
 /** Headline and story if there is no motion. */
-export const nothing = { headline: "Click the plane: a motion starts there", pieces: [["", "Up: faster sliding. To the side: faster spin."]] };
+export const nothing = { headline: "Choose a place in the plane: a motion starts there", pieces: [["", "Up: faster sliding. To the side: faster spin."]] };
 
 export const answers = { spins: "the one that spins", plain: "the one without spin", equal: "equally far" };
 
@@ -111,26 +111,35 @@ export function judged(guess, /** @type {Facts} */ { own, plain }) {
   }[guess];
 }
 
-const inTries = (tries) => `in ${tries} ${tries === 1 ? "try" : "tries"}`;
+export const inTries = (tries) => `in ${tries} ${tries === 1 ? "try" : "tries"}`;
+
+/** Returns the last words of a hit: the number of tries, and that of the friend who sent the line. */
+const counted = ({ tries, theirs }) => `${inTries(tries)}${theirs ? `; your friend needed ${theirs}` : ""}`;
+
+/** Words about a mouse and keys, which the page hides on a device without them. */
+const byMouse = (words) => ["mouse", words];
 
 /** Returns task and result of a try in the game of the stone. */
-const around = ({ passage: { until, off }, tries, ended, hit }) => ({
-  headline: !ended ? "Strike the ball around the stone and over the mark."
+const around = ({ passage: { until, off }, tries, theirs, ended, hit }) => ({
+  headline: theirs && !tries ? `A friend curled around the stone ${inTries(theirs)}. You?`
+    : !ended ? "Strike the ball around the stone and over the mark."
     : until < 1 ? `Try ${tries} touches the stone`
-      : hit ? `Around the stone and over the mark, ${inTries(tries)}`
+      : hit ? `Around the stone and over the mark, ${counted({ tries, theirs })}`
         : `Try ${tries} misses the mark by ${length(off, "m")}`,
-  pieces: [["", "Drag the ball to aim, and let go to strike it. The keys ↑ and ↓ aim, too, and Enter strikes. " +
-    "Dot, speed and butt of the cue are yours to set: a raised butt and a tip off the centre bend the path."]],
+  pieces: [["", "Drag the ball to aim, and let go to strike it. Set dot, speed and butt of the cue: a raised butt and a tip off the centre bend the path. "],
+    byMouse("The keys ↑ and ↓ aim, too, and Enter strikes.")],
 });
 
 /** Returns task and result of a try in the game of the line or of the stone. */
-export function goal({ passage, line, far, slip, spin, tries, ended, hit }) {
-  if (passage) return around({ passage, tries, ended, hit });
+export function goal({ passage, line, day, far, slip, spin, tries, theirs, ended, hit }) {
+  if (passage) return around({ passage, tries, theirs, ended, hit });
   const off = length(Math.abs(far - line), "m");
   const missed = far < line ? `${off} short of the line` : `${off} beyond the line`;
   return {
-    headline: !ended ? `Same push, ${shown(slip, 3)} m/s. Reach the line, by spin alone.`
-      : `${shown(spin, 3)} rad/s gives ${length(far, "m")}: ${hit ? `the line, ${inTries(tries)}` : missed}`,
-    pieces: [["", "Pull the ring around the puck to spin it; let go, and it slides. The wheel and the keys ↑ and ↓ spin it, too; a click or Enter lets it go."]],
+    headline: theirs && !tries ? `A friend reached the line ${inTries(theirs)}. You?`
+      : !ended ? `Same push, ${shown(slip, 3)} m/s. Reach the line, by spin alone.`
+      : `${turnsOf(spin, "turns a second")} give ${length(far, "m")}: ${hit ? `the line, ${counted({ tries, theirs })}` : missed}`,
+    pieces: [["", `${day && `Line of ${day} (UTC). `}Pull the puck sideways, or turn its ring, to spin it; let go, and it slides. `],
+      byMouse("The wheel and the keys ↑ and ↓ spin it, too; a click or Enter lets it go.")],
   };
 }

@@ -1,11 +1,33 @@
-// Verdicts on tries, and the places at which earlier tries ended. In the last round a stone stands half way to a mark, and the
+// Lines of the game, verdicts on tries, and the places at which earlier tries ended. In the last round a stone stands half way to a mark, and the
 // ball must curl around it.
-import { length, shown } from "../numbers.js";
+import { length, turnsOf } from "../numbers.js";
 import { rideOn } from "./turning.js";
 
 export const reach = 0.02;  // m by which a throw may miss the line, and a ball the mark
 const kept = { game: 8, "": 3 };  // earlier throws that stay on the table
 const samples = 1000;  // instants at which the distance is computed
+const daily = { from: 0.6, until: 3 };  // m, limits of the line of a day
+const far = 0.2;       // m, miss of a try with a double mark
+
+/** Returns the speeds of a throw at its full length and of a full turn of the ring: m/s and rad/s, or without units. */
+export const fullSpeeds = (contact) => (contact ? { slip: 2, spin: 500 } : { slip: 5, spin: 5 });
+
+/** The day in UTC, so that everybody has the same line at one time. */
+export const today = () => new Date().toISOString().slice(0, 10);
+
+/** Returns the line of a day in m, in whole cm. The numbers of neighbouring days are far apart. */
+export function lineOf(/** @type {string} */ day) {
+  const share = (Math.imul(Date.parse(day) / 86_400_000, 0x9e3779b1) >>> 0) / 2 ** 32;
+  return Math.round(100 * (daily.from + share * (daily.until - daily.from))) / 100;
+}
+
+/** Returns one mark for each try until the chosen one: short of the line, beyond it, or a hit. A mark contains no number that helps. */
+export const marksOf = (store) => store.state.orbits.slice(1, store.state.chosen + 1).map((_, i) => {
+  const { own: { path }, passage } = store.rideOf(store.state, i + 1);
+  const off = path - store.state.line;
+  if (passage ? passage.hit : Math.abs(off) <= reach) return "🎯";
+  return passage ? "✖️" : off < -far ? "⏪" : off < 0 ? "◀️" : off > far ? "⏩" : "▶️";
+}).join("");
 
 /** Returns the stone around which the ball must curl, as large as the ball; null if there is none. */
 export const stoneOf = ({ line, ball }, rolls) =>
@@ -60,7 +82,7 @@ function ghosts(store, mode, stone, ended) {
       return { x, y, words: String(orbit.index), colour, path: rideOn(course, rightOf(orbit, course, stone), 1).until(1) };
     }
     const angle = ((orbit.heading + (orbit.along < 0 ? 180 : 0)) * Math.PI) / 180;
-    const words = mode === "game" ? `${shown(orbit.u / (ball?.radius ?? 1), 3)} rad/s` : length(far, contact ? "m" : "");
+    const words = mode === "game" ? turnsOf(orbit.u / (ball?.radius ?? 1)) : length(far, contact ? "m" : "");
     return { x: far * Math.cos(angle), y: far * Math.sin(angle), words, colour };
   });
 }

@@ -1,5 +1,4 @@
 // The command line by which the program draws the same picture.
-import { lawTitle } from "../controls/law_field.js";
 import { shotOf } from "./portrait_request.js";
 
 const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
@@ -35,8 +34,8 @@ export function commandLine(state, request, through, body, builtIn) {
     if (body.mu === undefined) words.push("--mu", state.mu);
     if (start) words.push("--u0", start.u, "--v0", start.v);
   }
-  words.push("--law", lawTitle(request.law));
-  if (request.against) words.push("--against", lawTitle(request.against));
+  words.push("--law", request.law);
+  if (request.against) words.push("--against", request.against);
   words.push("--view", request.view);
   if (request.linear) words.push("--scale", "linear");
   if (request.window) words.push("--window", request.window.join(","));
@@ -46,7 +45,7 @@ export function commandLine(state, request, through, body, builtIn) {
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
   const line = (all) => all.map((word) => quoted(String(word))).join(" ");
-  return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", lawTitle(request.law)]) : null };
+  return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", request.law]) : null };
 }
 
 /** Returns options for start and rolling friction: slip v along x, spin u/R, or the velocities that the reader gave. */

@@ -1,13 +1,9 @@
 // A start that the reader pulls. Along its ray it becomes a copy, c times as large; across the ray it moves to another curve.
-// The slider of the size scales all starts and the window: the numbers change, and the curves do not.
-import { $ } from "../dom.js";
-import { forgiveTouches } from "../controls/fields.js";
 import { shown } from "../numbers.js";
 
 const narrow = 8;    // degrees beside the ray that count as on it, with both speeds divided by those of the start
 const most = 12;     // starts of one pull whose curves stay
 const apart = 0.12;  // least distance between two of them, divided by the start
-const decades = 1.5;  // from the middle of the slider to each end
 
 /** Returns c, the size of a start divided by that of another, and along: true for a copy, with both speeds times c. */
 export function sizeOf({ u, v }, base) {
@@ -26,24 +22,10 @@ export class Copies {
   pull = null;
   /** @type {(OwnOrbit & {start: Speeds})[]} orbits from earlier places of the start */
   ghosts = [];
-  /** @type {{orbits: Start[], window: number[], now: Start[]} | null} starts and window before the slider moved, and the starts now */
-  size = null;
 
   /** @param {Store} store */
-  constructor(store, announce) {
+  constructor(store) {
     this.store = store;
-    this.announce = announce;
-    this.slider = $("size");
-    this.slider.addEventListener("input", () => this.resize(10 ** ((decades * Number(this.slider.value)) / 1000)));
-    forgiveTouches(this.slider);
-  }
-
-  /** Shows the slider. */
-  show() {
-    this.slider.disabled = !this.store.orbit;
-    if (this.isSized) return;
-    this.size = null;
-    this.slider.value = 0;
   }
 
   /** Keys of the curves except their starts, and of their places in the panels. */
@@ -67,23 +49,6 @@ export class Copies {
     const { c, along } = sizeOf(at, pull.base);
     const times = Number(c.toPrecision(3));
     return (pull.at = along ? { u: times * pull.base.u, v: times * pull.base.v } : at);
-  }
-
-  /** True if the starts are those that the slider set. */
-  get isSized() {
-    return this.size !== null && JSON.stringify(this.size.now) === JSON.stringify(this.store.state.orbits);
-  }
-
-  /** Makes all starts and the window c times as large. */
-  resize(c) {
-    const { store } = this;
-    const { orbits, window } = this.size && this.isSized ? this.size : { orbits: store.state.orbits, window: store.portrait.window };
-    const times = (speed) => Number((c * speed).toPrecision(6));
-    const now = orbits.map(({ u, v, along, across, heading }) => ({ u: times(u), v: times(v), along: times(along), across: times(across), heading }));
-    store.ask((state) => {
-      this.size = { orbits, window, now };
-      Object.assign(state, { orbits: now, window: window.map(times), fraction: 0, isochrone: 0 });
-    }, () => this.announce(`Both speeds × ${shown(c, 3)}: the same curves, ${shown(c, 3)} × the time: ${store.stopText(store.motion.stop)}.`));
   }
 
   /** Keeps the present orbit as an earlier one. */

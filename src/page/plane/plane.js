@@ -25,7 +25,7 @@ export class Plane {
   /** @param {Store} store */
   constructor(store) {
     this.store = store;
-    this.copies = new Copies(store, this.announce);
+    this.copies = new Copies(store);
     this.zooming = new Zooming(store);
     this.surface = new ScreenSurface($("plane"), (surface) => {
       surface.fit(store.library.rowsOf(store.portrait.figure, surface.width));
@@ -98,7 +98,6 @@ export class Plane {
   /** Sets the label of the plane for screen readers, without values that change with the moment. */
   label() {
     const { portrait, state, motion } = this.store;
-    this.copies.show();
     this.announce("");
     const legend = portrait.figure.panels.flatMap((panel) => panel.lines).map((layer) => plain(layer.legend)).filter(Boolean);
     const count = state.orbits.length;
@@ -200,7 +199,7 @@ export class Plane {
     if (!at) return;
     const tau = this.store.library.plane.stop(at.u, at.v);
     this.store.move({ isochrone: tau });
-    this.announce(`All states on the dotted line stop at ${this.store.stopText(tau)}. Esc clears it.`);
+    this.announce(`All states on the dotted line stop at ${this.store.stopText(tau)}. ✕ clears it.`);
   }
 
   clear() {

@@ -2,9 +2,7 @@
 
 const texts = {
   uv: ["plane", "Zhuravlev's plane: sliding speed v against u = R ω, where ω is the spin about the vertical. Every motion ends at the origin."],
-  patch: ["patch", "Sliding speed v against the rim speed of the patch, μ u. Their ratio is k = v/(μ|u|)."],
   log: ["log", "Logarithms of both speeds. Multiplying both speeds shifts an orbit along the diagonal. So all orbits, on each side of a ray, are one curve, shifted."],
-  similarity: ["similarity", "Canonical coordinates: multiplying both speeds shifts an orbit along p = ln v. So all orbits, on each side of a ray, are one curve, shifted."],
   blowup: ["blow-up", "The origin is drawn as the inner half-circle, so that the direction of each orbit at its end is seen. In the chart (u, ln k) the line u = 0 is the origin."],
   disc: ["disc", "The whole half-plane in a half-disc (Poincaré): the circle is infinity."],
 };

@@ -20,19 +20,6 @@ export async function pngOf(draw, size, width) {
   return blob;
 }
 
-/** Returns the page with its address, and the article with the equations, in BibTeX. */
-export const citation = (link, version) => `@misc{contensou,
-  title = {contensou ${version}: how a ball slides and spins, exactly},
-  howpublished = {\\url{${link.replaceAll("%", "\\%").replaceAll("#", "\\#")}}},
-  note = {Computed by its library, equations (2.6) of \\cite{zhuravlev1998}}
-}
-@article{zhuravlev1998,
-  author = {Zhuravlev, V. F.},
-  title = {On a model of dry friction in the problem of rolling of rigid bodies},
-  journal = {Prikl. Mat. Mekh.}, volume = {62}, year = {1998}
-}
-`;
-
 /** Columns of numbers as CSV, all digits; infinities as the program writes them. */
 function csv(columns) {
   const values = Object.values(columns);

@@ -1,7 +1,6 @@
 // A film of a ball. The library finds friction and patch, and the ball of the page gets these values.
 import { $ } from "../dom.js";
 import { csvOfFilm, save } from "./exports.js";
-import { lawTitle } from "../controls/law_field.js";
 import { startFrom, startOf } from "../state/page_state.js";
 import { drawFigure } from "../drawing/figure.js";
 import { shotOf } from "../plane/portrait_request.js";
@@ -31,7 +30,7 @@ export function makeFilm(store, player) {
     const found = library.fit(text, name, ball, laws);
     store.measured = { columns: found.measured, ball: ball.name };
     store.ask((next) => Object.assign(next, {
-      law: laws.find((law) => lawTitle(law) === found.law) ?? found.law, window: null, chosen: 0, fraction: 0,
+      law: found.law, window: null, chosen: 0, fraction: 0,
       orbits: [startFrom(found.start, ball)],
       ball: { ...next.ball, friction: found.friction, patchBy: "patch_radius", patch: found.patch },
     }));

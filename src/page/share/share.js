@@ -1,23 +1,30 @@
 // Buttons for a link, a command line and files.
 import { commandLine } from "../plane/command_line.js";
 import { $, write } from "../dom.js";
-import { citation, csvOfOrbits, csvOfRide, pngOf, save } from "./exports.js";
+import { csvOfOrbits, csvOfRide, pngOf, save } from "./exports.js";
 import { fillSelect, numberField } from "../controls/fields.js";
 import { plain } from "../drawing/runs.js";
+import { shown } from "../numbers.js";
 import { toFragment } from "../state/page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { drawPortrait } from "../drawing/figure.js";
 import { SvgSurface } from "../drawing/surface.js";
+import { inTries } from "../hero/story.js";
+import { marksOf } from "../hero/tries.js";
+import { drawFilm } from "./film_picture.js";
 import { filmOf } from "./video.js";
+
+/** The film of a motion; and one for phones that ends before the answer, and asks. */
+const films = { whole: { size: { width: 1280, height: 720 }, zoom: 2, rests: 2 }, question: { size: { width: 1080, height: 1080 }, zoom: 3, seconds: 4, rests: 2 } };
 
 const widest = 12000;  // pixels; browsers have no larger canvas
 
 /** @param {Store} store */
-export function makeShare(store, { plane, hero, player, address, film }) {
+export function makeShare(store, { plane, hero, why, player, address, film }) {
   const figures = {
     plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
     lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
-    patch: ["the patch", "patch", (surface) => hero.drawPatch(surface)],
+    patch: ["the patch", "patch", (surface) => why.draw(surface)],
     panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store)],
     "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
   };
@@ -43,18 +50,25 @@ export function makeShare(store, { plane, hero, player, address, film }) {
     const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
     tell(copied ? `${what} copied.` : text);
   };
-  const copyLink = () => {
-    if (!address.link) return tell(`This page has no address here. Add this to a link to the page: #${toFragment(store.state)}`);
-    return copy(address.link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
+  /** Copies a link to a state, with words before it. */
+  const copyLink = (state, words = "") => {
+    const link = address.linkOf(state);
+    if (!link) return tell(`This page has no address here. Add this to a link to the page: #${toFragment(state)}`);
+    return copy(words + link, location.protocol === "file:" ? "Link to the file on this computer" : "Link");
   };
-  for (const id of ["copy-link", "send"]) on(id, copyLink);
+  on("copy-link", () => copyLink(store.state));
+  // A friend gets the line and the number of tries, but no throw.
+  on("send", () => {
+    const { state, state: { chosen: tries, line, day, orbits: [first] } } = store;
+    const what = hero.stone ? "around the stone" : day ? `line of ${day} (${line} m)` : `line at ${line} m`;
+    return copyLink({ ...state, orbits: [first], chosen: 0, fraction: 0, tries, isochrone: 0, lab: false, theme: "auto" }, `contensou, ${what}, ${inTries(tries)}: ${marksOf(store)}\n`);
+  });
   on("copy-embed", async () => {
     const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
     await copy(`<iframe src="${source.replaceAll("&", "&amp;")}" width="800" height="760" title="${$("headline").textContent}"></iframe>`, "HTML");
     if (location.protocol !== "file:") return;
     $("copied").append(" It names the file on this computer. For readers put the page on a server and use its address there.");
   });
-  on("copy-citation", () => copy(citation(address.link ?? "", $("version").textContent), "BibTeX"));
   on("copy-command", () => copy($("command").textContent, "Command"));
   on("copy-roll", () => copy($("roll-command").textContent, "Command"));
   on("save-svg", () => {
@@ -76,14 +90,15 @@ export function makeShare(store, { plane, hero, player, address, film }) {
   for (const id of ["save-film", "film-line"]) on(id, async () => {
     if (!store.ride) throw new Error("there is no motion");
     const { key } = hero;
+    const asks = hero.mode === "judged" && id === "film-line";
     const draw = (surface, share) => {
       if (hero.key !== key) throw new Error("the motion was changed before its film was made");
-      hero.drawFilm(surface, share);
+      drawFilm(hero, surface, share, asks);
     };
-    save("balls.mp4", await filmOf(player.seconds, draw, (share) => tell(`Film: ${Math.round(100 * share)} % is made.`)), "video/mp4");
+    const how = asks ? films.question : { ...films.whole, seconds: player.seconds };
+    save(asks ? "question.mp4" : "balls.mp4", await filmOf(how, draw, (share) => tell(`Film: ${Math.round(100 * share)} % is made.`)), "video/mp4");
     tell("The film is saved.");
   });
-  on("save-tex", () => save("portrait.tex", store.library.plane.portraitFile(store.request), "text/x-tex"));
   on("save-csv", () => {
     const [name, text] = store.contact && store.ride ? ["motion", csvOfRide(store.ride.courses[1])]
       : ["orbits", csvOfOrbits(store.state.orbits.map(({ u, v }) => store.library.plane.motion(u, v)))];
@@ -91,11 +106,17 @@ export function makeShare(store, { plane, hero, player, address, film }) {
   });
 
   store.shows.push(() => {
-    const { state, request, portrait: { through }, body, library } = store;
+    const { state, request, portrait: { through }, body, contact, library } = store;
     const { portrait, roll } = commandLine(state, request, through, body, library.balls.find((ball) => ball.name === state.ball?.name));
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
+    const { ball, law } = state;
+    $("engine-line").hidden = !ball || !contact;
+    if (!ball || !contact) return;
+    const changed = [...(ball.friction === ball.initial?.friction ? [] : ["--friction", ball.friction]), ...(law === ball.initial?.law ? [] : ["--law", law])];
+    write($("engine-command"), `contensou engine --ball ${ball.name}${changed.map((word) => ` ${word}`).join("")}`);
+    write($("engine-numbers"), `sliding friction ${shown(ball.friction)}, largest moment of friction ${shown(1000 * contact.momentArm, 4)} mm times the load`);
     // Without a fit, a film has no picture.
     const { options } = $("picture");
     options[options.length - 1].hidden = $("film-fit").hidden;

@@ -3,14 +3,12 @@ import { make } from "../dom.js";
 import { CanvasSurface } from "../drawing/surface.js";
 import { ArrayBufferTarget, Muxer } from "./mp4-muxer.js";
 
-const size = { width: 1280, height: 720 };
 const rate = 60;  // pictures a second
-const rests = 2;  // s that the last picture stays, so that it can be read
 /** Codecs by their names in the file. H.264 plays everywhere; some builds of Chromium and Firefox cannot write it. */
 const codecs = { avc: "avc1.640028", vp9: "vp09.00.40.08", av1: "av01.0.08M.08" };
 
 /** The first codec that the browser can write. @throws {Error} if it can write none */
-async function encodingOf() {
+async function encodingOf(size) {
   for (const [name, codec] of Object.entries(codecs)) {
     const config = { ...size, codec, framerate: rate, bitrate: 5e6 };
     const found = await globalThis.VideoEncoder?.isConfigSupported(config).catch(() => null);
@@ -22,21 +20,21 @@ async function encodingOf() {
 /**
  * A film as MP4.
  *
- * @param seconds  duration of the motion
- * @param draw     draws on a surface the motion at a share of the time
+ * @param how      size in pixels; zoom: pixels of the film for a pixel of the surface; seconds: duration of the motion; rests: s that the last
+ *   picture stays, so that it can be read
+ * @param draw     draws on a surface the motion at a share of the time; the last picture has the share 1
  * @param tell     called after each second of the film with its finished share, from 0 to 1
  * @throws {Error}  if the browser's encoder fails, or returns fewer pictures than it was given
  */
-export async function filmOf(seconds, draw, tell) {
-  const { name, config } = await encodingOf();
+export async function filmOf({ size, zoom, seconds, rests }, draw, tell) {
+  const { name, config } = await encodingOf(size);
   const muxer = new Muxer({ target: new ArrayBufferTarget(), fastStart: "in-memory", video: { ...size, codec: name, frameRate: rate } });
   /** @type {Error | null} */
   let failure = null;
   /** @type {{chunk: EncodedVideoChunk, about: EncodedVideoChunkMetadata | undefined}[]} */
   const pictures = [];
   const encoder = new VideoEncoder({ output: (chunk, about) => pictures.push({ chunk, about }), error: (error) => (failure = error) });
-  // Words are twice as large as on a canvas of these pixels.
-  const surface = new CanvasSurface(make("canvas", size), { width: size.width / 2, height: size.height / 2 });
+  const surface = new CanvasSurface(make("canvas", size), { width: size.width / zoom, height: size.height / zoom });
   const count = Math.round(rate * (seconds + rests));
   try {
     encoder.configure(config);

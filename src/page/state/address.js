@@ -5,9 +5,10 @@ const pause = 250;  // ms
 const steps = (fragment) => fragment.replace(/(^|&)(at|isochrone|theme)=[^&]*/g, "");
 
 export class Address {
-  /** @param {Store} store */
-  constructor(store) {
+  /** @param {Store} store @param {Hero} hero */
+  constructor(store, hero) {
     this.store = store;
+    this.hero = hero;
     // All changes while the reader holds something are one step of the history.
     addEventListener("pointerdown", () => {
       store.held = true;
@@ -26,7 +27,7 @@ export class Address {
       /** @type {string[]} */
       const problems = [];
       const asked = fromFragment(location.hash, store.library, problems);
-      if (location.hash.slice(1) !== toFragment(store.state)) store.ask((state) => Object.assign(state, asked), undefined, problems);
+      if (location.hash.slice(1) !== this.fragment()) store.ask((state) => Object.assign(state, asked), undefined, problems);
     });
   }
 
@@ -37,20 +38,29 @@ export class Address {
 
   remember() {
     clearTimeout(this.timer);
-    const fragment = toFragment(this.store.state);
+    const fragment = this.fragment();
     const before = location.hash.slice(1);
     // Inside another page, the history belongs to that page.
     const change = this.settled && top === window && steps(before) !== steps(fragment) ? "pushState" : "replaceState";
     this.settled = true;
     try {
-      history[change](null, "", `#${fragment}`);
+      history[change](null, "", this.linkTo(fragment));
     } catch {
       // A page without an address of its own, such as one inside another page.
     }
   }
 
-  get link() {
+  fragment() {
+    return toFragment(this.store.state, this.hero.asked !== null);
+  }
+
+  linkTo(fragment) {
+    return `${location.href.split("#")[0]}${fragment && "#"}${fragment}`;
+  }
+
+  /** Returns the link to a state; null if the page has no address. */
+  linkOf(/** @type {State} */ state) {
     this.remember();
-    return location.hash ? location.href : null;
+    return /^(http|file)/.test(location.protocol) ? this.linkTo(toFragment(state, this.hero.asked !== null)) : null;
   }
 }

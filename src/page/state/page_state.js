@@ -1,6 +1,7 @@
 // The state that a link restores, and its text after the # of the address.
 import { parseNumber, shown } from "../numbers.js";
 import { tour } from "./presets.js";
+import { lineOf } from "../hero/tries.js";
 
 /**
  * Returns chi and gamma of the state's body, and mu if the body determines it.
@@ -16,7 +17,7 @@ const startKeys = ["u", "v", "along", "across", "heading"];
 const ranges = {
   rollingFriction: [0, 1e3], slope: [-89, 89], along: [-1e9, 1e9], across: [-1e9, 1e9], mu: [1e-6, 1],
   U: [Number.MIN_VALUE, Infinity], V: [Number.MIN_VALUE, Infinity], u: [-Infinity, Infinity], v: [0, Infinity], heading: [-360, 360],
-  chosen: [0, Infinity], at: [0, 1], restitution: [0, 1], isochrone: [Number.MIN_VALUE, Infinity],
+  chosen: [0, Infinity], tries: [0, 999], at: [0, 1], restitution: [0, 1], isochrone: [Number.MIN_VALUE, Infinity],
 };
 
 /** Returns the value. @throws {Error} if the value is outside the range of its name */
@@ -79,6 +80,13 @@ function readable(problems, key, text, read, ...from) {
   }
 }
 
+/** Returns a day of the calendar. @throws {Error} if the text is none */
+function dayIn(text) {
+  const isDay = /^\d{4}-\d\d-\d\d$/.test(text) && new Date(text).getTime() && new Date(text).toISOString().startsWith(text);
+  if (!isDay) throw new Error("a day such as 2026-11-28 is needed");
+  return text;
+}
+
 /** A part of a link that is one value of the state. A link leaves out the initial value. */
 const value = (name, first, read) => ({
   first: { [name]: first },
@@ -138,7 +146,10 @@ const parts = {
   },
   chosen: value("chosen", 0, (text) => Math.floor(numberOf("chosen", text))),
   // The line to reach by spin alone; for a ball that rolls, the mark behind a stone. In m; 0 for none.
-  line: value("line", 0, (text) => numberOf("line", text)),
+  line: { ...value("line", 0, (text) => numberOf("line", text)), write: ({ line, day }) => (day || !line ? null : line) },
+  // The day (UTC) whose line is to be reached, as YYYY-MM-DD; "" for none.
+  day: { ...value("day", "", String), read: (text) => ({ day: dayIn(text), line: lineOf(text) }) },
+  tries: value("tries", 0, (text) => Math.floor(numberOf("tries", text))),  // tries of the friend who sent the line; 0 for none
   // The fall of a ball that bounces: its height in m, and its coefficient of restitution.
   drop: value("drop", 0.1, (text) => numberOf("drop", text)),
   restitution: value("restitution", 0.8, (text) => numberOf("restitution", text)),
@@ -149,7 +160,9 @@ const parts = {
   isochrone: value("isochrone", 0, (text) => numberOf("isochrone", text)),
   theme: value("theme", "auto", (text) => oneOf(["auto", "light", "dark"], text)),
   // Only the balls are shown, for a page around this one.
-  embed: { ...value("embed", false, () => true), write: ({ embed }) => (embed ? 1 : null) },
+  embed: { ...value("embed", false, (text) => text !== "0"), write: ({ embed }) => (embed ? 1 : null) },
+  // Headline, table and plane alone, in large letters.
+  project: { ...value("project", false, (text) => text === "1"), write: ({ project }) => (project ? 1 : null) },
   // The Lab is open. A link with values that only the Lab shows opens it.
   lab: {
     ...value("lab", false, (text) => text === "1"),
@@ -159,7 +172,8 @@ const parts = {
 
 /** Parts of a link that only the Lab shows, except those of the look of the page. */
 const labParts = ["law", "body", "mu", "view", "window", "against", "field", "isochrones"];
-const motionParts = [...labParts, "ball", "orbits", "part", "isochrone", "line"];
+const bodyParts = [...labParts, "ball", "orbits", "part", "isochrone"];
+const motionParts = [...bodyParts, "line", "day"];
 
 /** Replacement for a link without a motion: a puck whose spin lets it slide four times as far. */
 const opening = "ball=puck&orbits=2.286,0.5";
@@ -167,9 +181,15 @@ const opening = "ball=puck&orbits=2.286,0.5";
 /** @returns {State} */
 export const initialState = () => structuredClone(Object.assign({}, ...Object.values(parts).map(({ first }) => first)));
 
-export function toFragment(/** @type {State} */ state) {
+/**
+ * Returns the text of a link. The opening has none, so that its address asks the question again.
+ * @param asks  true: the page asks the question; the link does not contain the moment
+ */
+export function toFragment(/** @type {State} */ state, asks = false) {
   const query = new URLSearchParams();
   for (const [key, { write }] of Object.entries(parts)) if (write(state) != null) query.set(key, String(write(state)));
+  const opens = ["chosen", ...bodyParts].every((key) => query.get(key) === queryOf(opening).get(key));
+  if (opens && (asks || state.fraction === 0 || state.fraction === 1)) for (const key of [...bodyParts, "at"]) query.delete(key);
   return query.toString().replaceAll("%2C", ",").replaceAll("%3B", ";").replaceAll("%3A", ":").replaceAll("%2F", "/");
 }
 
@@ -197,7 +217,8 @@ export function fromFragment(fragment, known, problems = []) {
   const strange = strangeBall(fragment, known);
   if (strange) problems.push(`There is no ball '${strange}'. Balls: ${namesOf(known.balls).join(", ")}.`);
   if (opens) motionParts.forEach((key) => query.delete(key));
-  const state = opens ? fromFragment(opening, known) : initialState();
+  // A link of the game may leave out the puck.
+  const state = bodyParts.some((key) => query.has(key)) ? initialState() : fromFragment(opening, known);
   state.lab = labParts.some((key) => query.has(key));
   for (const [key, { read }] of Object.entries(parts)) {
     if (query.has(key)) Object.assign(state, readable(problems, key, query.get(key) ?? "", read, known, state, problems));
@@ -205,7 +226,7 @@ export function fromFragment(fragment, known, problems = []) {
   const { mu, chi } = bodyOf(state, known);
   state.mu = mu ?? state.mu;
   // Lines are reached in metres.
-  if (!state.ball) state.line = 0;
+  if (!state.ball) Object.assign(state, { line: 0, day: "", tries: 0 });
   // A body that cannot roll starts without rolling.
   if (!state.ball || chi === 1) state.orbits = state.orbits.map(unrolled);
   state.chosen = Math.max(0, Math.min(state.orbits.length - 1, state.chosen));

@@ -77,7 +77,8 @@ export class Store {
     const next = structuredClone(before);
     edit(next);
     next.chosen = Math.max(0, Math.min(next.chosen, next.orbits.length - 1));
-    if (!this.moves && next.fraction === 0) next.fraction = 1;
+    // In the game only the reader's throws run.
+    if (!this.moves && next.fraction === 0 && !(next.line && next.chosen === 0)) next.fraction = 1;
     try {
       this.compute(next);
     } catch (error) {
@@ -97,12 +98,12 @@ export class Store {
    * the body with its own start, or the initial state.
    */
   openWithout(/** @type {State} */ asked) {
-    const { lab, theme, embed, body, law, mu } = asked;
+    const { lab, theme, embed, project, body, law, mu } = asked;
     const { view, window, field, against } = initialState();
     const own = { ...initialState(), ...(asked.ball ? {} : { body, law, mu }) };
     if (asked.ball) takeBall(own, asked.ball.initial);
     for (const state of [{ ...asked, view, window, field, against }, own, fromFragment("", this.library)]) {
-      Object.assign(state, { lab, theme, embed });
+      Object.assign(state, { lab, theme, embed, project });
       try {
         this.compute(state);
       } catch {
