@@ -276,6 +276,28 @@ test("a film has 60 pictures of 1280 x 720 a second on a machine of any speed, a
   await close();
 });
 
+test("a film for phones is square, lasts 6 s, and ends on the question before a puck stops", async () => {
+  await open("#lab=0", { reducedMotion: "no-preference" });
+  await page.click("#answers button");
+  await page.evaluate(() => globalThis.page.store.move({ fraction: 1 }));
+  const drawings = await page.evaluate(() => {
+    const { hero, hero: { drawBalls } } = globalThis.page;
+    globalThis.seen = [];
+    hero.drawBalls = (...all) => {
+      globalThis.seen.push([hero.store.state.fraction, hero.said.headline, hero.lanesNow().map(({ title }) => title).join()]);
+      drawBalls.call(hero, ...all);
+    };
+    return hero.bodies[0].share;
+  });
+  const film = readFilm(await saved("#film-line"));
+  assert.deepEqual([film.sides, film.seconds, film.pictures, film.rate], [[1080, 1080], 6, 360, 60]);
+  const seen = (await page.evaluate(() => globalThis.seen)).slice(-360);
+  assert.ok(seen.every(([fraction, headline, titles]) => fraction < 0.41 * drawings && /\?$/.test(headline) && !/stopped|\d m/.test(titles)), JSON.stringify(seen.at(-1)));
+  assert.ok(seen[200][0] > seen[100][0] && seen.at(-1)[0] === seen[250][0]);
+  assert.match(await page.textContent("#headline"), /^You are right/, "the page stays where it was");
+  await close();
+});
+
 /** Replaces the browser's encoder by one that hands each picture out after its next, as H.264 of Firefox, or loses some. */
 const strangeEncoder = (loses) => `{
   const Real = VideoEncoder;

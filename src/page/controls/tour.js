@@ -12,7 +12,7 @@ export function makeTour(store, go) {
   const item = ({ title, text }, i) => make("li", {}, make("h3", { textContent: `${i + 1}. ${title}` }), make("p", { textContent: text }));
   list.append(...tour.map(item));
   // A layout that the browser tries for a moment scrolls, too. Only the reader's scrolling changes the step.
-  for (const event of ["pointerdown", "wheel", "keydown", "touchstart"]) list.addEventListener(event, () => (isScrolled = true), { passive: true });
+  for (const part of [list, back, on]) for (const event of ["pointerdown", "wheel", "keydown", "click"]) part.addEventListener(event, () => (isScrolled = true), { passive: true });
   list.addEventListener("scroll", () => {
     if (!isScrolled) return;
     clearTimeout(timer);
@@ -21,12 +21,8 @@ export function makeTour(store, go) {
       if (step !== at && tour[step]) go(`${tour[step].fragment}&step=${(at = step)}`);
     }, pause);
   });
-  const turn = (by) => {
-    isScrolled = true;
-    to(at + by);
-  };
-  back.addEventListener("click", () => turn(-1));
-  on.addEventListener("click", () => turn(1));
+  back.addEventListener("click", () => to(at - 1));
+  on.addEventListener("click", () => to(at + 1));
   store.shows.push(({ step }) => {
     back.disabled = step === 0;
     on.disabled = step >= tour.length - 1;

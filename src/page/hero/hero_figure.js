@@ -93,7 +93,7 @@ function drawLine(surface, { pixel, cells, height }, { at, reach, words }, theme
   const top = cell.top + 1.3 * theme.textSize;
   surface.shape([borderOf({ left, top, width: right - left, height: height - 1.3 * theme.textSize })], { fill: theme.line });
   surface.shape([[x, top, x, cell.top + height]], { stroke: theme.ink, width: 1.5 });
-  surface.text(x, cell.top + 0.3 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
+  surface.text(x, cell.top + 0.65 * theme.textSize, words, { colour: theme.ink, size: theme.textSize, bold: true, align: "center", baseline: "middle", halo: theme.card });
 }
 
 /** Draws a stone and the mark behind it; the width of the mark is the allowed miss. */
@@ -108,19 +108,28 @@ function drawStone(surface, { pixel, pixels, scale }, { at, reach, words, stone 
   surface.shape([pixel(stone, 0)], { radius: pixels, fill: theme.soft, stroke: theme.ink, width: 1.5 });
 }
 
+/** Returns the line of an arrow from (x, y) along (dx, dy), and its head. */
+export function arrowOf(x, y, dx, dy, size) {
+  const length = Math.hypot(dx, dy) || 1;
+  const [ux, uy] = [(size * dx) / length, (size * dy) / length];
+  const [px, py] = [x + dx, y + dy];
+  return { line: [x, y, px - 0.8 * ux, py - 0.8 * uy], head: [px, py, px - ux - 0.5 * uy, py - uy + 0.5 * ux, px - ux + 0.5 * uy, py - uy - 0.5 * ux] };
+}
+
+/** Draws an arc from an angle, with the head of an arrow at its end; an arc too short for the head is left out. */
+export function drawArc(surface, x, y, out, from, sweep, colour, width) {
+  if (Math.abs(sweep) < 0.05) return;
+  const at = (angle) => [x + out * Math.cos(angle), y - out * Math.sin(angle)];
+  const [[ax, ay], [bx, by]] = [at(from + sweep - (9 * Math.sign(sweep)) / out), at(from + sweep)];
+  surface.shape([Array.from({ length: 61 }, (_, i) => at(from + (sweep * i) / 60)).flat()], { stroke: colour, width });
+  surface.shape([arrowOf(bx, by, bx - ax, by - ay, 13).head], { fill: colour });
+}
+
 /** Draws the ring that the reader pulls to spin a body; an arrow along it shows the spin. */
 function drawRing(surface, { x, y, radius }, { share, words }, gap, theme) {
   const out = radius + gap;
-  const sweep = 1.8 * Math.PI * share;
-  const arc = (from, to) => Array.from({ length: 41 }, (_, i) => from + ((to - from) * i) / 40).flatMap((angle) => [x + out * Math.cos(angle), y - out * Math.sin(angle)]);
-  surface.shape([arc(0, 2 * Math.PI)], { stroke: theme.soft, width: 2, dash: [2, 5] });
-  if (Math.abs(sweep) > 0.05) {
-    const end = Math.PI / 2 + sweep;
-    const [px, py, side] = [x + out * Math.cos(end), y - out * Math.sin(end), Math.sign(sweep)];
-    surface.shape([arc(Math.PI / 2, end)], { stroke: theme.ink, width: 3.5 });
-    const [ux, uy] = [-side * Math.sin(end), -side * Math.cos(end)];
-    surface.shape([[px + 9 * ux, py + 9 * uy, px - 3 * ux + 6 * uy, py - 3 * uy - 6 * ux, px - 3 * ux - 6 * uy, py - 3 * uy + 6 * ux]], { fill: theme.ink });
-  }
+  surface.shape([[x, y]], { radius: out, stroke: theme.soft, width: 2, dash: [2, 5] });
+  drawArc(surface, x, y, out, Math.PI / 2, 1.8 * Math.PI * share, theme.ink, 3.5);
   const right = x + out + 8 + widthOf(words, { size: theme.textSize, bold: true }) < surface.width;
   surface.text(right ? x + out + 8 : x - out - 8, y, words, { colour: theme.ink, size: theme.textSize, bold: true, align: right ? "left" : "right", baseline: "middle", halo: theme.card });
 }
@@ -128,10 +137,9 @@ function drawRing(surface, { x, y, radius }, { share, words }, gap, theme) {
 /** Draws the arrow of a throw and its words. */
 function drawAim(surface, { from: [x, y], to, words }, theme) {
   const [dx, dy] = [to[0] - x, to[1] - y];
-  const far = Math.hypot(dx, dy) || 1;
-  const [ux, uy] = [dx / far, dy / far];
-  surface.shape([[x, y, to[0] - 8 * ux, to[1] - 8 * uy]], { stroke: theme.ink, width: 4 });
-  surface.shape([[to[0] + 6 * ux, to[1] + 6 * uy, ...[1, -1].flatMap((side) => [to[0] - 10 * ux - side * 8 * uy, to[1] - 10 * uy + side * 8 * ux])]], { fill: theme.ink });
+  const { line, head } = arrowOf(x, y, dx, dy, 16);
+  surface.shape([line], { stroke: theme.ink, width: 4 });
+  surface.shape([head], { fill: theme.ink });
   const half = widthOf(words, { size: theme.textSize, bold: true }) / 2 + 4;
   const within = (value, rim, side) => Math.min(side - rim, Math.max(rim, value));
   const beyond = dy > 4 ? 1.6 : -1.6;

@@ -3,6 +3,7 @@ import { $ } from "../dom.js";
 import { ScreenSurface } from "../drawing/screen_surface.js";
 import { widthOf } from "../drawing/surface.js";
 import { shown, spinText } from "../numbers.js";
+import { arrowOf, drawArc } from "./hero_figure.js";
 import { fullSpeeds } from "./tries.js";
 
 /** Pressures of the patch at a share of its radius, divided by their mean. */
@@ -15,14 +16,6 @@ const steps = Array.from({ length: 11 }, (_, i) => i - 5);
 /** Points of the patch whose friction is drawn, in radii. */
 const points = steps.flatMap((i) => steps.map((j) => [(i + (j % 2) / 2) / 5.5, (0.92 * j) / 5.5]))
     .filter(([x, y]) => Math.hypot(x, y) <= 0.88);
-
-/** Returns the line of an arrow from (x, y) along (dx, dy), and its head. */
-function arrowOf(x, y, dx, dy, size) {
-  const length = Math.hypot(dx, dy) || 1;
-  const [ux, uy] = [(size * dx) / length, (size * dy) / length];
-  const [px, py] = [x + dx, y + dy];
-  return { line: [x, y, px - 0.8 * ux, py - 0.8 * uy], head: [px, py, px - ux - 0.5 * uy, py - uy + 0.5 * ux, px - ux + 0.5 * uy, py - uy - 0.5 * ux] };
-}
 
 /**
  * Draws the friction on points of the patch, seen from above, and its sum along the slide, which goes to the right.
@@ -46,14 +39,7 @@ export function drawPatch(surface, { v, rim, force, pressure, colour }, theme) {
   surface.shape(arrows.map(({ line }) => line), { stroke: theme.ink, width: 1.4 });
   surface.shape(arrows.map(({ head }) => head), { fill: theme.ink });
   // The spin, as an arc around the patch.
-  const sweep = (Math.sign(rim) * 1.9 * Math.PI * Math.abs(rim)) / (Math.abs(rim) + v || 1);
-  if (Math.abs(sweep) > 0.1) {
-    const out = radius + 9;
-    const at = (angle) => [x0 + out * Math.cos(angle), y0 - out * Math.sin(angle)];
-    const end = at(sweep), [nx, ny] = [(y0 - end[1]) / out, (end[0] - x0) / out].map((part) => -8 * Math.sign(sweep) * part);
-    surface.shape([Array.from({ length: 61 }, (_, i) => at((sweep * i) / 60)).flat()], { stroke: colour, width: 3 });
-    surface.shape([arrowOf(end[0], end[1], nx, -ny, 11).head], { fill: colour });
-  }
+  drawArc(surface, x0, y0, radius + 9, 0, (1.9 * Math.PI * rim) / (Math.abs(rim) + v || 1), colour, 3);
   // The sums: without spin, and with it.
   const [left, room] = isWide ? [2 * radius + 52, width - 2 * radius - 60] : [8, width - 16];
   const align = isWide ? "left" : "center", middle = isWide ? left : width / 2;
@@ -68,7 +54,7 @@ export function drawPatch(surface, { v, rim, force, pressure, colour }, theme) {
     const { line: shaft, head } = arrowOf(left + room, y, -share * room, 0, Math.min(14, share * room));
     surface.shape([shaft], { stroke: fill, width: 6 });
     if (share > 0.004) surface.shape([head], { fill });
-    surface.text(left + room, y + 1.1 * size, text, { colour: theme.soft, size, align: "right", baseline: "middle" });
+    surface.text(left + room, y + 1.25 * size, text, { colour: theme.soft, size, align: "right", baseline: "middle" });
   });
 }
 

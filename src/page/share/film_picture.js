@@ -3,7 +3,7 @@ import { $ } from "../dom.js";
 import { borderOf, widthOf } from "../drawing/surface.js";
 
 const letters = { text: 12.5, title: 20, top: 62, rim: 12 };  // pixels: sizes of words, height of the head, rim
-const cut = 0.85;  // share of the shorter slide at which the question's film ends
+const cut = 0.4;  // share of the shorter slide at which the film of the question ends: the bodies are still almost side by side
 
 /**
  * Draws a moment of a film.
