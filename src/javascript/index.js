@@ -130,7 +130,7 @@ export class Flow {
     const { u, v } = startOf("at", start);
     need("at", "tau", tau);
     const { places: _, ...state } = this.#plane.instant(u, v, tau);
-    return state;
+    return { ...state, force: this.#plane.force(state.u, state.v) };
   }
 
   check(start) {

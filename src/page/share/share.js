@@ -5,7 +5,7 @@ import { csvOfOrbits, csvOfRide, pngOf, save } from "./exports.js";
 import { fillSelect, numberField } from "../controls/fields.js";
 import { plain } from "../drawing/runs.js";
 import { shown } from "../numbers.js";
-import { toFragment } from "../state/page_state.js";
+import { initialState, toFragment } from "../state/page_state.js";
 import { drawPanes } from "./panes_figure.js";
 import { drawPortrait } from "../drawing/figure.js";
 import { SvgSurface } from "../drawing/surface.js";
@@ -61,7 +61,8 @@ export function makeShare(store, { plane, hero, why, player, address, film }) {
   on("send", () => {
     const { state, state: { chosen: tries, line, day, orbits: [first] } } = store;
     const what = hero.stone ? "around the stone" : day ? `line of ${day} (${line} m)` : `line at ${line} m`;
-    return copyLink({ ...state, orbits: [first], chosen: 0, fraction: 0, tries, isochrone: 0, lab: false, theme: "auto" }, `contensou, ${what}, ${inTries(tries)}: ${marksOf(store)}\n`);
+    const { ball, body, law, mu, part, step } = state;
+    return copyLink({ ...initialState(), ball, body, law, mu, part, step, line, day, tries, orbits: [first] }, `contensou, ${what}, ${inTries(tries)}: ${marksOf(store)}\n`);
   });
   on("copy-embed", async () => {
     const source = `${location.href.split("#")[0]}#${toFragment({ ...store.state, embed: true })}`;
