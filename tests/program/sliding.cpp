@@ -21,18 +21,18 @@ using std::numbers::pi;
 
 namespace {
 
-using Randoms = std::mt19937_64;
-double drawn(Randoms& random, double from, double to) {
+using Generator = std::mt19937_64;
+double rounded(Generator& random, double from, double to) {
   return std::stod(fmt::format("{:.3f}", from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53));
 }
 
-reduction::SmoothField typed(const std::string& text) { return answers::parse_planar_system(text, {}); }
+reduction::SmoothField typed_field(const std::string& text) { return answers::parse_planar_system(text, {}); }
 
 /// The orbit by the solver that `reduce` chooses, and by steps.
 struct Orbits {
   Orbits(const std::string& text, const Vector2d& start)
-      : solved(reduction::reduce(typed(text), start).orbit(start)),
-        stepped(reduction::by_steps(typed(text)).orbit(start)) {}
+      : solved(reduction::reduce(typed_field(text), start).orbit(start)),
+        stepped(reduction::by_steps(typed_field(text)).orbit(start)) {}
 
   void check(double time, const Vector2d& x, double tolerance = 1e-11) const {
     INFO("t = " << time);
@@ -72,10 +72,10 @@ struct DryOscillator {
 }  // namespace
 
 TEST_CASE("dry-friction oscillators drawn at random stop where and when their closed form says", "[sliding]") {
-  Randoms random(60);
+  Generator random(60);
   for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 300 : 30); ++i) {
-    const DryOscillator oscillator{drawn(random, 0.4, 3), drawn(random, 0.05, 1)};
-    const Vector2d start(drawn(random, -3, 3), drawn(random, -3, 3));
+    const DryOscillator oscillator{rounded(random, 0.4, 3), rounded(random, 0.05, 1)};
+    const Vector2d start(rounded(random, -3, 3), rounded(random, -3, 3));
     const std::string text = fmt::format("x'' = -({})*x - {}*sign(x')", oscillator.w * oscillator.w, oscillator.c);
     CAPTURE(text, start.transpose());
     double x = start[0], v = start[1];
@@ -95,12 +95,12 @@ TEST_CASE("dry-friction oscillators drawn at random stop where and when their cl
 }
 
 TEST_CASE("motions of y' = a - b sign(y - c x - d) slide along the line, or cross it", "[sliding]") {
-  Randoms random(61);
+  Generator random(61);
   int slides = 0, crosses = 0;
   for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 300 : 40); ++i) {
-    const double a = drawn(random, -1, 1), b = drawn(random, 0.2, 2), c = drawn(random, -1, 1),
-                 d = drawn(random, -1, 1);
-    const Vector2d start(drawn(random, -1, 1), drawn(random, -2, 2));
+    const double a = rounded(random, -1, 1), b = rounded(random, 0.2, 2), c = rounded(random, -1, 1),
+                 d = rounded(random, -1, 1);
+    const Vector2d start(rounded(random, -1, 1), rounded(random, -2, 2));
     const double h = start[1] - c * start[0] - d, side = h > 0 ? 1 : -1, rate = a - b * side - c;
     if (std::abs(h) < 0.01 || std::abs(std::abs(a - c) - b) < 0.05) continue;
     const std::string text = fmt::format("y' = {} - {}*sign(y - ({})*x - ({}))", a, b, c, d);
@@ -121,18 +121,18 @@ TEST_CASE("motions of y' = a - b sign(y - c x - d) slide along the line, or cros
 }
 
 TEST_CASE("a sliding velocity is the convex combination along the line", "[sliding]") {
-  Randoms random(62);
+  Generator random(62);
   for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 300 : 40); ++i) {
-    const double angle = drawn(random, -3, 3);
+    const double angle = rounded(random, -3, 3);
     const Vector2d normal(std::cos(angle), std::sin(angle)), along(-normal[1], normal[0]);
-    const double of_first = -drawn(random, 0.1, 2), of_second = drawn(random, 0.1, 2);
-    const double shift_first = drawn(random, -2, 2), shift_second = drawn(random, -2, 2);
+    const double of_first = -rounded(random, 0.1, 2), of_second = rounded(random, 0.1, 2);
+    const double shift_first = rounded(random, -2, 2), shift_second = rounded(random, -2, 2);
     const Vector2d f = of_first * normal + shift_first * along, g = of_second * normal + shift_second * along;
     // f where h > 0 and g where h < 0, h = normal . x - 0.3
     const std::string h = fmt::format("sign(({:.17g})*u + ({:.17g})*v - 0.3)", normal[0], normal[1]);
     const std::string text = fmt::format("u' = {:.17g} + ({:.17g})*{}; v' = {:.17g} + ({:.17g})*{}", (f + g)[0] / 2,
                                          (f - g)[0] / 2, h, (f + g)[1] / 2, (f - g)[1] / 2, h);
-    const Vector2d start = (0.3 + drawn(random, 0.2, 2)) * normal + drawn(random, -1, 1) * along;
+    const Vector2d start = (0.3 + rounded(random, 0.2, 2)) * normal + rounded(random, -1, 1) * along;
     CAPTURE(text, start.transpose());
     const double meets = (normal.dot(start) - 0.3) / -of_first;
     const Vector2d there = start + meets * f;
@@ -148,7 +148,7 @@ TEST_CASE("a block on a belt sticks and slips", "[sliding]") {
   constexpr double slips = 5.266719402578, period = 6.736837191765, sticks = -0.335058894593;
   const std::string falling = "x'' = -x - (0.4 - 0.2*abs(x'-0.5))*sign(x'-0.5)";
   const Orbits cycle(falling, {0, 0.5});
-  const PlanarOrbit joins = reduction::by_steps(typed(falling)).orbit({0.1, 0.2});
+  const PlanarOrbit joins = reduction::by_steps(typed_field(falling)).orbit({0.1, 0.2});
   for (int turn = 0; turn < 4; ++turn) {
     const double begin = 0.8 + turn * period;
     cycle.check(begin, {0.4, 0.5}, 2e-12);
@@ -180,15 +180,15 @@ TEST_CASE("a curve that is an orbit of one side is followed: the time-optimal do
 }
 
 TEST_CASE("where several motions leave a jump none is chosen", "[sliding]") {
-  CHECK_THAT(reduction::reduce(typed("y' = sign(y)"), {0.3, 0}).orbit({0.3, 0}).undecided(),
+  CHECK_THAT(reduction::reduce(typed_field("y' = sign(y)"), {0.3, 0}).orbit({0.3, 0}).undecided(),
              Contains("both sides point away"));
-  const PlanarOrbit stepped = reduction::by_steps(typed("y' = sign(y) + x*y")).orbit({0.3, 0});
+  const PlanarOrbit stepped = reduction::by_steps(typed_field("y' = sign(y) + x*y")).orbit({0.3, 0});
   CHECK(stepped.end() == PlanarEnd::undecided);
   CHECK_THROWS_WITH(stepped.at(1), Contains("the motion is not unique"));
   // At the crossing of two lines one motion leaves into each of two opposite sectors.
-  const PlanarOrbit crossing = reduction::by_steps(typed("u' = sign(u) + 0.1*v; v' = -sign(v)")).orbit({0, 0.5});
+  const PlanarOrbit crossing = reduction::by_steps(typed_field("u' = sign(u) + 0.1*v; v' = -sign(v)")).orbit({0, 0.5});
   CHECK_THROWS_WITH(crossing.at(1), Contains("not unique"));
-  const PlanarOrbit saddle = reduction::by_steps(typed("u' = sign(u*v); v' = 1 + u")).orbit({0, -0.5});
+  const PlanarOrbit saddle = reduction::by_steps(typed_field("u' = sign(u*v); v' = 1 + u")).orbit({0, -0.5});
   CHECK_THROWS_WITH(saddle.at(1), Contains("the motion is not unique"));
 }
 
@@ -199,14 +199,14 @@ TEST_CASE("sliding along a curve ends at a pseudo-equilibrium, and past motions 
   orbits.check(0.25, {std::exp(-0.25), 0.25});
   orbits.check(3, {std::exp(-3), 0});
   CHECK(orbits.solved.end() == PlanarEnd::equilibrium);
-  CHECK_THROWS_WITH(reduction::by_steps(typed("u' = -u; v' = -sign(v)")).reversed().orbit({1, 0}).at(1),
+  CHECK_THROWS_WITH(reduction::by_steps(typed_field("u' = -u; v' = -sign(v)")).reversed().orbit({1, 0}).at(1),
                     Contains("the motion is not unique"));
 }
 
 TEST_CASE("parts of switching curves end where motions begin to cross", "[sliding]") {
   using Kind = reduction::SwitchingMotion::Kind;
   const auto parts = [](const std::string& text) {
-    return portraits::switching_parts(typed(text), Vector2d(-2, -2), Vector2d(2, 2));
+    return portraits::switching_parts(typed_field(text), Vector2d(-2, -2), Vector2d(2, 2));
   };
   const auto rest = parts("x'' = -x - 0.2*sign(x')");
   REQUIRE(rest.size() == 1);
