@@ -93,6 +93,10 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
                       PortraitStyle style) {
   const PhasePortrait& first = portraits.front();
   const ViewLayout& layout = layout_of(first.view);
+  if (first.view == View::story) {
+    style.colour_by_time = false;
+    if (style.arrows == PortraitStyle::Arrows::time) style.arrows = PortraitStyle::Arrows::one;
+  }
   const int panels = layout.panels_across * static_cast<int>(portraits.size());
   PaperSize usual = usual_size(layout, portraits.size());
   // Curves that share an x axis and stand one above another need less height than planes.
@@ -129,15 +133,26 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
   figure.max_columns = std::max(figure.max_columns, panels);
   figure.theme = look.palette.theme;
   bool coloured = false;
-  for (std::size_t i = 0; i < portraits.size(); ++i) {
-    const Drawing drawing{{look, portraits[i], captions[i], style, portraits[i].system().mu()}, portraits[i]};
-    for (MappedPanel& shown : layout.panels(drawing)) {
-      if (const Text& own = captions[i].panel; !own.empty())
-        shown.panel.title = shown.panel.title.empty() ? own : own + ",  " + shown.panel.title;
-      figure.panels.push_back(std::move(shown.panel));
-      mapped.maps.push_back(std::move(shown.map));
+  const auto add_panels = [&] {
+    figure.panels.clear();
+    mapped.maps.clear();
+    for (std::size_t i = 0; i < portraits.size(); ++i) {
+      const Drawing drawing{{look, portraits[i], captions[i], style, portraits[i].system().mu()}, portraits[i]};
+      for (MappedPanel& shown : layout.panels(drawing)) {
+        if (const Text& own = captions[i].panel; !own.empty())
+          shown.panel.title = shown.panel.title.empty() ? own : own + ",  " + shown.panel.title;
+        figure.panels.push_back(std::move(shown.panel));
+        mapped.maps.push_back(std::move(shown.map));
+      }
+      coloured = drawing.coloured();
     }
-    coloured = drawing.coloured();
+  };
+  add_panels();
+  if (first.view == View::story) {
+    // The legend decides the height of the panel, and the drawings of the patch are circles on paper.
+    const Box box = lay_out(figure).panels.front().box;
+    look.panel_mm = {box.width, box.height};
+    add_panels();
   }
   if (coloured && !shows_moments(first.view)) figure.colour_bar = colour_bar(look.bands, captions.front());
   return mapped;

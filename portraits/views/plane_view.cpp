@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"
@@ -16,11 +17,11 @@ namespace {
 using Copies = std::vector<OrbitCopy>;
 
 /// Returns ticks of v: round speeds in the linear part of the axis, powers of ten below this part.
-std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
+/// @param real  true: speeds of a real body, so that tiny speeds have no meaning
+std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale, bool real) {
   std::vector<Axis::Tick> ticks{{0, "0"}};
   constexpr double lowest = 0.12;  // below this height the axis is not linear
-  // Ticks end at this power of ten: smaller speeds are not physical.
-  constexpr double least_power = -30;
+  const double least_power = real ? -9 : -30;
   for (double h : {0.1, 0.2, 0.3, 0.4}) {
     const double decades = scale.ln_v(h) / std::log(10.0);
     const double step = std::pow(10, std::max(0.0, std::floor(std::log10(-decades)) - 1));
@@ -33,6 +34,28 @@ std::vector<Axis::Tick> speed_ticks(const SpeedScale& scale) {
     ticks.push_back({scale.height(std::log(v)), number(v, 3)});
   }
   return ticks;
+}
+
+/// Names the slip below which a bent axis shows a power of v, and marks where each requested motion slides at 1 mm/s.
+void add_slips(PortraitPanel& layers, const Drawing& drawing, double unit) {
+  const SpeedScale& scale = drawing.portrait.scale;
+  Panel& panel = layers.panel();
+  constexpr double bend = 0.5, below = 0.035, beside = 0.015, mm = 1e-3;
+  const Point corner = from_paper(panel, {beside, 0});
+  panel.labels.push_back({{corner.x, scale.height(scale.ln_v(bend)) - below},
+                          Text("slip below ") + number(std::exp(scale.ln_v(bend)) / mm, 2) + " mm/s",
+                          drawing.palette.invariant,
+                          Label::Align::left});
+  for (const PortraitOrbit& orbit : drawing.portrait.highlight) {
+    const auto row = std::ranges::find_if(orbit.ln_v, [](double ln_v) { return ln_v <= std::log(mm); });
+    if (row == orbit.ln_v.begin() || row == orbit.ln_v.end()) continue;
+    const double time = (orbit.tau_left[0] - orbit.tau_left[row - orbit.ln_v.begin()]) / drawing.caption.time_unit;
+    const Point at{unit * orbit.u[row - orbit.ln_v.begin()], scale.height(std::log(mm))};
+    panel.marks.push_back({{at}, drawing.palette.highlight, 1, Marks::Shape::circle});
+    panel.labels.push_back({from_paper(panel, between(on_paper(panel, at), {0.5, on_paper(panel, at).y}, 0.04)),
+                            Text("1 mm/s after ") + number(time, 3) + " s", drawing.palette.highlight,
+                            at.x > 0 ? Label::Align::right : Label::Align::left});
+  }
 }
 
 /// Returns a half-plane panel. Its sides are the sides of the window, in units of u and v.
@@ -51,7 +74,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     const bool beside_others = !drawing.caption.panel.empty();
     panel.y.name += beside_others ? "  (shaded: " + power + ")" : "  (shaded part: " + power + ", " + exponent + ")";
     if (beside_others) panel.title = exponent;
-    panel.y.ticks = speed_ticks(scale);
+    panel.y.ticks = speed_ticks(scale, !drawing.caption.speed_unit.empty());
     std::erase_if(panel.y.ticks, [&](const Axis::Tick& tick) { return tick.at < bottom; });
     const auto [left, right] = std::pair(panel.x.low, panel.x.high);
     constexpr double bend = 0.5;
@@ -75,6 +98,8 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     return std::vector<Polyline>{{{x, slope * x}, {0, 0}}, {{-x, slope * x}, {0, 0}}};
   });
   layers.add_highlights();
+  if (!scale.linear() && bottom == 0 && drawing.caption.panel.empty() && drawing.caption.speed_unit == "m/s")
+    add_slips(layers, drawing, unit);
   if (window.contains({0, 0}))
     layers.panel().marks.push_back({{{0, 0}}, drawing.palette.invariant, 1.2, Marks::Shape::dot, "the stop"});
   return std::move(layers).finished();

@@ -133,10 +133,10 @@ inline const std::array view_layouts{
     ViewLayout{View::pair, "pair", "planes (u, v) and (u, ln k) side by side", pair_view, 2, 300, 125, nullptr,
                [](const PhasePortrait& portrait) { return plane_shows(portrait); }},
     ViewLayout{View::story, "story",
-               "plane (u, v) with one motion beside the uncoupled model, and the contact patch at three instants",
-               story_view, 1, 150, 105, nullptr,
+               "plane (u, v) with one motion beside the uncoupled model, and the contact patch at three of its states",
+               story_view, 1, 170, 110, nullptr,
                [](const PhasePortrait&) {
-                 return Text("discs: velocity of the contact patch; its spin turns the friction away from the slide");
+                 return Text("spin turns the friction away from the slide: the body slides longer");
                }},
 };
 

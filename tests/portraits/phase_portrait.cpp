@@ -361,3 +361,28 @@ TEST_CASE("Another law is drawn in the same window, with isochrones of the same 
   };
   CHECK(times(other) == times(both));
 }
+
+TEST_CASE("The uncoupled model slows slip and spin at the rates of the axes", "[route]") {
+  for (const reduction::Law& law : laws) {
+    for (const auto& [mu, start] :
+         {std::pair{0.3, State{1, 0.2}}, {0.3, State{-2, 4}}, {1., State{0.01, 3}}, {0.01, State{-30, 1e-3}}}) {
+      const ReducedSystem system(law, mu);
+      const PhasePortrait portrait =
+          phase_portrait(system, {.highlight = start, .through = {{start.u / 2, start.v}}, .uncoupled = true});
+      REQUIRE(portrait.uncoupled.size() == 2);
+      const double sliding = system.field({0, start.v}).v, pivoting = std::abs(system.field({start.u, 0}).u);
+      const PortraitOrbit& orbit = portrait.uncoupled.front();
+      CAPTURE(law.name(), mu, start.u, start.v);
+      CHECK(orbit.u[0] == Approx(start.u));
+      CHECK(orbit.v[0] == Approx(start.v));
+      CHECK(orbit.tau_left[orbit.rows() - 1] == 0);
+      for (Eigen::Index i = 0; i < orbit.rows(); ++i) {
+        const double time = orbit.tau_left[0] - orbit.tau_left[i];
+        const double v = std::max(0., start.v + sliding * time), u = std::max(0., std::abs(start.u) - pivoting * time);
+        // The difference of the times is rounded.
+        CHECK(orbit.v[i] == Approx(v).margin(1e-14 * sliding * -orbit.tau_left[0]));
+        CHECK(orbit.u[i] == Approx(std::copysign(u, start.u)).margin(1e-14 * pivoting * orbit.tau_left[0]));
+      }
+    }
+  }
+}

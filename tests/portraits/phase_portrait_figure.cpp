@@ -934,9 +934,13 @@ TEST_CASE("Captions replace title, units and the unit of the labels", "[table]")
   CHECK(figure.title == "A ball");
   CHECK_THAT(figure.panels[0].y.name.words(), Catch::Contains(", m/s"));
   CHECK(layer(figure.panels[0], "time left").legend.words().ends_with(", s"));
-  CHECK(figure.panels[0].labels.size() >= 3);
+  std::vector<double> times;
   for (const auto& label : figure.panels[0].labels) {
-    const double multiple = std::stod(label.text.words()) / std::stod(figure.panels[0].labels[0].text.words());
+    if (!label.text.words().starts_with("slip below")) times.push_back(std::stod(label.text.words()));
+  }
+  CHECK(times.size() >= 3);
+  for (const double time : times) {
+    const double multiple = time / times.front();
     CHECK(2 * multiple == Approx(std::round(2 * multiple)));
   }
 }
@@ -987,4 +991,52 @@ TEST_CASE("against beta a spin that vanishes leaves the picture, and its axis st
       }
     }
   }
+}
+
+TEST_CASE("The story shows the share of the friction that brakes at each drawing of the patch", "[invariant]") {
+  for (const State start : {State{1, 0.2}, State{-1, 0.4}}) {
+    const reduction::ReducedSystem system(reduction::HertzLaw{}, 0.5);
+    const portraits::MappedFigure drawn =
+        draw_mapped(portraits::phase_portrait(system, {.view = View::story, .highlight = start}));
+    const Panel& panel = drawn.figure.panels.front();
+    CHECK_FALSE(drawn.figure.colour_bar);
+    REQUIRE(panel.labels.size() == 3);
+    REQUIRE(panel.marks.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point at = panel.marks[i].points.front();
+      CHECK(at.y <= std::array{1., 0.6, 0.25}[i] * start.v * (1 + 1e-12));
+      const double force = system.law()({.sliding = at.y, .pivoting = 0.5 * std::abs(at.x)}).force;
+      CHECK(panel.labels[i].text.words() == fmt::format("{:.0f} %", 100 * force));
+    }
+    // Seen from above, a body whose spin is counterclockwise moves to the right most at the side of negative y.
+    const Lines& velocities = layer(panel, "velocity of the patch");
+    double fastest = 0, place = 0;
+    for (const auto& line : velocities.lines) {
+      const double along = line.back().x - line.front().x;
+      if (along > fastest) fastest = along, place = (line.front().y + line.back().y) / 2;
+    }
+    const double middle = (panel.y.high - panel.y.low) * 0.81;
+    CHECK((place < middle) == (start.u > 0));
+  }
+}
+
+TEST_CASE("The bent axis of a real ball names slow slips, and when its slip falls to 1 mm/s", "[table]") {
+  const auto portrait = portrait_of(0.1, {.highlight = State{2, 1}});
+  REQUIRE_FALSE(portrait.scale.linear());
+  const portraits::PortraitCaption ball{.speed_unit = "m/s", .time_unit_name = "s", .time_unit = 4};
+  const auto words_of = [&](const portraits::PortraitCaption& caption) {
+    const Figure figure = draw(portrait, caption);
+    std::string words;
+    for (const auto& label : figure.panels[0].labels) words += label.text.words() + "\n";
+    return words;
+  };
+  const reduction::Flow& flow = portrait.flow;
+  // Bisection for the time at which v = 0.001, independent of the rows of the orbit.
+  const auto orbit = flow.orbit({2, 1});
+  double low = 0, high = orbit.stop_time();
+  for (int i = 0; i < 60; ++i) (orbit.at_time((low + high) / 2).v > 1e-3 ? low : high) = (low + high) / 2;
+  const std::string words = words_of(ball), number = words.substr(words.find("1 mm/s after ") + 13);
+  CHECK(std::stod(number) == Approx(low / 4).epsilon(0.02));
+  CHECK_THAT(words, Catch::Contains("slip below "));
+  CHECK_THAT(words_of({}), !Catch::Contains("slip below "));
 }

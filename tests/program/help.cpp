@@ -176,7 +176,7 @@ TEST_CASE("completion", "[cli]") {
   CHECK(completed("st") == "stop\n");
   CHECK(completed("roll --sp") == "--spin-deceleration --spin\n");
   CHECK(completed("stop --law p") == "pade punch paraboloid\n");
-  CHECK(completed("portrait --view s") == "similarity\n");
+  CHECK(completed("portrait --view s") == "similarity story\n");
   CHECK(completed("stop --ball p") == "pool puck\n");
   CHECK(completed("engine p") == "physx pooltool\n");
   CHECK(completed("help un") == "units\n");
