@@ -22,8 +22,10 @@ Heading heading_of(std::string_view text) {
 std::string usual_name(std::string_view name) {
   constexpr std::string_view deviation = "_sd";
   constexpr std::pair<std::string_view, std::string_view> usual[]{
-      {"time", "t"},   {"theta", "angle"}, {"\u03b8", "angle"}, {"v_x", "vx"},     {"v_{x}", "vx"}, {"v_y", "vy"},
-      {"v_{y}", "vy"}, {"omega_x", "wx"},  {"omega_y", "wy"},   {"omega_z", "wz"}, {"pos_x", "x"},  {"pos_y", "y"}};
+      {"time", "t"},       {"timestamp", "t"}, {"t_s", "t"},         {"seconds", "t"},  {"theta", "angle"},
+      {"\u03b8", "angle"}, {"yaw", "angle"},   {"heading", "angle"}, {"v_x", "vx"},     {"v_{x}", "vx"},
+      {"v_y", "vy"},       {"v_{y}", "vy"},    {"omega_x", "wx"},    {"omega_y", "wy"}, {"omega_z", "wz"},
+      {"omega", "wz"},     {"pos_x", "x"},     {"pos_y", "y"},       {"x_m", "x"},      {"y_m", "y"}};
   std::string small(name);
   std::ranges::transform(small, small.begin(),
                          [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });

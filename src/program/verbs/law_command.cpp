@@ -63,10 +63,10 @@ class LawCommand final : public Verb {
     k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
     batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input");
     k_.excludes({&batch_});
-    start_.add_ball(app, "real body in SI units, instead of --k: prints force and moment at its slip and spin");
-    start_.ball().excludes({&k_, &batch_, &surface_}, "slip and spin of the ball determine k");
     surface_.add(app, "--surface",
                  "draw the limit surface, force against moment, of --law beside exact, pade, uniform and ring");
+    start_.add_ball(app, "real body in SI units, instead of --k: prints force and moment at its slip and spin");
+    start_.ball().excludes({&k_, &batch_, &surface_}, "slip and spin of the ball determine k");
     output_.add(app);
   }
 
@@ -103,13 +103,13 @@ class LawCommand final : public Verb {
     const si::Experiment ball = start_.read_ball(law);
     const double slip = si::slip_at_start(ball), spin = si::spin_at_start(ball), a = si::patch_radius_of(ball, law);
     const double load = ball.ball.mass * si::pressing(ball.environment), limit = ball.contact.friction * load;
-    const auto [force, moment] = law({slip, a * std::abs(spin)});
     if (slip == 0 && spin == 0) {
       start_.reject_ball(
           fmt::format("slip and spin are 0: at rest the force is anything up to {} N, and the moment up "
                       "to {} N m; give --slip V or --spin W",
                       limit, limit * a * law.pivoting_moment()));
     }
+    const auto [force, moment] = law({slip, a * std::abs(spin)});
     const ContactReport report{law.name(),        slip, spin, load, a, slip / (a * std::abs(spin)), limit * force,
                                limit * a * moment};
     const Json members = members_of(contact_fields, report);
