@@ -210,7 +210,10 @@ class Follower {
   }
 
   void stop(std::string_view reason) {
-    motion_.undecided = fmt::format("{} about ({}, {})", reason, motion_.unit * x_[0], motion_.unit * x_[1]);
+    const Vector2d at = motion_.unit * x_;
+    constexpr double vast = 1e100;
+    if (at.lpNorm<Eigen::Infinity>() > vast) reason = "formulas overflow";
+    motion_.undecided = fmt::format("{} about ({:.6g}, {:.6g})", reason, at[0], at[1]);
   }
 
   /// Returns true if the orbit tends to a zero of the field, so near that the linear flow is exact except for rounding.

@@ -395,6 +395,58 @@ Maybe of_curves(const Equation& equation, const E& V) {
   return E::sum(terms);
 }
 
+/// Returns the coefficients of a polynomial in one variable, the lowest first, if all are fractions; else nothing.
+std::vector<Number> polynomial_in(const E& e, std::size_t variable) {
+  const auto all = coefficients(e, variable);
+  std::vector<Number> numbers;
+  for (const E& each : all.value_or(std::vector<E>{})) {
+    if (!each.is(Kind::number) || !each.number().is_exact()) return {};
+    numbers.push_back(each.number());
+  }
+  while (!numbers.empty() && numbers.back() == Number(0)) numbers.pop_back();
+  return numbers;
+}
+
+/// Divides polynomials. Returns the quotient; the first becomes the remainder.
+std::vector<Number> divided(std::vector<Number>& rest, const std::vector<Number>& by) {
+  std::vector<Number> quotient(rest.size() < by.size() ? 0 : rest.size() - by.size() + 1, Number(0));
+  while (rest.size() >= by.size()) {
+    const std::size_t at = rest.size() - by.size();
+    quotient[at] = rest.back() / by.back();
+    for (std::size_t i = 0; i < by.size(); ++i) rest[at + i] = rest[at + i] - quotient[at] * by[i];
+    rest.pop_back();
+    while (!rest.empty() && rest.back() == Number(0)) rest.pop_back();
+  }
+  return quotient;
+}
+
+/// Returns a quotient of polynomials in one variable without their common factor; the formula itself if there is none.
+E cancelled(const E& e) {
+  const auto [above, below] = fraction_of(e);
+  for (const std::size_t variable : {0U, 1U, 2U}) {
+    if (!below.has(variable)) continue;
+    std::vector<Number> a = polynomial_in(above, variable), b = polynomial_in(below, variable);
+    if (a.empty() || b.empty()) return e;
+    std::vector<Number> common = a, rest = b;
+    while (!rest.empty()) {
+      divided(common, rest);
+      std::swap(common, rest);
+    }
+    if (common.size() < 2) return e;
+    const auto quotient = [&](std::vector<Number>& of) {
+      std::vector<E> terms;
+      const std::vector<Number> result = divided(of, common);
+      for (std::size_t i = 0; i < result.size(); ++i) {
+        terms.push_back(E(result[i]) * power(E::variable(variable), E(static_cast<int>(i))));
+      }
+      return E::sum(terms);
+    };
+    const E shorter = quotient(a) / quotient(b);
+    return a.empty() && b.empty() ? shorter : e;  // rounding of long fractions leaves a remainder
+  }
+  return e;
+}
+
 }  // namespace solution_formulas
 
 Expression tidied(const Expression& e) {
@@ -409,6 +461,7 @@ Expression tidied(const Expression& e) {
     }
   };
   offer([&] { return e.expanded(); });
+  offer([&] { return cancelled(e); });
   offer([&] {
     const auto [above, below] = fraction_of(e);
     return above.expanded() / below;

@@ -38,6 +38,30 @@ std::string Steps::broken_at(const Eigen::Vector2d& x) const {
   return reason;
 }
 
+std::vector<Expression> Steps::jumps() const {
+  std::vector<Expression> places;
+  if (!integral) return places;
+  const auto add = [&](const Expression& place) {
+    if (!place.is_constant() && std::ranges::count(places, place) == 0) places.push_back(place);
+  };
+  const auto look = [&](const Expression& part) -> std::optional<Expression> {
+    if (is_function(part, "atan")) {
+      const Expression below = fraction_of(part.parts()[0]).below;
+      for (const Expression& factor : factors_of(below)) {
+        const auto [base, exponent] = base_and_exponent(factor);
+        if (exponent.is(Expression::Kind::number) && exponent.number().is_whole()) add(base);
+      }
+      part.parts()[0].replaced([&](const Expression& inner) -> std::optional<Expression> {
+        if (is_function(inner, "tan")) add(Expression::function("cos", inner.parts()[0]));
+        return std::nullopt;
+      });
+    }
+    return std::nullopt;
+  };
+  integral->H.replaced(look);
+  return places;
+}
+
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
                bool cleared, const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around) {
   Steps steps{system.variables};
@@ -72,6 +96,15 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
   attempt([&] { steps.kinds = kinds_of(*equation); });
   attempt([&] { steps.coordinates = coordinates_of(*equation, found); });
   attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, steps.factor); });
+  attempt([&] {
+    if (!steps.integral || !steps.factor) return;
+    // V is known up to a function of H. The one that belongs to this H has dH = (x' dy - y' dx)/V.
+    const Expression H_y = steps.integral->H.derivative(1);
+    if (H_y.is_zero()) return;
+    const Expression V = equation->f[0] / H_y;
+    const auto ratio = equation->constant(*steps.factor / V);
+    steps.factor = ratio ? tidied(*steps.factor / *ratio) : tidied(V);
+  });
   if (steps.integral && steps.integral->quadrant) {
     const auto side = [&](std::size_t i) {
       return fmt::format("{} {} 0", steps.names[i], around[static_cast<Eigen::Index>(i)] < 0 ? "<" : ">");

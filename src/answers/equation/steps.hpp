@@ -16,13 +16,17 @@ struct Steps {
   std::optional<IntegralFormula> integral = {};
   std::string where = {};  ///< quadrant in which H was checked, such as "x > 0, y > 0"; empty for the plane
   std::optional<Expression> branch = {};  ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
-  std::optional<Expression> factor = {};  ///< inverse integrating factor V
+  std::optional<Expression> factor = {};  ///< inverse integrating factor V, that of H if H is known
   std::vector<Expression> parts = {};     ///< the right sides
 
   std::string text(const Expression& e, int digits = 0) const { return e.text(names, digits); }
 
   /// Returns the separated equation, such as "dq/dp = tan(q)"; empty without coordinates.
   std::string separated(int digits = 0) const;
+
+  /// Returns the formulas at whose zeros H may jump, so that C has another value on the other side: the denominators of
+  /// arguments of atan, and cos(z) for tan(z) in these arguments.
+  std::vector<Expression> jumps() const;
 
   /// Returns the reason why the right sides have no value next to a point, such as "tan(y/x) has a pole"; empty if
   /// none is found.

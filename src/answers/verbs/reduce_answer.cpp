@@ -555,9 +555,12 @@ class Blackboard {
                     double until) {
     if (steps_.integral) {
       const double C = start ? steps_.integral->H({(*start)[0], (*start)[1]}) : infinity;
-      add("solution", fmt::format("{} = C{}{}", shown(steps_.integral->H),
+      std::vector<std::string> jumps;
+      for (const Expression& place : steps_.jumps()) jumps.push_back(shown(place) + " = 0");
+      add("solution", fmt::format("{} = C{}{}{}", shown(steps_.integral->H),
                                   std::isfinite(C) ? ",  C = " + digits_(C) : std::string(),
-                                  steps_.where.empty() ? "" : ",  for " + steps_.where));
+                                  steps_.where.empty() ? "" : ",  for " + steps_.where,
+                                  jumps.empty() ? "" : fmt::format(";  C jumps where {}", fmt::join(jumps, ", "))));
       if (steps_.branch) {
         add("",
             fmt::format("{} = {}{}", steps_.names[1], shown(*steps_.branch),
@@ -656,15 +659,15 @@ class Blackboard {
     const std::string when = std::isfinite(time) ? "at " + at(start, time) : "";
     switch (orbit.end()) {
       case PlanarEnd::centre:
-        return std::isfinite(time) ? when + ": it reaches the centre" : "it nears the centre for ever";
+        return std::isfinite(time) ? when + ": it reaches the centre" : tends_to(orbit, "the centre");
       case PlanarEnd::periodic:
         return "none: the orbit is closed, with the period " + digits_(orbit.period().value());
       case PlanarEnd::rest:
         return (when.empty() ? "" : when + ", ") + fmt::format("{}: it comes to rest", place(orbit.at(time)));
       case PlanarEnd::equilibrium:
-        return "it nears an equilibrium for ever";
+        return tends_to(orbit, "an equilibrium");
       case PlanarEnd::cycle:
-        return "it nears a closed orbit for ever";
+        return "it tends to a closed orbit";
       case PlanarEnd::infinity:
         // In a finite time y is infinite, so its slope is large before. Otherwise x alone grows.
         if (first && !(std::isfinite(time) && is_steep(orbit, time))) {
@@ -673,25 +676,60 @@ class Blackboard {
               "{} grows for ever{}", steps_.names[0],
               std::isfinite(limit) ? fmt::format("; {} tends to {}", steps_.names[1], digits_(limit)) : "");
         }
-        return first ? fmt::format("{}: {} is infinite", when, steps_.names[1])
-                     : when + (when.empty() ? "it goes to infinity, for ever" : ": it is at infinity");
+        return first          ? fmt::format("{}: {} is infinite", when, steps_.names[1])
+               : when.empty() ? "it tends to infinity"
+                              : "it blows up " + when;
       case PlanarEnd::border: {
         if (!std::isfinite(time)) return "it comes to a border of the equation, a pole or a jump";
         constexpr double before = 1e-9;
         Vector2d x = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+        std::string reason;
         try {
           x = orbit.at(time * (1 - before));
+          reason = steps_.broken_at(x);
+          x = last_state(orbit, time);
+          if (first) x[0] = start[0] + time;
         } catch (const std::domain_error&) {
           // The last state is not known.
         }
-        const std::string reason = x.allFinite() ? steps_.broken_at(x) : "";
         return fmt::format("at {}{}: {}", first ? "" : at(start, time) + ", ",
                            x.allFinite() ? place(x) : at(start, time),
                            reason.empty() ? "a pole or a jump of the equation" : reason);
       }
       default:
+        if (first && std::isfinite(time) && is_steep(orbit, time)) {
+          constexpr double before = 1e-9;
+          const std::string reason = steps_.broken_at(orbit.at(time * (1 - before)));
+          if (!reason.empty()) return fmt::format("{}: {} grows beyond all numbers; {}", when, steps_.names[1], reason);
+        }
         return "not decided: " + orbit.undecided();
     }
+  }
+
+  /// Returns "it tends to" the limit of the orbit, or to the words if the limit is not known.
+  std::string tends_to(const PlanarOrbit& orbit, std::string_view words) const {
+    const Vector2d limit = orbit.at(infinity);
+    return fmt::format("it tends to {}", limit.allFinite() ? place(limit) : words);
+  }
+
+  /// Returns the state at the end of an orbit at a border. Next to it the coordinates change as a constant and a power
+  /// of the time left, whose limit follows from three states (Aitken's process). Digits in which the limits from two
+  /// triples differ are rounded away.
+  static Vector2d last_state(const PlanarOrbit& orbit, double time) {
+    std::array<Vector2d, 4> x;
+    for (int k = 0; k < 4; ++k) x[static_cast<std::size_t>(k)] = orbit.at(time * (1 - std::pow(10, k - 9)));
+    Vector2d end = x[0];
+    for (int i = 0; i < 2; ++i) {
+      const auto limit = [&](std::size_t k) {
+        const double last = x[k][i] - x[k + 1][i], step = x[k + 1][i] - x[k + 2][i];
+        const double moved = std::abs(last) < std::abs(step) ? last * last / (last - step) : 0;
+        return x[k][i] - moved;
+      };
+      const double error = std::abs(limit(0) - limit(1));
+      const double unit = std::pow(10, std::ceil(std::log10(error)));
+      end[i] = error > 0 && unit > 0 ? unit * std::round(limit(0) / unit) : limit(0);
+    }
+    return end;
   }
 
   bool is_steep(const PlanarOrbit& orbit, double time) const {
