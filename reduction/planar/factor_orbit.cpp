@@ -131,7 +131,7 @@ class Follower {
   }
 
   void follow(int most_work) {
-    int next_anchor = 0, next_look = 100'000;
+    int next_anchor = 0, next_look = 500'000;
     if (ended_) return;
     for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);

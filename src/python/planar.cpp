@@ -76,6 +76,7 @@ void bind_planar(py::module_& module) {
                     const answers::FormulaField field = answers::parse_planar_system(text, parameters);
                     Planar planar(with_signals(field, std::make_shared<Interruption>()), {u, v});
                     planar.variables = {field.variables.at(0), field.variables.at(1)};
+                    planar.parameters = parameters;
                     planar.answer = [=, smooth = planar.field] {
                       return answers::reduce_answer(field, smooth, text, Vector2d(u, v), false);
                     };

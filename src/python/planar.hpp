@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -87,6 +88,7 @@ class Planar {
   reduction::PlanarSymmetries symmetries;
   reduction::PlanarReduction plane;
   std::array<std::string, 2> variables{"u", "v"};  ///< letters of the equations
+  std::map<std::string, double> parameters = {};   ///< values of other letters
   std::function<answers::Answer()> answer = {};    ///< answer of the program; empty for a function
 
  private:

@@ -201,16 +201,19 @@ Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optio
 Portrait portrait_of_plane(const Planar& planar, const std::string& system, const std::optional<Sides>& start,
                            const std::optional<AskedWindow>& window, std::optional<int> orbits,
                            const std::vector<Sides>& through, const std::optional<AskedIsochrones>& isochrones,
-                           const std::string& arrows, const std::string& field, bool axes, const std::string& colour,
-                           const std::string& style, const Size& size, const std::optional<std::string>& title) {
+                           const std::string& arrows, const std::string& field, bool axes, bool nullclines,
+                           const std::string& colour, const std::string& style, const Size& size,
+                           const std::optional<std::string>& title) {
   using Field = PortraitStyle::Field;
   portraits::PortraitRequest asked = request_of(window, orbits, through, isochrones);
   if (start) asked.highlight = {start->first, start->second};
+  asked.nullclines = nullclines;
   PortraitStyle looks = style_of(arrows, axes, colour, style, size);
   looks.field = one_of<Field>("field", {{"none", Field::none}, {"motion", Field::motion}}, field);
   return interruptible([&]() -> Portrait {
-    portraits::PlanarPortrait data = portraits::planar_portrait(planar.solved(), system, asked);
+    portraits::PlanarPortrait data = portraits::planar_portrait(planar.plane, system, asked);
     data.variables = planar.variables;
+    data.parameters = planar.parameters;
     Figure figure = titled(portraits::draw(data, looks), title, size);
     return {std::move(figure),
             [data = std::move(data)] { return portraits::to_json(data, {.version = CONTENSOU_VERSION}); }};
@@ -227,8 +230,8 @@ void bind_portraits(py::module_& module) {
            py::arg("style"), py::arg("scale"), py::arg("estimate"), py::arg("size"), py::arg("title"), Released())
       .def_static("of_plane", &portrait_of_plane, py::arg("planar"), py::arg("system"), py::arg("start"), py::kw_only(),
                   py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"), py::arg("arrows"),
-                  py::arg("field"), py::arg("axes"), py::arg("colour"), py::arg("style"), py::arg("size"),
-                  py::arg("title"))
+                  py::arg("field"), py::arg("axes"), py::arg("nullclines"), py::arg("colour"), py::arg("style"),
+                  py::arg("size"), py::arg("title"))
       .def("render",
            [](const Portrait& portrait, const std::string& ending, const std::string& font, double dpi) {
              const auto format = portraits::find_picture_format(ending);

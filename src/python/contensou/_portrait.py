@@ -29,11 +29,12 @@ def points_of(through: Any) -> list[tuple[float, float]]:
 
 
 def _columns(value: Any) -> Any:
-    """Returns JSON with lists of numbers as arrays."""
+    """Returns JSON with lists of numbers as arrays; lists of texts stay lists."""
     if isinstance(value, dict):
         return {key: _columns(each) for key, each in value.items()}
     if isinstance(value, list):
-        return [_columns(each) for each in value] if value and isinstance(value[0], (dict, list)) else np.array(value, float)
+        numbers_alone = not value or not isinstance(value[0], (dict, list, str))
+        return np.array(value, float) if numbers_alone else [_columns(each) for each in value]
     return value
 
 

@@ -245,6 +245,7 @@ class Reduction:
         arrows: str = "time",
         field: str = "none",
         axes: bool = True,
+        nullclines: bool = False,
         colour: str = "time",
         style: str = "print",
         size: Union[None, str, tuple[float, float]] = None,
@@ -254,13 +255,16 @@ class Reduction:
     ) -> Portrait:
         """Returns the plane with orbits, rays and isochrones, as `contensou portrait --system` draws it.
 
+        Orbits of a field that is not solved are followed by steps in time.
+
         u, v:        start of an orbit to highlight; by default the start given to reduce
-        window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); by default a square around the points
+        window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); by default equilibria, limit cycles and the points
         orbits:      number of orbits; by default enough to fill the window
         through:     points (u, v) whose orbits are shown, too
         isochrones:  approximate number of lines of equal time left, or their times
         field:       none or motion
-        axes:        True to draw the rays
+        axes:        True to draw the rays, separatrices and limit cycles
+        nullclines:  True to draw the curves on which u, or v, does not change
         arrows, colour, style, size, title, font, dpi:  as in contensou.portrait
         """
         asked: dict[str, Any] = dict(locals(), through=points_of(through))
@@ -274,8 +278,8 @@ def _of_plane(asked: dict[str, Any]) -> _core.Portrait:
     reduction = asked["reduction"]
     return _core.Portrait.of_plane(
         reduction._core, reduction._system, start_of(asked),
-        **{key: asked[key] for key in ("window", "orbits", "through", "isochrones", "arrows", "field", "axes", "colour",
-                                       "style", "size", "title")},
+        **{key: asked[key] for key in ("window", "orbits", "through", "isochrones", "arrows", "field", "axes", "nullclines",
+                                       "colour", "style", "size", "title")},
     )
 
 
