@@ -708,7 +708,9 @@ class Blackboard {
 
   /// Returns "it tends to" the limit of the orbit, or to the words if the limit is not known.
   std::string tends_to(const PlanarOrbit& orbit, std::string_view words) const {
-    const Vector2d limit = orbit.at(infinity);
+    Vector2d limit = orbit.at(infinity);
+    constexpr double rounding = 1e-12;
+    limit = (limit.array().abs() < rounding * limit.norm()).select(0, limit);
     return fmt::format("it tends to {}", limit.allFinite() ? place(limit) : words);
   }
 
