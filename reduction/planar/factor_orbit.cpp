@@ -399,6 +399,11 @@ class Follower {
     };
     const auto barrier_on = [&](double side) -> std::optional<Barrier> {
       if (side * w0 < 0 && holds({0, 0}, side)) return Barrier{0, 0};
+      // An orbit that nears a line on which f vanishes: the line has a short number in the letters of the field.
+      for (double unit = 1; unit > 1e-7; unit /= 10) {
+        const double line = unit * std::round(motion_.unit * w0 / unit) / motion_.unit;
+        if (side * (line - w0) > 0 && holds({line, 0}, side)) return Barrier{line, 0};
+      }
       constexpr double least = 1e-6;
       constexpr int widths = 20;  // up to 1e18 times w0
       for (const double power : {0, 1, 2, 3}) {

@@ -316,6 +316,12 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
       {1.3, 0.7}, PlanarEnd::infinity, pi / 2 - std::atan(0.7));
   ends([](Dual u, Dual v) { return std::array{u * u, v}; }, {1, 1}, PlanarEnd::infinity, 1);
   ends([](Dual u, Dual v) { return std::array{u, v + u * u}; }, {1, 1}, PlanarEnd::infinity, infinity);
+  // v nears a line on which f[1] has a double zero, so that no line beyond it holds the orbit back.
+  ends(
+      [](Dual u, Dual v) {
+        return std::array{0 * u + 1, 6 * (v - 1) * (v - 1)};
+      },
+      {0, 0.5}, PlanarEnd::infinity, infinity);
   ends([](Dual, Dual v) { return std::array{Dual(1), -1 / v}; }, {1.3, 0.7}, PlanarEnd::border, 0.7 * 0.7 / 2);
   ends(
       [](Dual u, Dual v) {
