@@ -135,7 +135,10 @@ class Follower {
     if (ended_) return;
     for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);
-      if (!here) return stop("the field has no derivatives");
+      if (!here) {
+        if (ends_at_pole()) return;
+        return stop("the field has no derivatives");
+      }
       if (work_ >= next_look) {
         if (leaves_for_ever()) return;
         next_look *= 2;
@@ -163,14 +166,14 @@ class Follower {
           continue;
         }
         if (at_border(*here, shortest)) return end(PlanarEnd::border, motion_.followed);
-        if (leaves_for_ever()) return;
+        if (leaves_for_ever() || ends_at_pole()) return;
         return stop(holds ? "the field is not smooth" : "the form of V does not hold");
       }
       if (ended_) return;
       if (on_curve_ && factor_) return_to_curve();
       if (returns()) return;
     }
-    if (leaves_for_ever()) return;
+    if (leaves_for_ever() || ends_at_pole()) return;
     stop(fmt::format("the orbit takes more than {} evaluations of the field; it comes", most_work));
   }
 
@@ -462,6 +465,40 @@ class Follower {
     const Vector2d direction = here.f.normalized();
     const double speed = here.f.norm(), growth = direction.dot(here.slopes * direction);
     return speed > singular * first_->f.norm() && speed < short_way * size_ * growth;
+  }
+
+  /// Ends the orbit at a pole of the field that it nears so slowly that rounding stops one coordinate before, as for
+  /// y' = x/(2 - x) or y' = tan(x) y. What the panels say from there on is wrong.
+  bool ends_at_pole() {
+    constexpr std::size_t many = 100;
+    constexpr double changes = 0.01;  // of the field in the last digit of the coordinate
+    const auto& panels = motion_.panels;
+    for (int i = 0; i < 2; ++i) {
+      std::size_t first = panels.size();
+      while (first > 0 && panels[first - 1].at(-1)[i] == x_[i]) --first;
+      if (panels.size() - first < many) continue;
+      const auto there = jet_of(field_, panels[first].at(-1));
+      if (!there || !(there->slopes.col(i).norm() * eps * std::abs(x_[i]) >= changes * there->f.norm())) continue;
+      // The pole is the place of the largest speed ahead of a state that rounding does not reach.
+      constexpr double clear = 1e-8, reach = 10;
+      std::size_t k = first;
+      while (k > 0 && std::abs(x_[i] - panels[k].at(-1)[i]) < clear * std::abs(x_[i])) --k;
+      const Vector2d before = panels[k].at(-1);
+      const auto from = jet_of(field_, before);
+      if (!from || from->f[i] == 0) continue;
+      const auto speed = [&](double way) {
+        const auto f = value_of(field_.value, before + way * Vector2d::Unit(i));
+        return f ? f->norm() : infinity;
+      };
+      double low = 0, high = std::copysign(reach * from->f.norm() / from->slopes.col(i).norm(), from->f[i]);
+      for (int step = 0; step < 100; ++step) {
+        const double left = low + (high - low) / 3, right = high - (high - low) / 3;
+        (speed(left) < speed(right) ? low : high) = speed(left) < speed(right) ? left : right;
+      }
+      end(PlanarEnd::border, panels[k].begin + low / from->f[i]);
+      return true;
+    }
+    return false;
   }
 
   /// Returns the estimated distance to an equilibrium in units of the box; infinity if no estimate is finite.

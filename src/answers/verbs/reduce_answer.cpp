@@ -692,6 +692,9 @@ class Blackboard {
         } catch (const std::domain_error&) {
           // The last state is not known.
         }
+        if (first && std::isinf(x[1])) {
+          return fmt::format("{}: {} is infinite{}", when, steps_.names[1], reason.empty() ? "" : "; " + reason);
+        }
         return fmt::format("at {}{}: {}", first ? "" : at(start, time) + ", ",
                            x.allFinite() ? place(x) : at(start, time),
                            reason.empty() ? "a pole or a jump of the equation" : reason);
@@ -722,14 +725,16 @@ class Blackboard {
     for (int k = 0; k < 4; ++k) x[static_cast<std::size_t>(k)] = orbit.at(time * (1 - std::pow(10, k - 9)));
     Vector2d end = x[0];
     for (int i = 0; i < 2; ++i) {
-      const auto limit = [&](std::size_t k) {
+      const auto limit = [&](std::size_t k) -> double {
         const double last = x[k][i] - x[k + 1][i], step = x[k + 1][i] - x[k + 2][i];
-        const double moved = std::abs(last) < std::abs(step) ? last * last / (last - step) : 0;
-        return x[k][i] - moved;
+        constexpr double slow = 0.97, rounding = 1e-12;
+        if (std::abs(last) <= rounding * std::abs(x[k][i])) return x[k][i];
+        if (!(std::abs(last) < slow * std::abs(step))) return std::copysign(infinity, last);  // as a logarithm does
+        return x[k][i] - last * last / (last - step);
       };
-      const double error = std::abs(limit(0) - limit(1));
-      const double unit = std::pow(10, std::ceil(std::log10(error)));
-      end[i] = error > 0 && unit > 0 ? unit * std::round(limit(0) / unit) : limit(0);
+      end[i] = limit(0);
+      const double error = std::abs(end[i] - limit(1)), unit = std::pow(10, std::ceil(std::log10(error)));
+      if (error > 0 && std::isfinite(unit)) end[i] = unit * std::round(end[i] / unit);
     }
     return end;
   }

@@ -322,6 +322,18 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
         return std::array{0 * u + 1, 6 * (v - 1) * (v - 1)};
       },
       {0, 0.5}, PlanarEnd::infinity, infinity);
+  // Poles at which u stands still by rounding, as v goes to infinity like a logarithm or a power.
+  ends([](Dual u, Dual) { return std::array{0 * u + 1, u / (2 - u)}; }, {0.5, 1}, PlanarEnd::border, 1.5);
+  ends(
+      [](Dual u, Dual v) {
+        return std::array{0 * u + 1, sin(u) / cos(u) * v};
+      },
+      {0.5, 1}, PlanarEnd::border, pi / 2 - 0.5);
+  ends(
+      [](Dual u, Dual v) {
+        return std::array{0 * u + 1, (cos(u) - 2 * u * v) / (u * u - 1)};
+      },
+      {0.5, 1}, PlanarEnd::border, 0.5);
   ends([](Dual, Dual v) { return std::array{Dual(1), -1 / v}; }, {1.3, 0.7}, PlanarEnd::border, 0.7 * 0.7 / 2);
   ends(
       [](Dual u, Dual v) {
