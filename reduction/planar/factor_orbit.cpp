@@ -576,6 +576,11 @@ class Follower {
         append(*panel);
         return true;
       }
+      if (runs_beside_curve()) {
+        ended_ = true;
+        stop("rounding hides whether the orbit comes to a switching curve or a pole; it comes");
+        return true;
+      }
       // Cut the panel where it leaves the region.
       const double before = leaves == LegendreSeries::points().begin() ? -1 : *std::prev(leaves);
       const double last = last_where(inside, before, leaves == LegendreSeries::points().end() ? 1 : *leaves);
@@ -584,6 +589,21 @@ class Follower {
       }
       arrive(region_->leave(x_, size_), last > -1);
       return true;
+    }
+    return false;
+  }
+
+  /// Returns true if the orbit stays so near a switching curve or a pole that rounding can move it across, as far out
+  /// as y = 1 - x of y' = 1/(x + y - 2).
+  bool runs_beside_curve() const {
+    constexpr std::size_t some = 8;
+    constexpr double near = 1e-8, nears = 2;
+    if (!whole_.switches || motion_.panels.size() < some || region_->slides()) return false;
+    const Eigen::MatrixX3d now = whole_.switches(x_);
+    const Eigen::MatrixX3d then = whole_.switches(motion_.panels[motion_.panels.size() - some].at(-1));
+    for (Eigen::Index i = 0; i < now.rows(); ++i) {
+      const double h = std::abs(now(i, 0));
+      if (h < near * now.row(i).tail<2>().norm() * x_.norm() && std::abs(then(i, 0)) < nears * h) return true;
     }
     return false;
   }

@@ -260,3 +260,16 @@ TEST_CASE("orbits begin at the origin and next to it", "[net]") {
     CHECK(std::ranges::count(forms, form) > 0);
   }
 }
+
+TEST_CASE("orbits that stay beside a pole for ever do not end at it by rounding", "[planar]") {
+  // q = a x + b y - c obeys q' = a + b/q and tends to -b/a, so that x and y grow for ever beside q = 0.
+  for (int i = 0; i < 12; ++i) {
+    const double a = 0.3 + 0.17 * i, b = 1.4 - 0.09 * i, c = 0.5 * (i % 5) - 1;
+    const double q = -1.2 * b / a, x = 0.5, y = (q + c - a * x) / b;
+    const std::string text = fmt::format("y' = 1/({}*x + {}*y - ({}))", a, b, c);
+    INFO(text << ", y(0.5) = " << y);
+    const reduction::SmoothField field = answers::parse_planar_system(text, {});
+    const Vector2d start(x, y);
+    CHECK(reduction::reduce(field, start).orbit(start).end() != reduction::PlanarEnd::border);
+  }
+}
