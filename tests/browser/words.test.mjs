@@ -111,9 +111,11 @@ test("at each step of the tour the text says what the headline and the numbers s
     const { textContent: text } = document.querySelectorAll("#steps li p")[step];
     const motion = plane.motion(orbits[0].u, orbits[0].v);
     const lost = motion.lnV.findIndex((lnV) => lnV < -300 * Math.LN10);
+    const [before, after] = [motion.lnV[lost - 1], motion.lnV[lost]];
+    const share = (-300 * Math.LN10 - before) / (after - before);
     return { text, headline: document.getElementById("headline").textContent, story: document.getElementById("story").textContent, times: own.path / plain.path,
       stop: own.stop, end: own.end, orbits, bounce: Array.from(document.getElementById("bounce-says").textContent.matchAll(/([\d.]+)°/g), ([, angle]) => Number(angle)), cue: document.getElementById("cue-says").textContent,
-      stops: motions.map(({ stop }) => stop), spinWhereLost: motion.u[lost] / orbits[0].u };
+      stops: motions.map(({ stop }) => stop), spinWhereLost: (motion.u[lost - 1] + share * (motion.u[lost] - motion.u[lost - 1])) / orbits[0].u };
   });
   const wanted = [
     [/Only a small part of the friction then slows the sliding/, /^Spin a puck, and it slides 4 times as far$/, ({ times }) => times > 3],
@@ -122,7 +124,7 @@ test("at each step of the tour the text says what the headline and the numbers s
     [/to the left or to the right the ball slides equally far/, /^Spin a ball, and it slides 19 times as far$/, ({ stops }) => stops[0] === stops[1]],
     [/a little spin hardly matters: this pool ball slides (.*) farther than textbooks predict\. It still spins long after it has begun to roll/, /^This ball soon rolls, and keeps spinning$/,
       ({ times, stop, end, story, text }) => times < 1.05 && stop > 5 * end && story.includes(`${/slides (.*) farther/.exec(text)[1]} farther`)],
-    [/below 10⁻³⁰⁰ long before the spin is gone/, /^Spin a ball, and it slides 1\.9 times as far$/, ({ spinWhereLost }) => spinWhereLost > 0.3],
+    [/below 10⁻³⁰⁰ m\/s while 9 % of the spin is left/, /^Spin a ball, and it slides 1\.9 times as far$/, ({ spinWhereLost }) => Math.round(100 * spinWhereLost) === 9],
     [/the ball that spins keeps more of its speed, and leaves at another angle/, /times as far$/, ({ bounce: [own, plain] }) => own > plain + 5],
     [/If the butt is raised, too, the path curves/, /^The path of this ball curves by 60°$/, ({ cue }) => /0\.4 radii right .* 0\.3 radii below/.test(cue)],
   ];
