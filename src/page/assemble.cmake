@@ -1,5 +1,5 @@
 # Makes one HTML file from the template, the style, and the bundle of modules and library; then a C++ string of it.
-#   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D VERSION= -D ROOT= -D PAGE= -D EMBEDDED= -P assemble.cmake
+#   cmake -D TEMPLATE= -D STYLE= -D BUNDLE= -D MODULES= -D LIBRARY= -D VERSION= -D ROOT= -D PAGE= -D EMBEDDED= -P assemble.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(READ ${TEMPLATE} html)
@@ -12,6 +12,10 @@ foreach(part IN ITEMS STYLE BUNDLE)
   string(REPLACE "/*${part}*/" "${text}" html "${html}")
 endforeach()
 string(REPLACE "@VERSION@" "${VERSION}" html "${html}")
+foreach(part IN ITEMS MODULES LIBRARY)
+  file(READ ${${part}} text)
+  string(REPLACE "@${part}@" "${text}" html "${html}")
+endforeach()
 # Insert the licences as a comment. For Apache-2.0 and MPL-2.0 the address suffices, so their texts are left out.
 file(READ ${ROOT}/LICENSE licence)
 file(READ ${ROOT}/.github/THIRD_PARTY.txt others)

@@ -19,10 +19,12 @@
 #include <fmt/ranges.h>
 
 #include "answers/asked/formula_law.hpp"
+#include "answers/asked/planar_system.hpp"
 #include "answers/asked/portrait_spec.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/render.hpp"
 #include "contensou/reduction/detail/root.hpp"
 #include "contensou/reduction/flow.hpp"
@@ -417,6 +419,30 @@ val bounce(const std::string& law, const val& fields, bool as_built, double heig
                 si::velocities_of(experiment.start).velocity.norm(), "after", after.velocity.norm());
 }
 
+/// Returns the figure that `contensou portrait --system` draws, in the window that the library chooses.
+/// @param points  points of orbits in this window; x and y in turn
+/// @param screen  light on dark
+val typed_portrait(const std::string& typed, const val& points, bool screen) {
+  static std::string name;
+  static std::optional<answers::FormulaField> field;
+  static std::optional<reduction::PlanarReduction> plane;
+  static portraits::PortraitRequest request;
+  if (typed != name || !request.window) {
+    name.clear();
+    request = {};
+    field = answers::parse_planar_system(typed, {});
+    plane = reduction::reduce(*field, Eigen::Vector2d(1, 1));
+    request.window = planar_portrait(*plane, typed, request).window;
+    name = typed;
+  }
+  const auto numbers = emscripten::convertJSArrayToNumberVector<double>(points);
+  request.through.clear();
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) request.through.push_back({numbers[i], numbers[i + 1]});
+  portraits::PlanarPortrait portrait = planar_portrait(*plane, typed, request);
+  portrait.variables = {field->variables.at(0), field->variables.at(1)};
+  return figure_value(draw(portrait, {.screen = screen}));
+}
+
 /// Returns {name, chi, gamma} of each body, and `mu` if the body fixes it.
 val bodies() {
   return list(si::bodies(), [](const si::Body& body) {
@@ -521,6 +547,7 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("contact", answering<contact>);
   function("struck", answering<struck>);
   function("bounce", answering<bounce>);
+  function("typedPortrait", answering<typed_portrait>);
   function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
   function("suggestion", &suggestion_of);

@@ -23,6 +23,7 @@ import { Store } from "./state/store.js";
 import { ScreenSurface } from "./drawing/screen_surface.js";
 import { makeThrowing } from "./hero/throwing.js";
 import { makeWhy } from "./hero/why.js";
+import { makeTyped } from "./cards/typed.js";
 import { makeTour } from "./controls/tour.js";
 
 function start(library) {
@@ -45,7 +46,7 @@ function start(library) {
   const bounce = makeBounce(store, controls);
   makeOrbits(store, plane);
   const address = new Address(store, hero);
-  makeShare(store, { plane, hero, why, player, address, film: makeFilm(store, player) });
+  makeShare(store, { plane, hero, why, player, address, film: makeFilm(store, player), typed: makeTyped(store) });
   const go = (fragment, done = () => player.begin()) => store.ask((state) => {
     const { theme, embed, project, lab } = state;
     Object.assign(state, fromFragment(fragment, library), { theme, embed, project, lab });

@@ -1,35 +1,29 @@
-// Bytes as text that may stand in a script: two of 91 letters hold 13 bits, where base64 needs a tenth more letters.
+// Bytes as text that may stand in a script: seven of 116 letters hold six bytes, where base64 needs eight letters.
 
-/** The letters are those of ASCII from ! on, without " < and \. */
-const left = [34, 60, 92];
-const digitOf = (/** @type {number} */ code) => code - 33 - left.filter((other) => code > other).length;
-const digits = Uint8Array.from({ length: 127 }, (_, code) => Math.max(0, digitOf(code)));
-const letters = Array.from({ length: 127 }, (_, code) => code).filter((code) => code > 32 && !left.includes(code)).map((code) => String.fromCharCode(code));
+const [of, at, base] = [6, 7, 116];  // bytes, and letters, in a group
+/** Letters of ASCII that are left out: they end a line or a file, or have a meaning in a text of a script. */
+const left = [0, 9, 10, 11, 12, 13, 26, 27, 34, 60, 92, 127];
+const letters = Array.from({ length: 128 }, (_, code) => code).filter((code) => !left.includes(code));
+const digits = Array.from({ length: 128 }, (_, code) => letters.indexOf(code));
 
 /** Returns the number of bytes, a space, and the bytes as text. */
 export function packed(/** @type {Uint8Array} */ bytes) {
-  let [text, held, bits] = [`${bytes.length} `, 0, 0];
-  const put = () => (text += letters[(held & 8191) % 91] + letters[Math.floor((held & 8191) / 91)]);
-  for (const byte of bytes) {
-    held |= byte << bits;
-    bits += 8;
-    if (bits < 13) continue;
-    put();
-    [held, bits] = [held >> 13, bits - 13];
+  const codes = [];
+  for (let i = 0; i < bytes.length; i += of) {
+    let number = 0;
+    for (let j = of; j--;) number = 256 * number + (bytes[i + j] ?? 0);
+    for (let j = at; j--; number = Math.floor(number / base)) codes.push(letters[number % base]);
   }
-  if (bits > 0) put();
-  return text;
+  return `${bytes.length} ${codes.map((code) => String.fromCharCode(code)).join("")}`;
 }
 
 export function unpacked(/** @type {string} */ text) {
   const bytes = new Uint8Array(parseInt(text));
-  let [held, bits, at] = [0, 0, 0];
-  for (let i = text.indexOf(" ") + 1; i < text.length; i += 2) {
-    held |= (digits[text.charCodeAt(i)] + 91 * digits[text.charCodeAt(i + 1)]) << bits;
-    for (bits += 13; bits >= 8; bits -= 8) {
-      bytes[at++] = held;
-      held >>= 8;
-    }
+  for (let i = text.indexOf(" ") + 1, byte = 0; byte < bytes.length; i += at, byte += of) {
+    let number = 0;
+    for (let j = at; j--;) number = base * number + digits[text.charCodeAt(i + j)];
+    // Bytes behind the end of the array are dropped.
+    for (let j = 0; j < of; ++j, number = Math.floor(number / 256)) bytes[byte + j] = number;
   }
   return bytes;
 }

@@ -1,9 +1,9 @@
 // The first script of the page. It unpacks the other modules and the library, which are compressed to a third of their size.
 import { $ } from "./dom.js";
 import { unpacked } from "./packing.js";
-import modules from "page.js.gz.txt";
-import wasm from "contensou.wasm.gz.txt";
 
+// The build puts the packed files here.
+const [modules, wasm] = ["@MODULES@", "@LIBRARY@"];
 const inflated = (text) => new Response(new Blob([unpacked(text)]).stream().pipeThrough(new DecompressionStream("gzip")));
 
 globalThis.contensouFailed = (error) => {

@@ -19,7 +19,7 @@ interface State {
   law: string; body: string; mu: number;
   view: string; window: number[] | null; against: string | null; field: string; isochrones: number;
   orbits: Start[]; chosen: number; fraction: number; part: string; isochrone: number;
-  ball: Ball | null; theme: string; embed: boolean; project: boolean; lab: boolean; step: number; line: number; day: string; tries: number; drop: number; restitution: number;
+  ball: Ball | null; theme: string; embed: boolean; project: boolean; lab: boolean; step: number; line: number; day: string; tries: number; system: string; points: number[][]; drop: number; restitution: number;
 }
 
 interface Ball {
@@ -79,11 +79,10 @@ interface Portrait { figure: Figure; window: [number, number]; through: Speeds[]
 interface Library {
   laws: Law[]; bodies: Body[]; balls: Ball[]; views: View[]; rollingSlip: number; plane: LibraryPlane;
   cueMass: number; largestTipOffset: number;
-  contact(law: string, ball: object): Contact;
+  lawName(called: string): string; contact(law: string, ball: object): Contact; typedPortrait(typed: string, points: number[], screen: boolean): Figure;
   struck(ball: object, speed: number, right: number, above: number, elevation: number): BallStart;
   bounce(law: string, ball: object, asBuilt: boolean, height: number, restitution: number): Rebound;
   fit(film: string, name: string, ball: object, laws: string[]): Fitted;
-  lawName(called: string): string;
   layOut(figure: Figure, width: number, height: number, letter: number): Layout;
   rowsOf(figure: { panels: unknown[]; columns: number; narrowest: number }, width: number): number;
 }
@@ -95,34 +94,20 @@ interface BallStart { slip: number; spin: number; along: number; across: number 
 interface Fitted { measured: Columns; report: string; notes: string; law: string; friction: number; patch: number; start: BallStart; figure: Figure }
 interface LibraryPlane {
   choose(law: string, mu: number, chi: number, gamma: number, drive: number): { terminalRatio: number; meaning: string };
-  portrait(request: PortraitRequest): Portrait;
-  own(request: PortraitRequest): OwnOrbit[];
-  portraitFile(request: PortraitRequest): string;
-  stop(u: number, v: number): number;
-  stopBy(law: string, mu: number, u: number, v: number): number;
-  force(u: number, v: number): number;
-  instant(u: number, v: number, tau: number): Instant;
-  place(u: number, v: number): Float64Array;
-  at(panel: number, x: number, y: number): Speeds | null;
-  slide(ball: object, rollingFriction: number, least: number): Slide;
-  ride(ball: object, rollingFriction: number, end: number): Ride;
-  motion(u: number, v: number): Motion;
-  isochrone(tau: number): Float64Array[];
+  portrait(request: PortraitRequest): Portrait; own(request: PortraitRequest): OwnOrbit[]; portraitFile(request: PortraitRequest): string;
+  stop(u: number, v: number): number; stopBy(law: string, mu: number, u: number, v: number): number; force(u: number, v: number): number;
+  motion(u: number, v: number): Motion; instant(u: number, v: number, tau: number): Instant; isochrone(tau: number): Float64Array[];
+  place(u: number, v: number): Float64Array; at(panel: number, x: number, y: number): Speeds | null;
+  slide(ball: object, rollingFriction: number, least: number): Slide; ride(ball: object, rollingFriction: number, end: number): Ride;
 }
 
-/** An element of the page, with the members of fields, lists, forms, details, tables, links and canvases. */
+/** An element of the page, with the members of fields, lists, forms, links and canvases. */
 interface PageElement extends HTMLElement {
-  href: string; width: number; height: number; toBlob: HTMLCanvasElement["toBlob"];
-  get value(): string; set value(value: string | number);
-  checked: boolean; disabled: boolean; open: boolean; options: HTMLCollectionOf<HTMLOptionElement>; files: FileList;
-  elements: Record<string, PageElement>; tBodies: HTMLCollectionOf<HTMLTableSectionElement>;
+  href: string; width: number; height: number; toBlob: HTMLCanvasElement["toBlob"]; get value(): string; set value(value: string | number);
+  checked: boolean; disabled: boolean; options: HTMLCollectionOf<HTMLOptionElement>; files: FileList; elements: Record<string, PageElement>;
 }
 
 declare module "contensou" {
   const load: (options: { wasmBinary: ArrayBuffer }) => Promise<Omit<Library, "laws" | "bodies" | "balls" | "views" | "plane"> & {laws(): Law[]; bodies(): Body[]; catalogue(): Ball[]; views(): View[]; Plane: new () => LibraryPlane}>;
   export default load;
-}
-declare module "*.txt" {
-  const text: string;
-  export default text;
 }

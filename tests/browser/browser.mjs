@@ -15,7 +15,7 @@ const address = pathToFileURL(file).href;
 
 const help = execFileSync(program, ["help", "views"], { encoding: "utf8" });
 // The other views are the program's alone.
-export const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name).filter((name) => !["patch", "similarity", "time", "regularised", "pair"].includes(name));
+export const views = Array.from(help.matchAll(/^ {2}([a-z]+) /gm), ([, name]) => name).filter((name) => ["uv", "log", "blowup", "disc"].includes(name));
 
 /** ms; what a test waits for comes, on a slow machine later: only a failure takes so long. */
 export const patience = 300_000;

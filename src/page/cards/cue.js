@@ -13,7 +13,6 @@ const degree = Math.PI / 180;
 
 /**
  * Returns the stroke that gives a ball at rest a start, as si::struck: speed in m/s, right and above in radii, elevation in degrees.
- *
  * @param {Start} start
  * @param ball  gamma; masses: mass of the ball divided by that of the cue; elevation: used if the start has no side spin; offset: largest offset of the tip, in radii
  * @returns null if no cue gives this start

@@ -5,7 +5,6 @@ import { allowed } from "../state/page_state.js";
 
 /**
  * Makes a number field with its label in `parent`. A message beside the field tells why a number is wrong.
- *
  * @param use  called with a typed number; throws an Error with the reason if the number is not allowed
  * @returns a function that shows a value from elsewhere, unless the reader is typing; undefined hides the field
  */
@@ -45,6 +44,10 @@ export function numberField(parent, { key, label, use }) {
   };
 }
 
+/** Returns a message of the library, whose program has options, for the page, which has none. */
+export const withoutOptions = (message) => message.replace(/^portrait: /, "").replace(/give its value with --param (\S+)=VALUE/, "write its value at the end: ; $1 = 0.8")
+  .replace("give the others a value with --param NAME=VALUE", "write their values at the end: ; a = 0.8");
+
 /** Makes choices side by side. @param titles  titles by names @returns a function that shows the chosen one */
 export function choiceButtons(parent, titles, choose) {
   const inputs = Object.entries(titles).map(([name, title]) => {
@@ -66,9 +69,7 @@ export function forgiveTouches(input) {
 }
 
 /** Fills a list of choices. @param titles  titles by names */
-export function fillSelect(select, titles) {
-  select.replaceChildren(...Object.entries(titles).map(([name, title]) => new Option(title, name)));
-}
+export function fillSelect(select, titles) { select.replaceChildren(...Object.entries(titles).map(([name, title]) => new Option(title, name))); }
 
 /** Makes controls, each of which shows and changes a value of the state. @param {Store} store */
 export function makeControls(store) {
@@ -88,7 +89,6 @@ export function makeControls(store) {
 
     /**
      * A slider.
-     *
      * @param of  (store): {share of its length, text, perhaps spoken and disabled}, or nothing to hide the slider
      * @param edit  (state, share)
      * @param parent  parent of the slider's element

@@ -1,6 +1,6 @@
 // Controls for ball, body and law, for the contents of the plane, the sliders, and the card of a real ball.
 import { $, isStill, make, write } from "../dom.js";
-import { choiceButtons } from "./fields.js";
+import { choiceButtons, withoutOptions } from "./fields.js";
 import { lawField } from "./law_field.js";
 import { isDark } from "../drawing/theme.js";
 import { shown, spinText } from "../numbers.js";
@@ -52,8 +52,7 @@ function makeChoices(controls, store, plane) {
     try {
       useLaw("law")(formulas.value.trim());
     } catch (error) {
-      // The page has no options.
-      throw new Error(error.message.replace(/give its value with --param (\S+)=VALUE/, "write its value at the end: ; $1 = 0.8"));
+      throw new Error(withoutOptions(error.message));
     }
   }));
   $("isochrones").addEventListener("change", () => store.ask((state) => {

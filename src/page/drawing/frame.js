@@ -13,18 +13,11 @@ export class Frame {
     this.y = y;
   }
 
-  px(value) {
-    return this.left + ((value - this.x.low) / (this.x.high - this.x.low)) * this.width;
-  }
-
-  py(value) {
-    return this.top + ((this.y.high - value) / (this.y.high - this.y.low)) * this.height;
-  }
+  px(value) { return this.left + ((value - this.x.low) / (this.x.high - this.x.low)) * this.width; }
+  py(value) { return this.top + ((this.y.high - value) / (this.y.high - this.y.low)) * this.height; }
 
   /** Returns the pixel of a point of a flat column. */
-  pixel(/** @type {ArrayLike<number>} */ points, at = 0) {
-    return [this.px(points[at]), this.py(points[at + 1])];
-  }
+  pixel(/** @type {ArrayLike<number>} */ points, at = 0) { return [this.px(points[at]), this.py(points[at + 1])]; }
 
   /** Returns true if a pixel lies in the frame or on its border. */
   contains(pixelX, pixelY) {

@@ -56,7 +56,6 @@ export class ScreenSurface extends CanvasSurface {
   /**
    * Draws the ground and the parts of a picture that do not move. If no value of `keys` has changed, a copy is drawn. The
    * function `draw` may call `still` for parts that change less often.
-   *
    * @template Value
    * @param {unknown[]} keys
    * @param {string} ground

@@ -174,7 +174,5 @@ export class SvgSurface extends Surface {
     this.parts.push("</g>");
   }
 
-  toString() {
-    return `${this.parts.join("\n")}\n</svg>\n`;
-  }
+  toString() { return `${this.parts.join("\n")}\n</svg>\n`; }
 }

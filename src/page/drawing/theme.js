@@ -18,7 +18,6 @@ globalThis.addEventListener?.("resize", () => (known = null));
 
 /**
  * Returns the same object until dark, light or the size of the window changes, because reading the style sheet takes long.
- *
  * @param choice  "auto", "light" or "dark"
  * @returns {Theme}
  */

@@ -58,17 +58,9 @@ export class Hero {
   }
 
   /** In the game the ring is always seen; after a try the title of the table has its spin. */
-  get ringAtRest() {
-    return !this.isLine ? null : this.store.state.chosen ? { ...this.ringOf(), words: "" } : this.ringOf();
-  }
-
-  get isLine() {
-    return this.mode === "game" && !this.stone;
-  }
-
-  get stone() {
-    return this.store.ride?.stone ?? null;
-  }
+  get ringAtRest() { return !this.isLine ? null : this.store.state.chosen ? { ...this.ringOf(), words: "" } : this.ringOf(); }
+  get isLine() { return this.mode === "game" && !this.stone; }
+  get stone() { return this.store.ride?.stone ?? null; }
 
   /** Asks which body goes farther. The body that spins turns in place. */
   ask() {
@@ -176,9 +168,7 @@ export class Hero {
   }
 
   /** Writes a message about an action of the reader. */
-  say(text) {
-    write($("told"), text);
-  }
+  say(text) { write($("told"), text); }
 
   drawBalls(surface, { theme } = this.store, aim = this.aim, ring = this.ring ?? this.ringAtRest) {
     const { ride, contact, state: { line } } = this.store;
@@ -192,9 +182,7 @@ export class Hero {
     }, theme);
   }
 
-  ghostsNow() {
-    return ghostsOf(this.store, this.mode);
-  }
+  ghostsNow() { return ghostsOf(this.store, this.mode); }
 
   lanesNow() {
     const { store: { state, timeFactor, ride, end, theme, contact }, bodies, mode, asked } = this;

@@ -8,7 +8,6 @@ const some = 1.05;
 
 /**
  * The facts. own, plain: results of plane.slide for this body and for one that does not spin.
- *
  * @typedef {{
  *   name: string, real: boolean, rolls: boolean, slip: number, spin: number, along: number, across: number, least: number, own: Slide, plain: Slide,
  *   stop: number, rest?: {t: number, x: number, y: number} | null,

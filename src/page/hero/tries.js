@@ -35,7 +35,6 @@ export const stoneOf = ({ line, ball }, rolls) =>
 
 /**
  * Finds how a ball passes a stone and the mark behind it.
- *
  * @param ride   result of rideOn
  * @param stone  result of stoneOf
  * @returns until: share of the time at which the ball touches the stone, or 1; place: its place then, or nearest to the

@@ -15,7 +15,6 @@ export const turnedBy = (matrix, /** @type {number[]} */ [x, y, z]) => matrix.ma
 
 /**
  * Returns a ride of the library in the axes of the picture: {xs, ys, at(share)}. at returns place, path and rotation at a share of the time.
- *
  * @param heading    direction that points to the right in the picture
  * @param spinShown  share of the spin that is drawn
  */

@@ -19,7 +19,6 @@ const points = steps.flatMap((i) => steps.map((j) => [(i + (j % 2) / 2) / 5.5, (
 
 /**
  * Draws the friction on points of the patch, seen from above, and its sum along the slide, which goes to the right.
- *
  * @param scene  v: speed of the slide; rim: speed of the patch's rim about its centre, positive to the left; force: the library's sum along the slide,
  *   divided by the friction without spin; pressure(rho): at a radius, in means; colour: of the body
  */

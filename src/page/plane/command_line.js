@@ -1,11 +1,15 @@
 // The command line by which the program draws the same picture.
 import { shotOf } from "./portrait_request.js";
 
-const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : `'${text}'`);
+const quoted = (text) => (/^[\w.,:=+-]+$/.test(text) ? text : text.includes("'") ? `"${text}"` : `'${text}'`);
+const line = (all) => all.map((word) => quoted(String(word))).join(" ");
+
+/** Returns the command line that draws the plane of typed equations. @param {State} state @param {Figure} figure  this plane */
+export const typedCommand = ({ system, points }, { panels: [{ x, y }] }) => line(["contensou", "portrait", "--system", system,
+  ...(points.length ? ["--window", [x, y].map(({ low, high }) => `${low}:${high}`).join()] : []), ...points.flatMap((point) => ["--through", point.join()]), "-o", "system.svg"]);
 
 /**
  * Returns the command lines {portrait, roll}; roll is null unless a real ball moves.
- *
  * @param request  of portrait_request.js
  * @param through  points on the other orbits
  * @param body     has mu if the kind of body determines mu
@@ -44,7 +48,6 @@ export function commandLine(state, request, through, body, builtIn) {
   if (request.field !== "none") words.push("--field", request.field);
   if (request.screen) words.push("--style", "screen");
   words.push("-o", "portrait.svg");
-  const line = (all) => all.map((word) => quoted(String(word))).join(" ");
   return { portrait: line(words), roll: ball ? line(["contensou", "roll", ...ofBall, ...motionOf(state.ball, state.orbits[state.chosen]), "--law", request.law]) : null };
 }
 

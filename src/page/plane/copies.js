@@ -16,7 +16,6 @@ export function sizeOf({ u, v }, base) {
 export class Copies {
   /**
    * The pull, with the place of the start now.
-   *
    * @type {{from: unknown, index: number, base: Speeds, at: Speeds, window: [number, number], stop: number, keys: string[]} | null}
    */
   pull = null;
@@ -24,9 +23,7 @@ export class Copies {
   ghosts = [];
 
   /** @param {Store} store */
-  constructor(store) {
-    this.store = store;
-  }
+  constructor(store) { this.store = store; }
 
   /** Keys of the curves except their starts, and of their places in the panels. */
   get keys() {

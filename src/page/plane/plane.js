@@ -55,10 +55,8 @@ export class Plane {
       zoom: (factor) => this.zooming.by(factor),
       remove: () => store.motion && this.removeOrbit(store.state.chosen),
     });
-    const buttons = {
-      "zoom-in": () => this.zooming.by(0.7), "zoom-out": () => this.zooming.by(1 / 0.7), "fit": () => this.zooming.fit(),
-      "clear-isochrone": () => this.clear(),
-    };
+    const { zooming } = this;
+    const buttons = { "zoom-in": () => zooming.by(0.7), "zoom-out": () => zooming.by(1 / 0.7), "fit": () => zooming.fit(), "clear-isochrone": () => this.clear() };
     for (const [id, action] of Object.entries(buttons)) $(id).addEventListener("click", action);
     store.shows.push(() => this.label());
   }
@@ -154,9 +152,7 @@ export class Plane {
     else this.announce("Nothing is here.");
   }
 
-  chooseOrbit(index) {
-    this.store.ask((state) => Object.assign(state, { chosen: index, fraction: 0 }));
-  }
+  chooseOrbit(index) { this.store.ask((state) => Object.assign(state, { chosen: index, fraction: 0 })); }
 
   removeOrbit(index) {
     this.store.ask((state) => {

@@ -9,7 +9,6 @@ export const shotOf = (ball, { u, v, along, across }, resistance = 0) => ({
 
 /**
  * Returns the request. The plane does not depend on the rolling of a body.
- *
  * @param {State} state
  * @param {{chi: number, gamma: number, drive: number, resistance: number}} body  drive: drive of a slope or of rolling friction; resistance: rolling friction
  * @param {boolean} screen  light on dark

@@ -5,9 +5,7 @@ export class Zooming {
   before = undefined;
 
   /** @param {Store} store */
-  constructor(store) {
-    this.store = store;
-  }
+  constructor(store) { this.store = store; }
 
   /** Keeps the present window in this view, unless a new start lies outside it. */
   freeze(state, { u, v } = { u: 0, v: 0 }) {

@@ -7,7 +7,6 @@ const cut = 0.4;  // share of the shorter slide at which the film of the questio
 
 /**
  * Draws a moment of a film.
- *
  * @param {Hero} hero
  * @param share  share of the film without its last picture
  * @param asks   true: the film asks which body goes farther, and ends before one of them stops

@@ -1,5 +1,5 @@
 // Buttons for a link, a command line and files.
-import { commandLine } from "../plane/command_line.js";
+import { commandLine, typedCommand } from "../plane/command_line.js";
 import { $, write } from "../dom.js";
 import { csvOfOrbits, csvOfRide, pngOf, save } from "./exports.js";
 import { fillSelect, numberField } from "../controls/fields.js";
@@ -20,12 +20,13 @@ const films = { whole: { size: { width: 1280, height: 720 }, zoom: 2, rests: 2 }
 const widest = 12000;  // pixels; browsers have no larger canvas
 
 /** @param {Store} store */
-export function makeShare(store, { plane, hero, why, player, address, film }) {
+export function makeShare(store, { plane, hero, why, player, address, film, typed }) {
   const figures = {
     plane: ["the plane", "portrait", (surface) => drawPortrait(surface, { ...plane.scene(), cross: null }, store)],
     lanes: ["the balls", "balls", (surface) => hero.drawBalls(surface)],
     patch: ["the patch", "patch", (surface) => why.draw(surface)],
     panes: ["the motion in time", "motion", (surface) => drawPanes(surface, store)],
+    "typed-plane": ["your own plane", "system", typed.draw],
     "film-fit": ["the fit of a film", "fit", (surface) => film.draw(surface)],
   };
   fillSelect($("picture"), Object.fromEntries(Object.entries(figures).map(([name, [title]]) => [name, title])));
@@ -112,14 +113,14 @@ export function makeShare(store, { plane, hero, why, player, address, film }) {
     write($("command"), portrait);
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
+    if (store.typed) write($("typed-command"), typedCommand(state, store.typed));
+    // What is not there has no picture.
+    for (const option of $("picture").options) option.hidden = $(option.value).hidden;
     const { ball, law } = state;
     $("engine-line").hidden = !ball || !contact;
     if (!ball || !contact) return;
     const changed = [...(ball.friction === ball.initial?.friction ? [] : ["--friction", ball.friction]), ...(law === ball.initial?.law ? [] : ["--law", law])];
     write($("engine-command"), `contensou engine --ball ${ball.name}${changed.map((word) => ` ${word}`).join("")}`);
     write($("engine-numbers"), `sliding friction ${shown(ball.friction)}, largest moment of friction ${shown(1000 * contact.momentArm, 4)} mm times the load`);
-    // Without a fit, a film has no picture.
-    const { options } = $("picture");
-    options[options.length - 1].hidden = $("film-fit").hidden;
   });
 }

@@ -19,7 +19,6 @@ async function encodingOf(size) {
 
 /**
  * A film as MP4.
- *
  * @param how      size in pixels; zoom: pixels of the film for a pixel of the surface; seconds: duration of the motion; rests: s that the last
  *   picture stays, so that it can be read
  * @param draw     draws on a surface the motion at a share of the time; the last picture has the share 1

@@ -50,13 +50,8 @@ export class Address {
     }
   }
 
-  fragment() {
-    return toFragment(this.store.state, this.hero.asked !== null);
-  }
-
-  linkTo(fragment) {
-    return `${location.href.split("#")[0]}${fragment && "#"}${fragment}`;
-  }
+  fragment() { return toFragment(this.store.state, this.hero.asked !== null); }
+  linkTo(fragment) { return `${location.href.split("#")[0]}${fragment && "#"}${fragment}`; }
 
   /** Returns the link to a state; null if the page has no address. */
   linkOf(/** @type {State} */ state) {

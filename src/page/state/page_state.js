@@ -58,6 +58,13 @@ const startIn = (text) => {
   return startOf(u, v, along, across, heading);
 };
 
+/** Returns the points of a text such as "1, 2; 3, 4". @throws {Error} if one cannot be read */
+export const pointsIn = (text) => text.split(";").filter((point) => point.trim()).map((point) => {
+  const [x, y, more] = point.split(",");
+  if (more !== undefined) throw new Error(`'${point.trim()}' has more than two numbers; a point is 1, 2, and a semicolon stands between points`);
+  return [parseNumber(x), parseNumber(y ?? "")];
+});
+
 function oneOf(names, text) {
   if (!names.includes(text)) throw new Error(`one of ${names} is needed`);
   return text;
@@ -67,7 +74,6 @@ const namesOf = (entries) => entries.map(({ name }) => name);
 
 /**
  * Returns the value that `read` gives for a text of a link, or undefined.
- *
  * @param {string[]} problems  gets a sentence on a text that cannot be read
  */
 function readable(problems, key, text, read, ...from) {
@@ -104,7 +110,6 @@ const ofBall = (key, read) => ({
 /**
  * The parts of the state by their names in a link, in the order of reading. first: initial values; write: returns the text
  * of the part, or null for none; read: returns the members of the state that a text sets.
- *
  * @type {Record<string, {first?: Partial<State>, write: (state: State) => unknown,
  *   read: (text: string, known: Library, state: State, problems: string[]) => object | void | null}>}
  */
@@ -153,6 +158,9 @@ const parts = {
   // The fall of a ball that bounces: its height in m, and its coefficient of restitution.
   drop: value("drop", 0.1, (text) => numberOf("drop", text)),
   restitution: value("restitution", 0.8, (text) => numberOf("restitution", text)),
+  // Typed equations of another plane, and points of orbits in this plane.
+  system: value("system", "", String),
+  points: { ...value("points", null, pointsIn), first: { points: [] }, write: ({ points }) => points.join(";") || null },
   step: value("step", 0, (text) => Number(oneOf(Object.keys(tour), text))),       // step of the tour
   // Place of the moving point, as a share of the stop time or of the shown part.
   at: { ...value("fraction", 0, (text) => numberOf("at", text)), write: ({ fraction }) => Number(fraction.toFixed(4)) || null },
@@ -171,7 +179,7 @@ const parts = {
 };
 
 /** Parts of a link that only the Lab shows, except those of the look of the page. */
-const labParts = ["law", "body", "mu", "view", "window", "against", "field", "isochrones"];
+const labParts = ["law", "body", "mu", "view", "window", "against", "field", "isochrones", "system"];
 const bodyParts = [...labParts, "ball", "orbits", "part", "isochrone"];
 const motionParts = [...bodyParts, "line", "day"];
 
@@ -206,7 +214,6 @@ export const speaksOfNothing = (fragment, known) => !motionParts.some((key) => q
 
 /**
  * Returns the state of a fragment. Parts that cannot be read keep their initial values.
- *
  * @param known  the library
  * @param {string[]} problems  gets a sentence for each part that cannot be read
  * @returns {State}

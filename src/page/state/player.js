@@ -41,14 +41,10 @@ export class Player {
     write($("clock"), now ? this.timeText(now.tau) : "");
   }
 
-  timeText(tau) {
-    return this.store.contact ? `${(tau * this.store.timeFactor).toFixed(3)} s` : `τ = ${shown(tau, 3)}`;
-  }
+  timeText(tau) { return this.store.contact ? `${(tau * this.store.timeFactor).toFixed(3)} s` : `τ = ${shown(tau, 3)}`; }
 
   /** Plays from the beginning, unless the reader wants no motion. */
-  begin() {
-    this.toggle(this.store.moves);
-  }
+  begin() { this.toggle(this.store.moves); }
 
   toggle(playing = !this.playing) {
     this.playing = playing && Boolean(this.store.motion);

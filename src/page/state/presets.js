@@ -20,9 +20,7 @@ export const tour = [
 const stepThatShows = (card) => tour.findIndex(({ shows }) => shows === card);
 
 /** Rounds of the game: lines that a throw must reach by spin alone, then a mark behind a stone. */
-export const rounds = [
-  ...[1, 2, 3].map((line) => `line=${line}`), `${stroke}&line=0.6&step=${stepThatShows("cue")}`,
-];
+export const rounds = [...[1, 2, 3].map((line) => `line=${line}`), `${stroke}&line=0.6&step=${stepThatShows("cue")}`];
 
 export const presets = [
   ["Puck", "", "With 9.5 turns a second, a puck slides 4 times as far as one that does not spin."],

@@ -36,6 +36,8 @@ export class Store {
   motions = [];
   /** @type {number[] | null} their stop times under the law of comparison, in tau */
   others = null;
+  /** @type {Figure | null} the plane of the typed equations */
+  typed = null;
   /** @type {Measured | null} the last film */
   measured = null;
   /** The chosen motion; undefined without an orbit. */
@@ -49,9 +51,7 @@ export class Store {
     this.state = state;
   }
 
-  show() {
-    for (const show of this.shows) show(this.state);
-  }
+  show() { for (const show of this.shows) show(this.state); }
 
   /** Runs an action that may throw, and shows the reader the reason together with `remarks`. */
   attempt(action, remarks = []) {
@@ -99,10 +99,10 @@ export class Store {
    */
   openWithout(/** @type {State} */ asked) {
     const { lab, theme, embed, project, body, law, mu } = asked;
-    const { view, window, field, against } = initialState();
+    const { view, window, field, against, system, points } = initialState();
     const own = { ...initialState(), ...(asked.ball ? {} : { body, law, mu }) };
     if (asked.ball) takeBall(own, asked.ball.initial);
-    for (const state of [{ ...asked, view, window, field, against }, own, fromFragment("", this.library)]) {
+    for (const state of [{ ...asked, view, window, field, against, system, points }, own, fromFragment("", this.library)]) {
       Object.assign(state, { lab, theme, embed, project });
       try {
         this.compute(state);
@@ -168,6 +168,8 @@ export class Store {
       return state.orbits.map(({ u, v }) => plane.stopBy(against, mu, u, v));
     }) : null;
     this.motion = this.motions[state.chosen];
+    const { system, points } = state;
+    this.typed = system ? this.keep("typed", [system, points, isDark(state.theme)], () => library.typedPortrait(system, points.flat(), isDark(state.theme))) : null;
     this.ride = orbit ? this.rideOf(state, state.chosen) : null;
     this.end = this.ride?.end ?? 1;
   }
@@ -222,17 +224,9 @@ export class Store {
   }
 
   /** The real ball that moves, if it can roll. */
-  get roller() {
-    return this.body.chi !== 1 && this.orbit ? this.state.ball : null;
-  }
-
-  get theme() {
-    return themeOf(this.state.theme);
-  }
-
-  get orbit() {
-    return this.state.orbits[this.state.chosen];
-  }
+  get roller() { return this.body.chi !== 1 && this.orbit ? this.state.ball : null; }
+  get theme() { return themeOf(this.state.theme); }
+  get orbit() { return this.state.orbits[this.state.chosen]; }
 
   /** States with the stop time that the reader chose. */
   get isochrone() {
