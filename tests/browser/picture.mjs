@@ -35,6 +35,9 @@ async function film(page) {
   await page.locator("#film-report").filter({ visible: true }).waitFor();
 }
 
+/** Shows the plane of typed equations. */
+const typed = (page) => page.locator("section:has(#typed)").evaluate((card) => card.scrollIntoView());
+
 const light = { colorScheme: "light" };
 const dark = { colorScheme: "dark" };
 const struck = "1.28866,3.91931,1.05927,-0.733885";
@@ -43,7 +46,7 @@ const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1 };
 writeFileSync(join(out, "page.png"), await shot("", 0.6, light));
 const shots = [
   ["", 0.4, light], ["", 0.15, { ...phone, ...light }], ["#ball=gel&view=log&orbits=9,0.5;-4,0.5", 0.2, dark],
-  [curled, 1, light], ["#ball=puck&view=disc&orbits=7.62,0.5", 0.6, light], ["#ball=rubber&view=blowup", 0.3, light],
+  [curled, 1, light], ["#ball=puck&view=disc&orbits=7.62,0.5", 0.6, light], [`#system=${encodeURIComponent("x' = y; y' = (1 - x^2)*y - x")}&points=0.1,0`, 0, light, typed],
   ["#ball=gel&against=pade", 0, light, film], ["#ball=puck&orbits=2.286,0.5;3.4,0.5;5,0.5;4.53,0.5&chosen=3&line=1", 1, { ...phone, ...dark }],
 ];
 const pictures = [];
