@@ -56,8 +56,8 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
       if (marks) drawMarks(surface, figure, marks, [x + width / 2, y]);
     }
     for (const { x, y, text, ...how } of layout.texts) {
-      // A title that is too long is small.
-      const fitting = how.turned ? 1 : Math.min(1, surface.width / widthOf(text, how));
+      // A title or an entry of the legend that is too long is small.
+      const fitting = how.turned ? 1 : Math.min(1, (surface.width - (how.align === "left" ? x : 0)) / widthOf(text, how));
       surface.text(x, y, text, { ...style, ...how, size: fitting * how.size });
     }
     return frames;

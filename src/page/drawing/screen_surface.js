@@ -75,7 +75,8 @@ export class ScreenSurface extends CanvasSurface {
     if (again && !covered) return /** @type {Value} */ (kept.value);
     if (again && kept.picture) context.drawImage(kept.picture, 0, 0, size.width / ratio, size.height / ratio);
     else {
-      this.shape([borderOf(this)], { fill: ground });
+      // The canvas may be wider than the page's pixels by a part of one.
+      this.shape([borderOf({ width: this.width + 1, height: this.height + 1 })], { fill: ground });
       this.depth += 1;
       try {
         Object.assign(kept, { key, value: draw(), picture: undefined });
