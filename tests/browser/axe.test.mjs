@@ -18,7 +18,7 @@ test("axe finds nothing to complain of", async () => {
   for (const [fragment, options, act] of [["", {}], ["", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" }],
     ["#law=pressure:2&mu=0.3&view=log&orbits=0.8,3.5;0.5,1&isochrone=3&against=pade", {}],
     ["#ball=pool&rollingFriction=0.01&part=whole", { colorScheme: "dark" }, film], ["#ball=pool", { viewport: { width: 390, height: 844 } }, film], ["#ball=puck", {}], ["#ball=pool", {}, wrong], ["#ball=pool&orbits=1.28866,3.91931,1.05927,-0.733885&line=0.6&step=7", {}], ["#ball=gel&step=6", { colorScheme: "dark" }],
-    ["#law=exact&mu=0.3&orbits=", {}, null], ["#line=1&tries=2", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }], ["#project=1", {}], ["", { forcedColors: "active" }], ["#lab=0", { viewport: { width: 320, height: 256 } }], ["#embed", {}, null], ["#embed", { colorScheme: "dark", viewport: { width: 390, height: 844 } }, null]]) {
+    ["#law=exact&mu=0.3&orbits=", {}, null], ["#line=1&tries=2", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }], ["#project=1", {}], ["#system=x'=y;y'=-x&points=1,0", { colorScheme: "dark" }], ["#system=x'=y;y'=-x", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }], ["", { forcedColors: "active" }], ["#lab=0", { viewport: { width: 320, height: 256 } }], ["#embed", {}, null], ["#embed", { colorScheme: "dark", viewport: { width: 390, height: 844 } }, null]]) {
     await open(fragment, options, act !== null);
     await act?.();
     await page.addScriptTag({ content: readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8") });
