@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -64,11 +65,11 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     step_ = first * (f.stableNorm() > 0 ? size_ / f.stableNorm() : 1);
   }
 
-  /// Looks whether the orbit comes to rest within a number of steps. Only motions on switching curves do.
+  /// Looks whether the orbit comes to rest. Only motions that meet jumps do, and no motion that returns to a jump.
   void look_for_rest() {
     constexpr std::size_t most = 2000;
     try {
-      while (field_.switches && !rests_ && states_.size() < most) extend();
+      while (field_.switches && !rests_ && !returns_ && states_.size() - piece_ < most) extend();
     } catch (const std::domain_error& stopped) {
       if (ambiguous_) undecided = stopped.what();
     }
@@ -106,6 +107,14 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   /// Goes on from the last state, which lies on a switching curve.
   void enter(const Onward& next) const {
     State& last = states_.back();
+    if (jumps_to(next)) {
+      // The motion returns if it meets a jump where it has met one after half as many jumps, or later.
+      constexpr double near = 1e-10;
+      piece_ = states_.size();
+      const Vector2d away = next.x - vector_of(anchor_);
+      returns_ = jumps_ > 0 && away.norm() <= near * size_;
+      if (std::has_single_bit(++jumps_)) anchor_ = {next.x[0], next.x[1]};
+    }
     last.x = {next.x[0], next.x[1]};
     last.region = next.region ? std::make_shared<const Region>(*next.region) : nullptr;
     rests_ = next.rests;
@@ -113,15 +122,25 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     reason_ = next.reason;
   }
 
+  /// Returns true if the velocity changes where the last region ends.
+  bool jumps_to(const Onward& next) const {
+    const auto& region = states_.back().region;
+    if (!region || !next.region) return true;
+    const auto before = value_of(region->field().value, next.x), after = value_of(next.region->field().value, next.x);
+    constexpr double apart = 1e-9;
+    return !before || !after || (*after - *before).norm() > apart * (before->norm() + after->norm());
+  }
+
   void extend() const {
-    constexpr std::size_t most = 10000;
+    constexpr std::size_t most = 10'000, most_in_all = 300'000;  // between two jumps, and with all jumps
     const State& last = states_.back();
     State next = last;
     const auto stop = [&](std::string_view reason) {
       throw std::domain_error(fmt::format("steps follow this orbit to the time {}, at ({}, {}), where {}", last.t,
                                           last.x[0], last.x[1], reason));
     };
-    if (states_.size() > most) stop("10000 steps are made");
+    if (states_.size() - piece_ > most) stop("10000 steps are made");
+    if (states_.size() > most_in_all) stop("300000 steps are made");
     if (!last.region) stop(reason_);
     auto stepper = odeint::make_controlled(tolerance_ * 1e-3 * size_, tolerance_, Stepper());
     while (stepper.try_step(RightSide{last.region->field()}, next.x, next.t, step_) == odeint::fail) {
@@ -159,7 +178,11 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   mutable double step_;
   mutable bool rests_ = false, ambiguous_ = false;  ///< of the last state, like reason_
   mutable std::string_view reason_;
-  mutable int still_ = 0;  ///< number of borders met without a step between them
+  mutable int still_ = 0;          ///< number of borders met without a step between them
+  mutable std::size_t piece_ = 0;  ///< number of states before the last jump
+  mutable std::size_t jumps_ = 0;  ///< number of jumps that the motion has met
+  mutable Pair anchor_ = {};       ///< state at one of these jumps
+  mutable bool returns_ = false;
 };
 
 struct SteppedSolution final : PlanarReduction::Solution {

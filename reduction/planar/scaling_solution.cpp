@@ -50,6 +50,21 @@ struct OpenMotion final : PlanarOrbit::Motion {
   Vector2d x;
 };
 
+/// A motion that comes to the centre, and the motion that leaves the centre then.
+struct MotionThroughCentre final : PlanarOrbit::Motion {
+  MotionThroughCentre(PlanarOrbit to_centre, PlanarOrbit from_centre)
+      : to(std::move(to_centre)), from(std::move(from_centre)) {
+    end = from.end();
+    end_time = to.end_time() + from.end_time();
+    undecided = from.undecided();
+    limit = from.limit();
+  }
+  Vector2d at(double time) const override { return time < to.end_time() ? to.at(time) : from.at(time - to.end_time()); }
+  Vector2d at_end() const override { throw std::logic_error("a motion from the centre goes to infinity"); }
+
+  PlanarOrbit to, from;
+};
+
 /// The place of a point among the orbits: its strip, and xi in this strip. An orbit with constant q has no strip.
 struct StripPlace {
   const Strip* strip = nullptr;
@@ -63,6 +78,7 @@ struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<Sca
 
   PlanarOrbit orbit(const Vector2d& start) const override;
   PlanarOrbit orbit_from_centre() const override;
+  bool rests_at_centre() const;
   double end_time_error(const Vector2d& x, const PlanarOrbit& from_x) const override;
   std::optional<double> first_integral(const Vector2d& x) const override;
   std::shared_ptr<const Solution> reversed() const override {
@@ -461,8 +477,13 @@ struct MotionFromCentre final : PlanarOrbit::Motion {
   double radial = 0;
 };
 
+bool ScalingSolution::rests_at_centre() const {
+  const auto from_curve = onward(field, centre, section.frame().norm());
+  return from_curve ? from_curve->rests : !section.regular();
+}
+
 PlanarOrbit ScalingSolution::orbit_from_centre() const {
-  if (!section.regular()) return SectionSolution::orbit_from_centre();
+  if (rests_at_centre()) return SectionSolution::orbit_from_centre();
   auto motion = std::make_shared<MotionFromCentre>();
   motion->solution = shared_from_this();
   motion->end_time = infinity;
@@ -497,7 +518,10 @@ PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
     motion->undecided = undecided;
     motion->end_time = std::numeric_limits<double>::quiet_NaN();
   }
-  return PlanarOrbit(std::move(motion));
+  const bool goes_on = motion->end == PlanarEnd::centre && std::isfinite(motion->end_time) && !rests_at_centre();
+  PlanarOrbit orbit(std::move(motion));
+  if (!goes_on) return orbit;
+  return PlanarOrbit(std::make_shared<const MotionThroughCentre>(std::move(orbit), orbit_from_centre()));
 }
 
 Vector2d ScalingMotion::at(double time) const {

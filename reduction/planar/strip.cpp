@@ -285,7 +285,7 @@ double Strip::time_left(double xi) const {
   if (closed()) xi -= std::floor(xi / length_) * length_;
   const Panel& panel = panel_at(panels_, xi);
   const double inside = std::clamp(xi, panel.left, panel.right);
-  const double beyond = xi < inside && !closed() ? std::exp(time_order_ * (xi - inside)) : 1;
+  const double beyond = xi < inside && !closed() && time_order_ != 0 ? std::exp(time_order_ * (xi - inside)) : 1;
   return beyond * panel.time(panel.t(inside));
 }
 
