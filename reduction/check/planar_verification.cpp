@@ -164,7 +164,7 @@ class PlanarExamination {
   void first_integral() {
     constexpr int count = 60, least = 10, halvings = 12;
     WorstError by_steps, by_quadrature;
-    double last = instants_.empty() ? 0 : instants_.back().t;
+    double last = instants_.empty() ? 0 : std::min(instants_.back().t, steps_.first_slide());
     // H is known as far as V can be continued; a shorter part of the orbit may lie there.
     for (int half = 0; half < halvings && last > 0 && by_quadrature.measured < 0; ++half, last /= 2) {
       std::vector<Vector2d> path{start_}, exact = path;
@@ -414,7 +414,8 @@ class PlanarExamination {
         return std::abs(cross(there.normalized(), plane_.part_of_orbit(beside).at(at.t) - at.x)) / (part * at.size);
       });
       constexpr double least = 1e-4;
-      if (reversed && nearer && *nearer > least) compare(back, *reversed, at.x, at.t, start_, at);
+      const bool joined = at.t > steps_.first_slide();  // with others, so backwards the motion is not unique
+      if (reversed && !joined && nearer && *nearer > least) compare(back, *reversed, at.x, at.t, start_, at);
     }
     if (orbit_.end() == PlanarEnd::rest && steps_.end() == PlanarEnd::rest && coarse_.end() == PlanarEnd::rest) {
       constexpr double margin = 10;

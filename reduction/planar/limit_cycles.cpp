@@ -92,7 +92,7 @@ std::optional<Turn> ReturnMap::turn(double place, bool back) const {
   try {
     const PlanarReduction& system = back ? back_ : forth_;
     const double speed = system.field()(point(place)).cwiseQuotient(half_).norm();
-    Turn turn{place, system.orbit(point(place)), {0}};
+    Turn turn{place, system.part_of_orbit(point(place)), {0}};
     Vector2d here = scaled(point(place));
     double angle = 0, step = 0.1 * place / speed;
     const double unit = place / speed;
@@ -359,7 +359,7 @@ bool nears(const SmoothField& field, const LimitCycle& cycle, const Vector2d& st
   }
   const auto distance = [&](const Vector2d& way) { return way.cwiseQuotient(high - low).norm(); };
   try {
-    const PlanarOrbit orbit = by_steps(field, rough).orbit(start);
+    const PlanarOrbit orbit = by_steps(field, rough).part_of_orbit(start);
     Vector2d here = start;
     for (int i = 1; cycle.stable && i <= most; ++i) {
       const Vector2d next = orbit.at(i * cycle.period), moved = next - here;

@@ -170,6 +170,7 @@ PlanarReduction PlanarReduction::reversed() const { return PlanarReduction(solut
 PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
 PlanarEnd PlanarOrbit::end() const { return motion_->end; }
 std::optional<double> PlanarOrbit::period() const { return motion_->period(); }
+double PlanarOrbit::first_slide() const { return motion_->first_slide(); }
 const std::string& PlanarOrbit::undecided() const { return motion_->undecided; }
 Vector2d PlanarOrbit::limit() const { return motion_->limit; }
 double PlanarOrbit::end_time() const {

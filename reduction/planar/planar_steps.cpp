@@ -87,6 +87,10 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     return vector_of(stepped(state, time - state.t));
   }
   Vector2d at_end() const override { return vector_of(states_.back().x); }
+  double first_slide() const override {
+    const std::scoped_lock lock(guard_);
+    return first_slide_;
+  }
 
  private:
   using Stepper = odeint::runge_kutta_dopri5<Pair>;
@@ -118,6 +122,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     last.x = {next.x[0], next.x[1]};
     last.region = next.region ? std::make_shared<const Region>(*next.region) : nullptr;
     rests_ = next.rests;
+    if (rests_ || (next.region && next.region->slides())) first_slide_ = std::min(first_slide_, last.t);
     ambiguous_ = next.ambiguous;
     reason_ = next.reason;
   }
@@ -183,6 +188,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   mutable std::size_t jumps_ = 0;  ///< number of jumps that the motion has met
   mutable Pair anchor_ = {};       ///< state at one of these jumps
   mutable bool returns_ = false;
+  mutable double first_slide_ = std::numeric_limits<double>::infinity();
 };
 
 struct SteppedSolution final : PlanarReduction::Solution {

@@ -103,6 +103,8 @@ struct PlanarOrbit::Motion {
 
   virtual std::optional<double> period() const { return std::nullopt; }
 
+  virtual double first_slide() const { return std::numeric_limits<double>::infinity(); }
+
   /// Returns the point at which the orbit stays from end_time on; it is used only if the orbit has such a point.
   virtual Eigen::Vector2d at_end() const = 0;
 

@@ -235,6 +235,10 @@ class PlanarOrbit {
   /// Returns the period if the motion is periodic; else empty.
   std::optional<double> period() const;
 
+  /// Returns the time at which an orbit by steps begins to slide or to rest on a switching curve, where other orbits
+  /// join it; infinity if it does neither, up to the latest time of `at`.
+  double first_slide() const;
+
   /// Returns the reason why the end is not decided; empty if the end is decided.
   const std::string& undecided() const;
 
