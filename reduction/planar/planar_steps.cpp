@@ -154,7 +154,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     if (!std::isfinite(next.x[0]) || !std::isfinite(next.x[1])) stop("it leaves the numbers");
     const auto inside = [&](double step) { return last.region->contains(vector_of(stepped(last, step))); };
     double whole = next.t - last.t;
-    bool leaves = !inside(whole);
+    bool leaves = !last.region->contains(vector_of(next.x));
     if (const auto dip = leaves ? std::nullopt : last.region->dip(vector_of(last.x), vector_of(next.x), whole)) {
       leaves = !inside(*dip * whole);
       if (leaves) whole *= *dip;

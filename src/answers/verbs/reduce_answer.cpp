@@ -608,7 +608,8 @@ class Blackboard {
     if (parts.size() > most) return add("switching", fmt::format("{} parts; --details lists them", parts.size()));
     for (const portraits::SwitchingPart& part : parts) {
       const auto [kind, ends] = words_of(part);
-      add(kind, fmt::format("from {} to {}", place(ends[0]), place(ends[1])));
+      const double size = std::max(ends[0].norm(), ends[1].norm());
+      add(kind, fmt::format("from {} to {}", place(ends[0], size), place(ends[1], size)));
     }
   }
 
@@ -637,7 +638,10 @@ class Blackboard {
  private:
   std::string shown(const Expression& e) const { return steps_.text(e, digits_.count); }
 
-  std::string place(const Vector2d& x) const {
+  /// @param size  length of which rounding makes 1e-13
+  std::string place(Vector2d x, double size = 0) const {
+    constexpr double rounding = 1e-13;
+    x = (x.array().abs() < rounding * size).select(0., x);
     return fmt::format("{} = {}, {} = {}", steps_.names[0], digits_(x[0] + 0.0), steps_.names[1], digits_(x[1] + 0.0));
   }
 
@@ -663,7 +667,8 @@ class Blackboard {
       case PlanarEnd::periodic:
         return "none: the orbit is closed, with the period " + digits_(orbit.period().value());
       case PlanarEnd::rest:
-        return (when.empty() ? "" : when + ", ") + fmt::format("{}: it comes to rest", place(orbit.at(time)));
+        return (when.empty() ? "" : when + ", ") +
+               fmt::format("{}: it comes to rest", place(orbit.at(time), start.norm()));
       case PlanarEnd::equilibrium:
         return tends_to(orbit, "an equilibrium");
       case PlanarEnd::cycle:

@@ -61,7 +61,11 @@ std::string typed_formulas() {
       {"abs(x) or |x|, sign rint min max", "functions with kinks or jumps; rint is the nearest whole number"},
       {"x < y ? a : b", "choice; < > <= >= == != && || ! are 1 if true, else 0"}};
   for (const auto& [sign, meaning] : parts) text += help_entry(sign, meaning);
-  return text;
+  return text + "\n" +
+         help_paragraph(
+             "A motion that meets a jump of the equations, as in x'' = -x - 0.2*sign(x'), crosses the jump, slides "
+             "along it, or rests there (Filippov's definition). If the motions on both sides point away from the "
+             "jump, no motion is chosen.");
 }
 
 std::string views() {
