@@ -289,6 +289,7 @@ class Follower {
     } else {
       return false;
     }
+    if (!region_->keeps(rest, motion_.offset, motion_.flow)) return false;
     motion_.rest = rest;
     end(PlanarEnd::equilibrium, infinity);
     return true;

@@ -21,6 +21,7 @@
 #include <Eigen/LU>
 
 #include "contensou/reduction/planar_reduction.hpp"
+#include "numerics/decomposition.hpp"
 #include "planar/section_field.hpp"
 
 namespace contensou::reduction {
@@ -120,6 +121,25 @@ std::optional<double> Region::dip(const Vector2d& from, const Vector2d& to, doub
     if (h + s * (down + s * (b + s * a / 3)) < 0) return s;
   }
   return std::nullopt;
+}
+
+bool Region::keeps(const Vector2d& rest, const Vector2d& offset, const Eigen::Matrix2d& flow) const {
+  if (!continued_) return true;
+  constexpr double rounding = 1e-12, earliest = 1e-3, longest = 1e5, growth = 1.05;
+  const Eigen::MatrixX3d there = whole_->switches(rest);
+  const double unit = 1 / flow.norm();
+  for (double time = earliest; time < longest; time *= growth) {
+    const Vector2d away = matrix_exponential(time * unit * flow) * offset;
+    for (Index i = 0; i < there.rows(); ++i) {
+      const Vector2d gradient = there.row(i).tail<2>();
+      const double least = rounding * gradient.norm() * (rest.norm() + offset.norm());
+      const double h = std::abs(there(i, 0)) > least ? there(i, 0) : 0, change = gradient.dot(away);
+      // On a border the equilibrium is neared with directions that turn less and less; rounding hides the last ones.
+      if (std::abs(change) <= rounding * gradient.norm() * away.norm()) continue;
+      if (signs_[static_cast<std::size_t>(i)] * (h + change) < 0) return false;
+    }
+  }
+  return true;
 }
 
 /// Returns true if orbits leave the region at x: the rates of the crossed switching functions have the same signs

@@ -43,6 +43,10 @@ class Region {
   /// @param time  time between the states
   std::optional<double> dip(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double time) const;
 
+  /// Returns true if the linear motion from `rest` + `offset` to an equilibrium `rest` of the field, with the slopes
+  /// `flow`, stays in the region, whose border may contain the equilibrium.
+  bool keeps(const Eigen::Vector2d& rest, const Eigen::Vector2d& offset, const Eigen::Matrix2d& flow) const;
+
   /// Returns the motion that leaves this region at a point x of its border.
   /// @param size  length that states are compared with
   Onward leave(const Eigen::Vector2d& x, double size) const;

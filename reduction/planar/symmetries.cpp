@@ -233,6 +233,30 @@ bool holds_everywhere(Sampler& field, const Generator& g, const std::vector<Vect
   });
 }
 
+/// Returns points on both sides of the switching curves of a field, also of curves far from all samples.
+std::vector<Vector2d> points_at_switches(const SmoothField& field, const Vector2d& scale, double unit) {
+  constexpr int count = 12, steps = 20;
+  constexpr double near = 1e-12, aside = 1e-5, farthest = 1e6;
+  std::vector<Vector2d> points;
+  if (!field.switches) return points;
+  const double size = unit * scale.norm();
+  for (int i = 1; i <= count; ++i) {
+    const Eigen::Index functions = field.switches(unit * sample_point(i, scale)).rows();
+    for (Eigen::Index k = 0; k < functions; ++k) {
+      Vector2d x = unit * sample_point(i, scale), way = Vector2d::Constant(infinity);
+      for (int step = 0; step < steps && way.norm() > near * x.norm() && x.norm() < farthest * size; ++step) {
+        const Eigen::RowVector3d h = field.switches(x).row(k);
+        way = h[0] / h.tail<2>().squaredNorm() * h.tail<2>();
+        x -= way;
+      }
+      const Vector2d normal = field.switches(x).row(k).tail<2>().normalized();
+      if (!x.allFinite() || !normal.allFinite() || !(way.norm() <= near * x.norm())) continue;
+      for (const double side : {-aside, aside}) points.push_back((x + side * size * normal) / unit);
+    }
+  }
+  return points;
+}
+
 /// `difference`: exp(s (c - A)) f(phi x) - f(x), divided by s, at all points x, with the finite transformation phi for
 /// s = ln 2; a right side of the determining equations. `residual`: the largest |s `difference`|/|f(x)| of one point.
 struct Finite {
@@ -468,8 +492,10 @@ PlanarSymmetries find_symmetries(const SmoothField& field, const Vector2d& aroun
   result.verdict = PlanarSymmetries::Verdict::found;
 
   constexpr double finest = 1e-6, amplified = 100;
+  std::vector<Vector2d> points = points_at_switches(field, scale, unit);
+  points.insert(points.end(), equations.points.begin(), equations.points.end());
   const auto everywhere = [&](const Generator& g) {
-    return holds_everywhere(sampler, g, equations.points, scale, std::max(finest, amplified * result.level));
+    return holds_everywhere(sampler, g, points, scale, std::max(finest, amplified * result.level));
   };
   result.scaling = simplest_scaling(sampler, equations, largest, result.level, scale, everywhere);
   const MatrixXd kernel = equations.column_scale.asDiagonal() * svd.V.rightCols(nullity);

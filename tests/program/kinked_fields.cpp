@@ -223,9 +223,9 @@ class Reference {
     if (!leaves) return;
     // Where both sides turn away at once, the motion is not unique.
     const auto [a, b] = rates_of_slide(x_);
-    if (std::fmin(std::fabs(a), std::fabs(b)) > least_angle * std::fmax(std::fabs(a), std::fabs(b)) ||
-        std::fmax(std::fabs(a), std::fabs(b)) < least_angle)
-      lost_ = true;
+    const RealState slopes = field_.gates[*slide_].slopes(x_), rate = rate_on(x_, a > 0 ? -1 : 1);
+    const Real other = std::fabs(a > 0 ? b : a) / std::hypot(slopes[0], slopes[1]) / std::hypot(rate[0], rate[1]);
+    if (!(other > 0.1L)) lost_ = true;
     sides_[*slide_] = a > 0 ? 1 : -1;
     left_ = std::exchange(slide_, std::nullopt);
   }
