@@ -276,7 +276,8 @@ class Follower {
     }
     const double change = (here.slopes - slopes).norm() / norm;
     constexpr double exact = 1e-14;
-    if (!(change * offset.norm() <= exact * std::max(rest.norm(), offset.norm()))) return false;
+    const double size = region_->slides() ? size_ : std::max(rest.norm(), offset.norm());
+    if (!(change * offset.norm() <= exact * size)) return false;
     if (determinant > clear * norm * norm && trace < -clear * norm) {
       motion_.flow = slopes;
       motion_.offset = offset;
@@ -623,7 +624,9 @@ class Follower {
   /// integral of q ds, H changes by the integral of (q - G/F) F/V ds, and dH/dw = F/V. Newton's method, README (R67).
   std::optional<Panel> solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
-    const double half = length / 2, size = std::abs(x_[across]) + small_ * x_.norm();
+    // Along a switching curve the rounding of its function is that of the largest coordinates.
+    const double half = length / 2,
+                 size = region_->slides() ? scale_.norm() : std::abs(x_[across]) + small_ * x_.norm();
     const double noise = noise_[along] / std::abs(start.f[along]);
     const double noise_across = noise_[across] * std::abs(half / start.f[along]);  // noise of w
     const Samples s = x_[along] + half * (1 + LegendreSeries::points()), one = Samples::Ones();

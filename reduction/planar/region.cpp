@@ -157,10 +157,28 @@ bool Region::crosses_to(const Region& next, const Vector2d& x) const {
   return true;
 }
 
+/// Returns true if an orbit crosses to a region with another field at such a small angle that its error decides whether
+/// it does.
+bool Region::grazes(const Region& next, const Vector2d& x) const {
+  constexpr double angle = 1e-5, apart = 1e-9;
+  const Vector2d before = field()(x), after = next.field()(x);
+  const double speed = before.norm();
+  if ((before - after).norm() <= apart * speed) return false;
+  for (std::size_t i = 0; i < signs_.size(); ++i) {
+    if (signs_[i] * next.signs_[i] >= 0) continue;
+    const Vector2d gradient = whole_->switches(x).row(static_cast<Index>(i)).tail<2>();
+    if (std::abs(gradient.dot(before)) <= angle * gradient.norm() * speed) return true;
+  }
+  return false;
+}
+
 Onward Region::leave(const Vector2d& x, double size) const {
   if (const auto way = value_of(field().value, x); way && !slide_) {
     Region next(*whole_, x, *way, this);
-    if (next.signs_ != signs_ && crosses_to(next, x)) return {x, std::move(next)};
+    if (next.signs_ != signs_ && crosses_to(next, x)) {
+      if (!grazes(next, x)) return {x, std::move(next)};
+      return {x, {}, false, "the motion touches a jump, and rounding hides whether it crosses", true};
+    }
   }
   return onward(*whole_, x, size).value_or(Onward{x, {}, false, "the field has no value beyond"});
 }

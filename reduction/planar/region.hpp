@@ -62,6 +62,7 @@ class Region {
   };
 
   bool crosses_to(const Region& next, const Eigen::Vector2d& x) const;
+  bool grazes(const Region& next, const Eigen::Vector2d& x) const;
   std::vector<int> signs_at(const Eigen::Vector2d& x) const;
 
   const SmoothField* whole_;

@@ -260,7 +260,7 @@ class Reference {
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const RealState slopes = field_.gates[i].slopes(x_);
       const Real distance = std::fabs(field_.gates[i].value(x_)) / std::hypot(slopes[0], slopes[1]);
-      if (i == left_ && distance > least_angle) left_.reset();
+      if (i == left_ && (distance > least_angle || angle(i) * sides_[i] < 0)) left_.reset();
       if (i != crossed && i != left_ && distance < least_angle && (crossed || std::fabs(angle(i)) < 0.1L)) lost_ = true;
     }
     if (!crossed) return;
