@@ -78,7 +78,7 @@ struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<Sca
 
   PlanarOrbit orbit(const Vector2d& start) const override;
   PlanarOrbit orbit_from_centre() const override;
-  bool rests_at_centre() const;
+  bool passes_centre() const;
   double end_time_error(const Vector2d& x, const PlanarOrbit& from_x) const override;
   std::optional<double> first_integral(const Vector2d& x) const override;
   std::shared_ptr<const Solution> reversed() const override {
@@ -477,13 +477,14 @@ struct MotionFromCentre final : PlanarOrbit::Motion {
   double radial = 0;
 };
 
-bool ScalingSolution::rests_at_centre() const {
+/// Returns true if a motion leaves the centre although it lies on a switching curve.
+bool ScalingSolution::passes_centre() const {
   const auto from_curve = onward(field, centre, section.frame().norm());
-  return from_curve ? from_curve->rests : !section.regular();
+  return from_curve && from_curve->region;
 }
 
 PlanarOrbit ScalingSolution::orbit_from_centre() const {
-  if (rests_at_centre()) return SectionSolution::orbit_from_centre();
+  if (!section.regular() && !passes_centre()) return SectionSolution::orbit_from_centre();
   auto motion = std::make_shared<MotionFromCentre>();
   motion->solution = shared_from_this();
   motion->end_time = infinity;
@@ -518,7 +519,7 @@ PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
     motion->undecided = undecided;
     motion->end_time = std::numeric_limits<double>::quiet_NaN();
   }
-  const bool goes_on = motion->end == PlanarEnd::centre && std::isfinite(motion->end_time) && !rests_at_centre();
+  const bool goes_on = motion->end == PlanarEnd::centre && std::isfinite(motion->end_time) && passes_centre();
   PlanarOrbit orbit(std::move(motion));
   if (!goes_on) return orbit;
   return PlanarOrbit(std::make_shared<const MotionThroughCentre>(std::move(orbit), orbit_from_centre()));
