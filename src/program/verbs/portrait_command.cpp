@@ -135,11 +135,11 @@ std::vector<FieldText> system_portrait_fields() {
       {"JSON `cycles` [{`u`, `v`, `period`, `multiplier`, `stable`}]", "",
        "limit cycles with a point of each; multiplier: factor of a small distance from the cycle in a turn, or null if it "
        "is not certain"},
-      {"JSON `highlight`, `through`, `separatrices` [...]", "",
-       "orbit of the start, orbits through the points of --through, and orbits that begin or end in saddles. Their form "
-       "is that of an entry of orbits"},
-      {"JSON `manifold` of `separatrices`", "",
-       "unstable: the orbit begins in a saddle; stable: it ends there; connection: it does both"},
+      {"JSON `highlight`, `through` [...]", "",
+       "orbit of the start, and orbits through the points of --through, in the form of an entry of orbits"},
+      {"JSON `separatrices` [{`manifold`, ...}]", "",
+       "orbits that begin or end in saddles, like an entry of orbits. unstable: the orbit begins in a saddle; stable: it "
+       "ends there; connection: it does both"},
       {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor is 0"},
       {"JSON `equilibria_lines`, `u_nullclines`, `v_nullclines` [{`u`, `v`}]", "",
        "curves of equilibria; with --nullclines the curves on which u, or v, does not change"},
@@ -296,13 +296,12 @@ class PortraitCommand final : public Verb {
         into(request_.view, one_of(views, "view")));
     view_ = &looks_.back();
     add("--scale", "SCALE",
-        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48). With bent, "
-        "a shaded part shows a power of v, so that orbits end straight",
+        "axis of v in the views uv, patch and pair: linear, or bent (default for a ball with mu < 0.48), by a power of v",
         into(request_.linear, one_of<bool>({{"bent", false}, {"linear", true}})));
     scale_ = &looks_.back();
     add("--window", "U,V",
-        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V, default: equilibria, limit cycles "
-        "and start). The form U1:U2,V1:V2 is for the views uv, patch, pair and for --system",
+        "part of the plane to draw: |u| <= U and 0 <= v <= V (with --system |v| <= V). The form U1:U2,V1:V2 is for the "
+        "views uv, patch, pair and for --system",
         [this](const std::string& typed) { read_window(typed, request_); });
     window_ = &looks_.back();
     add("--orbits", "N",
@@ -343,15 +342,13 @@ class PortraitCommand final : public Verb {
     add("--colour,--color", "BY",
         "colour of orbits: time (default; shows the time left until the stop) or none (one colour)",
         into(style_.colour_by_time, one_of<bool>({{"time", true}, {"none", false}})));
-    nullclines_.add(app, "--nullclines",
-                    "with --system: add the curves on which one of the two letters does not change");
+    nullclines_.add(app, "--nullclines", "with --system: add the curves u' = 0 and v' = 0");
     nullclines_.needs(system_.argument(), "is for typed equations");
-    estimate_.add(app, "--estimate", "add the approximate solution for small mu as dashed lines, in --view time");
+    estimate_.add(app, "--estimate", "dashed: approximate solution for small mu, in --view time");
     against_.add_second(
         app, "--against", "LAW",
-        "second law of friction, whose orbits are drawn as dashed lines in the same figure; or uncoupled, "
-        "the textbook's motion beside each requested motion");
-    add("--style", "STYLE", "colours of the picture: print (default), or screen (light on dark, for a projector)",
+        "second law of friction, whose orbits are dashed; or uncoupled, the textbook's motion beside each requested one");
+    add("--style", "STYLE", "colours: print (default), or screen (light on dark)",
         into(style_.screen, one_of<bool>({{"print", false}, {"screen", true}})));
   }
 
