@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
+#include "data/degenerate_separatrices.hpp"
 #include "data/isochrones.hpp"
 #include "data/planar_window.hpp"
 #include "data/tracing.hpp"
@@ -86,6 +88,9 @@ class PlanarTracer {
   std::vector<PortraitOrbit> parts(const Polyline& line) const {
     return parts_of(line, window_, [this](const Vector2d& at) { return time_left(at); });
   }
+
+  /// Returns the parts in the window of an ordinary orbit. It may end early, so that lines do not cover each other.
+  virtual std::vector<PortraitOrbit> ordinary(const Vector2d& x) const { return orbit(x); }
 
   /// Returns the number of the sector that contains a point, 0 without sectors; empty if the field has no value.
   virtual std::optional<std::size_t> sector(const Vector2d& x) const = 0;
@@ -331,8 +336,11 @@ class TimedTracer final : public PlanarTracer {
   TimedTracer(const PlanarReduction& plane, const Window& window, const std::vector<reduction::LimitCycle>& cycles)
       : PlanarTracer(plane, window),
         forth_{plane, reduction::by_steps(plane.field()), {}},
-        back_{plane.reversed(), forth_.by_steps.reversed(), {}} {
+        back_{plane.reversed(), forth_.by_steps.reversed(), {}},
+        beside_cycle_(raster * raster),
+        passed_(raster * raster) {
     for (const reduction::LimitCycle& cycle : cycles) {
+      for (const Vector2d& x : cycle.line) mark_beside(x);
       for (std::size_t i = 1; i < cycle.line.size(); ++i) {
         const Vector2d step = cycle.line[i] - cycle.line[i - 1];
         const int pieces = 1 + static_cast<int>(2 * cells * step.cwiseQuotient(window.sides()).norm());
@@ -352,6 +360,17 @@ class TimedTracer final : public PlanarTracer {
   /// Returns the motion from a point on, or the motion before it from the point backwards.
   Polyline branch(const Vector2d& x, bool back) const { return follow(back ? back_ : forth_, x); }
 
+  std::vector<PortraitOrbit> ordinary(const Vector2d& x) const override {
+    Polyline line = follow(back_, x, true);
+    std::ranges::reverse(line);
+    line.push_back({x[0], x[1]});
+    std::ranges::copy(follow(forth_, x, true), std::back_inserter(line));
+    for (const Point& at : line) {
+      if (const auto place = raster_place(vector_of(at))) passed_[*place] = true;
+    }
+    return parts(line);
+  }
+
   std::optional<std::size_t> sector(const Vector2d& x) const override {
     try {
       if (plane_.field()(x).allFinite()) return 0;
@@ -362,7 +381,8 @@ class TimedTracer final : public PlanarTracer {
 
  private:
   using Cell = std::pair<int, int>;
-  static constexpr int cells = 300;  ///< cells of the picture along a side
+  static constexpr int cells = 300;   ///< cells of the picture along a side
+  static constexpr int raster = 150;  ///< coarser cells, two of which are a visible distance
 
   /// A system, its orbits by steps in time, and the cells about the limit cycles that its motions near.
   struct Way {
@@ -383,13 +403,73 @@ class TimedTracer final : public PlanarTracer {
     std::ranges::copy(follow(forth_, x), std::back_inserter(line));
     return line;
   }
-  Polyline follow(const Way& way, const Vector2d& x) const;
+  Polyline follow(const Way& way, const Vector2d& x, bool is_ordinary = false) const;
+
+  /// Returns the number of the coarse cell of a point, empty outside the window.
+  std::optional<std::size_t> raster_place(const Vector2d& x) const {
+    const Vector2d place = (x - window_.low).cwiseQuotient(window_.sides()) * raster;
+    if (!(place.minCoeff() >= 0 && place.maxCoeff() < raster)) return std::nullopt;
+    return static_cast<std::size_t>(place[1]) * raster + static_cast<std::size_t>(place[0]);
+  }
+  /// Calls a function for the coarse cells about a cell.
+  template <class Function>
+  static void for_cells_about(std::size_t place, int around, const Function& function) {
+    const int column = static_cast<int>(place % raster), row = static_cast<int>(place / raster);
+    for (int i = std::max(0, column - around); i <= std::min(raster - 1, column + around); ++i) {
+      for (int j = std::max(0, row - around); j <= std::min(raster - 1, row + around); ++j) {
+        function(static_cast<std::size_t>(j * raster + i));
+      }
+    }
+  }
+  void mark_beside(const Vector2d& x) {
+    constexpr int around = 12;
+    const auto place = raster_place(x);
+    if (place) for_cells_about(*place, around, [&](std::size_t cell) { beside_cycle_[cell] = true; });
+  }
 
   Way forth_, back_;
+  std::vector<bool> beside_cycle_;    ///< coarse cells about limit cycles, which all orbits come near
+  mutable std::vector<bool> passed_;  ///< coarse cells of ordinary orbits
+};
+
+/// Finds where an ordinary orbit becomes useless in a picture: beside a cycle where it follows another orbit, and
+/// where it follows its own last turn for a whole turn.
+class Crowding {
+ public:
+  Crowding(std::size_t places) : last_(places, -1) {}
+
+  /// Adds the next point.
+  /// @param neighbours  calls its argument for the coarse cells about the point
+  template <class Neighbours>
+  void add(std::optional<std::size_t> place, bool beside_other, const Neighbours& neighbours) {
+    ++index_;
+    followed_ = beside_other ? followed_ + 1 : 0;
+    if (!place || place == place_) return;
+    place_ = place;
+    constexpr int apart = 30;
+    int nearest = -1;
+    neighbours([&](std::size_t cell) {
+      if (last_[cell] >= 0 && index_ - last_[cell] > apart) nearest = std::max(nearest, last_[cell]);
+    });
+    last_[*place] = index_;
+    if (nearest < 0) {
+      since_ = index_;
+    } else {
+      turn_ = index_ - nearest;
+    }
+  }
+  bool ends() const { return follows_other() || index_ - since_ > turn_ / 4; }
+  bool follows_other() const { return followed_ > most; }
+  static constexpr int most = 15;  ///< points beside another orbit
+
+ private:
+  std::vector<int> last_;
+  std::optional<std::size_t> place_;
+  int index_ = 0, since_ = 0, turn_ = 1 << 30, followed_ = 0;
 };
 
 /// Follows a motion until it is some window sides beyond the window, because it may return from nearer places.
-Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
+Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary) const {
   const Vector2d f = way.plane.field()(x);
   const Vector2d sides = window_.sides();
   const double speed = f.cwiseQuotient(sides).norm();
@@ -413,6 +493,7 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
   constexpr int turns = 3;
   std::map<Cell, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
   bool apart = !way.cycles.contains(cell_of(x));
+  Crowding crowding(is_ordinary ? raster * raster : 0);
   for (int i = 0; i < most && time < last; ++i) {
     const double next = std::min(time + step, last);
     Vector2d there;
@@ -450,6 +531,16 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x) const {
     line.push_back({there[0], there[1]});
     here = there;
     time = next;
+    if (is_ordinary) {
+      const auto place = raster_place(here);
+      bool beside_other = false;
+      if (place && beside_cycle_[*place]) {
+        for_cells_about(*place, 1, [&](std::size_t cell) { beside_other = beside_other || passed_[cell]; });
+      }
+      crowding.add(place, beside_other, [&](const auto& look) { for_cells_about(*place, 1, look); });
+      if (crowding.follows_other()) line.resize(line.size() - std::min<std::size_t>(line.size(), Crowding::most));
+      if (crowding.ends()) break;
+    }
     if (beyond > far) break;
     if (moved < allowed / 2) step *= 1.5;
     if (moved < rest && step * speed > 1e3) break;  // the motion tends to an equilibrium
@@ -466,28 +557,61 @@ struct SaddleBranch {
   bool joins = false;
 };
 
-/// Returns the motions that leave or enter the saddles, from points just beside the saddles.
-std::vector<SaddleBranch> branches_of(const TimedTracer& tracer, const reduction::Equilibria& equilibria,
-                                      const Window& window) {
+/// Returns the direction of the eigenvector of an eigenvalue, with the length of a fraction of the window.
+Vector2d eigenvector(const reduction::Equilibrium& point, double value, double part, const Window& window) {
+  const Matrix2d rest = point.slopes - value * Matrix2d::Identity();
+  const Vector2d along =
+      rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0)) : Vector2d(-rest(1, 1), rest(1, 0));
+  return part / along.cwiseQuotient(window.sides()).norm() * along;
+}
+
+/// Returns the motions that leave or enter the saddles and degenerate equilibria, from points just beside them.
+std::vector<SaddleBranch> branches_of(const TimedTracer& tracer, const reduction::SmoothField& field,
+                                      const reduction::Equilibria& equilibria, const Window& window) {
   std::vector<SaddleBranch> all;
   for (std::size_t i = 0; i < equilibria.points.size(); ++i) {
     const reduction::Equilibrium& saddle = equilibria.points[i];
-    // A saddle with an eigenvalue 0 has separatrices, too, but not all are tangent to eigenvectors that are known.
-    if (saddle.kind != "saddle" || !saddle.eigenvalues) continue;
-    const auto [stable, unstable] = *saddle.eigenvalues;
-    if (stable == 0. || unstable == 0.) continue;
-    for (const double value : {stable.real(), unstable.real()}) {
-      const Matrix2d rest = saddle.slopes - value * Matrix2d::Identity();
-      Vector2d along = rest.row(0).norm() > rest.row(1).norm() ? Vector2d(-rest(0, 1), rest(0, 0))
-                                                               : Vector2d(-rest(1, 1), rest(1, 0));
-      constexpr double beside = 1e-6;
-      along *= beside / along.cwiseQuotient(window.sides()).norm();
-      for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
-        if (!tracer.sector(x)) continue;
-        SaddleBranch branch{i, value < 0, {{saddle.x[0], saddle.x[1]}}};
-        std::ranges::copy(tracer.branch(x, value < 0), std::back_inserter(branch.line));
-        all.push_back(std::move(branch));
+    const auto follow = [&](const Vector2d& x, bool stable) {
+      if (!tracer.sector(x)) return;
+      SaddleBranch branch{i, stable, {{saddle.x[0], saddle.x[1]}}};
+      std::ranges::copy(tracer.branch(x, stable), std::back_inserter(branch.line));
+      all.push_back(std::move(branch));
+    };
+    const auto is_one_of = [&](std::initializer_list<std::string_view> kinds) {
+      return std::ranges::find(kinds, saddle.kind) != kinds.end();
+    };
+    if (!saddle.eigenvalues || !is_one_of({"saddle", "saddle-node", "cusp", "degenerate"})) continue;
+    const double values[] = {saddle.eigenvalues->first.real(), saddle.eigenvalues->second.real()};
+    const int zeros = (values[0] == 0 ? 1 : 0) + (values[1] == 0 ? 1 : 0);
+    if (saddle.eigenvalues->first.imag() != 0) continue;
+    if (zeros == 2) {
+      for (const SeparatrixPoint& point : degenerate_separatrices(field, saddle.x, window.sides())) {
+        follow(point.x, point.stable);
       }
+      continue;
+    }
+    if (is_one_of({"cusp", "degenerate"})) continue;
+    constexpr double beside = 1e-6;
+    for (const double value : values) {
+      if (value == 0) continue;
+      const Vector2d along = eigenvector(saddle, value, beside, window);
+      follow(saddle.x + along, value < 0);
+      follow(saddle.x - along, value < 0);
+    }
+    if (zeros == 0) continue;
+    // On the sides on which the saddle repels, along the eigenvector of 0, motions that run in the sense in which the
+    // other eigenvalue attracts tend to the separatrix.
+    constexpr double from = 2e-3;
+    const bool back = values[0] + values[1] > 0;
+    const Vector2d along = eigenvector(saddle, 0, from, window);
+    for (const Vector2d& x : {Vector2d(saddle.x + along), Vector2d(saddle.x - along)}) {
+      if (!tracer.sector(x)) continue;
+      const Polyline line = tracer.branch(x, back);
+      constexpr double left = 10;
+      if (std::ranges::any_of(line, [&](Point at) {
+            return (vector_of(at) - saddle.x).cwiseQuotient(window.sides()).norm() > left * from;
+          }))
+        follow(x, back);
     }
   }
   return all;
@@ -584,7 +708,7 @@ std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& win
     }
     ++traced;
     widest->gap = 0;
-    for (PortraitOrbit& piece : tracer.orbit(through)) {
+    for (PortraitOrbit& piece : tracer.ordinary(through)) {
       for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
         gaps.pass(its_sector, on_paper(panel, {piece.u[row], piece.v[row]}));
       }
@@ -608,7 +732,8 @@ Window widened(const PlanarReduction& plane, const PlanarView& view, const Portr
   const TimedTracer tracer(steps, room, view.cycles);
   std::vector<Polyline> lines;
   const reduction::Equilibria equilibria = reduction::find_equilibria(plane.field(), view.window.low, view.window.high);
-  for (SaddleBranch& branch : branches_of(tracer, equilibria, room)) lines.push_back(std::move(branch.line));
+  for (SaddleBranch& branch : branches_of(tracer, plane.field(), equilibria, room))
+    lines.push_back(std::move(branch.line));
   if (request.highlight && tracer.sector(vector_of(*request.highlight))) {
     lines.push_back(tracer.branch(vector_of(*request.highlight), false));
   }
@@ -737,8 +862,12 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
       Polyline& line = drawn.emplace_back();
       for (const Vector2d& x : cycle.line) line.push_back({x[0], x[1]});
     }
-    std::vector<SaddleBranch> branches = branches_of(*timed, portrait.equilibria, window);
-    join_branches(branches, portrait.equilibria, window);
+    // Separatrices of equilibria beside the window cross the window, too.
+    const Vector2d beside = window.sides() / 2;
+    const reduction::Equilibria around =
+        reduction::find_equilibria(plane.field(), window.low - beside, window.high + beside);
+    std::vector<SaddleBranch> branches = branches_of(*timed, plane.field(), around, window);
+    join_branches(branches, around, window);
     for (SaddleBranch& branch : branches) {
       if (branch.stable) std::ranges::reverse(branch.line);
       for (PortraitOrbit& part : timed->parts(branch.line)) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 
 namespace contensou::portraits {
@@ -89,7 +91,8 @@ bool is_population(const reduction::SmoothField& field, const Vector2d& size) {
     return maps_onto_itself(
         field, size, [&](const Vector2d& x) { return Vector2d(sign.cwiseProduct(x)); }, sign);
   };
-  return values > points && !reflected({-1, 1}) && !reflected({1, -1});
+  // A share such as y/x has no value on one axis.
+  return values >= points && !reflected({-1, 1}) && !reflected({1, -1});
 }
 
 /// Returns the values y at which the slope of y' = F(x, y) changes its sign, the field being (1, F), and 0; empty for
@@ -166,15 +169,33 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
     view.fixed_low = {true, true};
     view.window = united(view.window, Vector2d::Zero());
   }
+  if (plane.form() != "constant") {
+    constexpr double reach = 8;
+    reduction::Equilibria about = equilibria;
+    about.low = middle - size;
+    about.high = middle + size;
+    view.cycles = find_limit_cycles(field, about, reach);
+    if (population) {
+      std::erase_if(view.cycles, [](const reduction::LimitCycle& cycle) { return cycle.x.minCoeff() < 0; });
+    }
+  }
+  std::vector<Window> boxes;  // about the limit cycles
+  for (const reduction::LimitCycle& cycle : view.cycles) {
+    Window& box = boxes.emplace_back(Window{cycle.x, cycle.x});
+    for (const Vector2d& x : cycle.line) box = united(box, x);
+  }
   const auto distance = [&](const Vector2d& a, const Vector2d& b) { return (a - b).cwiseQuotient(size).norm(); };
   for (const Equilibrium& each : equilibria.points) {
     double nearest = 1;
     for (const Equilibrium& other : equilibria.points) {
       if (&other != &each) nearest = std::min(nearest, distance(each.x, other.x));
     }
-    // Orbits about a center or focus fill the room up to the next equilibrium.
+    // Orbits about a center or focus fill the room up to the next equilibrium, or up to a limit cycle.
     const bool turns = each.kind.ends_with("focus") || each.kind.starts_with("center") || each.kind == "not smooth";
-    const Vector2d around = (turns || equilibria.points.size() == 1 ? 1 : 0.5) * nearest * size;
+    const bool in_cycle = std::ranges::any_of(boxes, [&](const Window& box) {
+      return box.contains({each.x[0], each.x[1]});
+    });
+    const Vector2d around = (in_cycle ? 0 : turns || equilibria.points.size() == 1 ? 1 : 0.5) * nearest * size;
     view.window = united(united(view.window, each.x - around), each.x + around);
   }
   if (equilibria.points.empty()) view.window = united(united(view.window, middle - size), middle + size);
@@ -182,22 +203,26 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
     constexpr double room = 0.2;
     view.window = united(united(view.window, x - room * size), x + room * size);
   }
-  if (plane.form() != "constant") {
-    constexpr double reach = 8;
-    equilibria.low = middle - size;
-    equilibria.high = middle + size;
-    view.cycles = find_limit_cycles(field, equilibria, reach);
-    if (population) {
-      std::erase_if(view.cycles, [](const reduction::LimitCycle& cycle) { return cycle.x.minCoeff() < 0; });
-    }
-    Window around = view.window;
-    for (const reduction::LimitCycle& cycle : view.cycles) {
-      for (const Vector2d& x : cycle.line) around = united(around, x);
-    }
-    constexpr double room = 0.1;
-    if (!view.cycles.empty()) {
-      view.window = {around.low - room * around.sides(), around.high + room * around.sides()};
-    }
+  constexpr double room = 0.15;
+  for (const Window& box : boxes) {
+    view.window = united(united(view.window, box.low - room * box.sides()), box.high + room * box.sides());
+  }
+  // Parts of a switching curve along which motions slide or rest, if they end nearby.
+  constexpr double nearby = 8;
+  const Window far{middle - nearby * size, middle + nearby * size};
+  for (const SwitchingPart& part : switching_parts(field, far.low, far.high)) {
+    if (part.motion == reduction::SwitchingMotion::Kind::leaves || part.points.empty()) continue;
+    const Vector2d &from = part.points.front(), &to = part.points.back();
+    constexpr double inner = 0.98;
+    const auto ends = [&](const Vector2d& x) {
+      return (x - middle).cwiseQuotient(size).lpNorm<Eigen::Infinity>() < inner * nearby;
+    };
+    if (!ends(from) || !ends(to)) continue;
+    Window box{from, from};
+    for (const Vector2d& x : part.points) box = united(box, x);
+    constexpr double beside = 0.2;
+    const Vector2d added = beside * united(united(view.window, box.low), box.high).sides();
+    view.window = united(united(view.window, box.low - added), box.high + added);
   }
   // One equilibrium does not set a scale, and several on a line set only one.
   constexpr double thinnest = 0.6;

@@ -30,7 +30,7 @@ class SwitchingLine {
       : field_(field), function_(function), size_(size) {}
 
   void follow(const Polyline& line, std::vector<SwitchingPart>& parts) {
-    constexpr int pieces = 8, halvings = 45;
+    constexpr int pieces = 2, halvings = 45;
     std::optional<PlaceOnLine> before;
     Vector2d last;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {

@@ -178,6 +178,13 @@ std::vector<PanelLayers::TimedArrow> PanelLayers::arrows_on(const TimedLine& orb
   }
   const std::vector<Polyline> parts = clipped(panel_, line);
   if (parts.empty()) return result;
+  // A head would cover an orbit that is as small as itself.
+  const auto extent = [&](double Point::*side, double unit) {
+    const auto [low, high] = std::ranges::minmax(line, {}, side);
+    return (on_paper(panel_, high).*side - on_paper(panel_, low).*side) * unit;
+  };
+  if (std::max(extent(&Point::x, look_.panel_mm.x), extent(&Point::y, look_.panel_mm.y)) < 2.5 * look_.letter)
+    return result;
   if (early_arrows_ && look_.style.arrows == Style::time) {
     const Arrow arrow = arrow_along(panel_, parts.front(), 0.2);
     if (on_paper(panel_, arrow.at).y > 0.6) add_there(arrow);
@@ -202,7 +209,7 @@ void PanelLayers::add_invariant(Lines lines) {
   panel_.lines.push_back(std::move(lines));
 }
 
-void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend) {
+void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend, bool heads) {
   constexpr double cell_mm = 6.5;
   const int columns = static_cast<int>(look_.panel_mm.x / cell_mm), rows = static_cast<int>(look_.panel_mm.y / cell_mm);
   struct Needle {
@@ -226,18 +233,20 @@ void PanelLayers::add_directions(const std::function<std::optional<Drift>(Point)
     }
   }
   Lines lines{{}, {look_.palette.field, 1, false}, legend};
-  Arrows heads{{}, look_.palette.field, 0.6};
+  Arrows tips{{}, look_.palette.field, 0.6};
   for (const Needle& needle : needles) {
-    const double fraction = max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size) : 1;
+    const double fraction = !heads                ? 0.5
+                            : max_size > min_size ? std::log(needle.size / min_size) / std::log(max_size / min_size)
+                                                  : 1;
     const double cell = 1 / std::max(std::abs(needle.direction.x) * columns, std::abs(needle.direction.y) * rows);
     const double half = (0.25 + 0.6 * fraction) / 2 * cell;
     const Point tail{needle.at.x - half * needle.direction.x, needle.at.y - half * needle.direction.y};
     const Point tip{needle.at.x + half * needle.direction.x, needle.at.y + half * needle.direction.y};
     lines.lines.push_back({from_paper(panel_, tail), from_paper(panel_, tip)});
-    heads.arrows.push_back(arrow_along(panel_, lines.lines.back(), 1));
+    if (heads) tips.arrows.push_back(arrow_along(panel_, lines.lines.back(), 1));
   }
   panel_.lines.insert(panel_.lines.begin(), std::move(lines));
-  panel_.arrows.insert(panel_.arrows.begin(), std::move(heads));
+  if (heads) panel_.arrows.insert(panel_.arrows.begin(), std::move(tips));
 }
 
 }  // namespace contensou::portraits

@@ -82,8 +82,9 @@ class PanelLayers {
   void add_highlights();
 
   /// Adds needles on a grid. Their length grows with the logarithm of the speed.
-  /// @param at  returns the motion at a point of the axes
-  void add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend);
+  /// @param at     returns the motion at a point of the axes
+  /// @param heads  false for marks of equal length without heads
+  void add_directions(const std::function<std::optional<Drift>(Point)>& at, const Text& legend, bool heads = true);
 
   /// Adds lines, with two arrow heads on each part.
   void add_invariant(Lines lines);

@@ -76,6 +76,34 @@ Text variable(std::string name) {
   return math(name);
 }
 
+/// Returns equations as a textbook prints them: with primes, products with a dot, and raised powers.
+Text typeset(std::string_view equations) {
+  Text result;
+  for (std::size_t at = 0; at < equations.size(); ++at) {
+    const char c = equations[at];
+    if (c == '*') {
+      result += "·";
+    } else if (c == '-') {
+      result += "−";
+    } else if (c == '\'') {
+      result += "′";
+    } else if (c == '^') {
+      const auto is_part = [](char x) { return (std::isalnum(static_cast<unsigned char>(x)) != 0) || x == '.'; };
+      std::size_t end = at + 1;
+      while (end < equations.size() && is_part(equations[end])) ++end;
+      if (end > at + 1) {
+        result += sup(std::string(equations.substr(at + 1, end - at - 1)));
+        at = end - 1;
+      } else {
+        result += "^";
+      }
+    } else {
+      result += std::string(1, c);
+    }
+  }
+  return result;
+}
+
 /// Adds the curves V = 0, without the parts that are drawn as separatrices, limit cycles or curves of equilibria.
 void add_invariant_curves(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
   constexpr double near = 0.008;  // a fraction of the window
@@ -110,6 +138,17 @@ void add_invariant_curves(PanelLayers& layers, const PlanarPortrait& portrait, c
   if (!lines.lines.empty()) layers.panel().lines.push_back(std::move(lines));
 }
 
+/// Returns a grey that also a printer shows.
+Colour grey_of(const Palette& palette) {
+  constexpr double part = 0.35;
+  unsigned rgb = 0;
+  for (const int shift : {16, 8, 0}) {
+    const double light = (palette.region.rgb >> shift) & 0xFFU, dark = (palette.field.rgb >> shift) & 0xFFU;
+    rgb |= static_cast<unsigned>(std::lround(std::lerp(light, dark, part))) << shift;
+  }
+  return {rgb};
+}
+
 /// Returns the mark of an equilibrium: filled if it is stable.
 Marks::Shape shape_of(std::string_view kind) {
   if (kind == "saddle") return Marks::Shape::square;
@@ -138,9 +177,9 @@ void add_separatrices(PanelLayers& layers, const PlanarPortrait& portrait, const
     double width;
     const char* legend;
   };
-  for (const Look& look : {Look{"stable", true, 2, "stable manifolds of saddles"},
-                           Look{"unstable", false, 2, "unstable manifolds of saddles"},
-                           Look{"connection", false, 3, "orbits that join saddles"}}) {
+  for (const Look& look :
+       {Look{"stable", true, 2, "stable separatrices"}, Look{"unstable", false, 2, "unstable separatrices"},
+        Look{"connection", false, 3, "connections"}}) {
     std::vector<PortraitOrbit> curves;
     std::ranges::copy_if(portrait.separatrices, std::back_inserter(curves),
                          [&](const Separatrix& each) { return each.manifold == look.manifold; });
@@ -218,9 +257,11 @@ std::vector<Polyline> gaps_of(const std::function<bool(Point)>& holds) {
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   const Vector2d sides = portrait.window.sides();
   const double shape = sides[1] / sides[0];
-  constexpr double longest = 3, width = 150;
-  const bool to_scale = shape < longest && shape > 1 / longest;
-  const PaperSize size = fitted({width, std::clamp(width * (to_scale ? shape : 0.66), 90.0, 200.0)}, 1, style.size);
+  // Very long or high windows are not drawn to scale.
+  constexpr double highest = 1.4, longest = 3, width = 150;
+  const bool to_scale = shape < highest && shape > 1 / longest;
+  const double height = to_scale ? std::min(shape, 1.05) : shape < 1 ? 0.66 : 0.9;
+  const PaperSize size = fitted({width, std::max(width * height, 90.0)}, 1, style.size);
   const reduction::Generator* scaling = portrait.plane.scaling();
   PortraitCaption caption;
   caption.highlight = "orbit of the start";
@@ -244,7 +285,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   };
   for (Polyline& part : gaps_of([&](Point place) { return rate_at(from_paper(axes, place)).has_value(); })) {
     for (Point& point : part) point = from_paper(axes, point);
-    axes.regions.push_back({std::move(part), look.palette.region});
+    axes.regions.push_back({std::move(part), grey_of(look.palette)});
   }
   const bool has_gaps = !axes.regions.empty();
   const auto place = [](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) { return Point{at.u, at.v}; };
@@ -260,7 +301,14 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
       constexpr double step = 1e-4;  // a fraction of the window
       return Drift{at, {at.x + step * (*rate)[0] / speed, at.y + step * (*rate)[1] / speed}, speed};
     };
-    layers.add_directions(drift, "direction of the motion");
+    // All directions of y' = F(x, y) point to the right: marks without heads show the slopes.
+    bool slopes = true;
+    constexpr int across = 5;
+    for (int i = 0; i < across * across; ++i) {
+      const auto rate = rate_at(from_paper(layers.panel(), {(i % across + 0.5) / across, (i / across + 0.5) / across}));
+      slopes &= !rate || (*rate)[0] == 1;
+    }
+    layers.add_directions(drift, slopes ? "slopes" : "direction of the motion", !slopes);
   }
   if (style.invariant && scaling) add_rays(layers, portrait, look.palette);
   if (style.invariant) {
@@ -284,11 +332,14 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   if (scaling) {
     // No other equilibrium is isolated.
     const Vector2d& centre = portrait.plane.centre();
+    constexpr std::string_view names_of_points[] = {"node", "star", "saddle", "focus", "center", "cusp"};
+    const bool is_equilibrium = std::ranges::any_of(
+        names_of_points, [&](std::string_view name) { return portrait.plane.kind().ends_with(name); });
     layers.panel().marks.push_back({{{centre[0], centre[1]}},
                                     look.palette.invariant,
                                     1.2,
                                     shape_of(portrait.plane.kind()),
-                                    "centre of the symmetry"});
+                                    is_equilibrium ? std::string(portrait.plane.kind()) : "centre of the symmetry"});
   } else {
     std::map<std::string_view, Marks> of_kind;
     for (const reduction::Equilibrium& each : portrait.equilibria.points) {
@@ -303,7 +354,8 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   }
 
   Figure figure;
-  figure.title = shortened(portrait.name);
+  constexpr std::size_t longest_title = 80;
+  figure.title = typeset(shortened(portrait.name, longest_title));
   const std::string kind(portrait.plane.kind().empty() ? "kind not decided" : portrait.plane.kind());
   const std::string_view form = portrait.plane.form();
   const char* of_form = form == "affine" ? "generator of the orbits" : "inverse integrating factor";

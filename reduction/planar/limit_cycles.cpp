@@ -245,10 +245,14 @@ void CycleSearch::examine(const Vector2d& centre, const Sample& inside, const Sa
   // Along the reversed motion the multiplier is the inverse.
   const double slope = slope_of(fine, place, !stable),
                product = multiplier_of(stable ? field_ : backward(field_), *turn);
-  if (std::abs(slope - product) <= differ && !(product > 1 + differ)) {
-    cycle.multiplier = stable ? product : 1 / product;
-  } else if (field_.switches && std::abs(slope) < still) {
+  const auto slides = [&](const Vector2d& x) {
+    const auto next = onward(stable ? field_ : backward(field_), x, half_.norm());
+    return next && next->region && next->region->slides();
+  };
+  if (field_.switches && std::abs(slope) < still && std::ranges::any_of(cycle.line, slides)) {
     cycle.multiplier = stable ? 0 : infinity;  // neighbouring orbits join where the motion slides along a jump
+  } else if (std::abs(slope - product) <= differ && !(product > 1 + differ)) {
+    cycle.multiplier = stable ? product : 1 / product;
   }
   if (!stable) std::ranges::reverse(cycle.line);
   found_.push_back(std::move(cycle));
