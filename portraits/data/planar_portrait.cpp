@@ -503,7 +503,9 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
       step /= 2;
       if (step > 1e-6 * near / speed) continue;
       // The reduction ends here, but steps in time may continue the orbit.
-      if (std::exchange(stepped, true) || motion.end() != PlanarEnd::undecided) break;
+      const PlanarEnd end = motion.end();
+      const bool ends = end == PlanarEnd::border || end == PlanarEnd::infinity || end == PlanarEnd::rest;
+      if (std::exchange(stepped, true) || ends) break;
       motion = way.by_steps.part_of_orbit(here);
       time = 0;
       step = 1e-3 * near / speed;
