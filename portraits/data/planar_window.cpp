@@ -203,7 +203,7 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
     constexpr double room = 0.2;
     view.window = united(united(view.window, x - room * size), x + room * size);
   }
-  constexpr double room = 0.15;
+  constexpr double room = 0.1;
   for (const Window& box : boxes) {
     view.window = united(united(view.window, box.low - room * box.sides()), box.high + room * box.sides());
   }

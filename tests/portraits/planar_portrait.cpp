@@ -448,3 +448,85 @@ TEST_CASE("values of parameters stand below the title", "[output]") {
   portrait.parameters = {{"mu", 0.1}, {"b", 2}};
   CHECK(draw(portrait).subtitle.words().starts_with("b = 2, mu = 0.1; "));
 }
+
+TEST_CASE("degenerate equilibria have the separatrices of their sectors", "[output]") {
+  struct Case {
+    const char* name;
+    PlanarField field;
+    std::ptrdiff_t stable, unstable;
+    std::function<double(double, double)> curve;  // 0 on the separatrices
+  };
+  const double third = 1. / 3;
+  const Case cases[] = {
+      {"cusp", [](const Vector2d& x) { return Vector2d(x[1], x[0] * x[0]); }, 1, 1,
+       [=](double u, double v) { return v * v / 2 - third * u * u * u; }},
+      {"saddle-node", [](const Vector2d& x) { return Vector2d(x[0] * x[0], -x[1]); }, 2, 1,
+       [](double u, double v) { return std::min(std::abs(u), std::abs(v)); }},
+      {"saddle without eigenvalues", [](const Vector2d& x) { return Vector2d(x[1], std::pow(x[0], 3)); }, 2, 2,
+       [](double u, double v) { return v * v / 2 - std::pow(u, 4) / 4; }},
+      {"saddle with one eigenvalue", [](const Vector2d& x) { return Vector2d(std::pow(x[0], 3), -x[1]); }, 2, 2,
+       [](double u, double v) { return u * v; }},
+      {"node with one eigenvalue", [](const Vector2d& x) { return Vector2d(-std::pow(x[0], 3), -x[1]); }, 0, 0,
+       [](double, double) { return 0.; }},
+      {"dipole", [](const Vector2d& x) { return Vector2d(x[0] * x[0] - x[1] * x[1], 2 * x[0] * x[1]); }, 0, 0,
+       [](double, double) { return 0.; }},
+  };
+  for (const Case& each : cases) {
+    INFO(each.name);
+    PortraitRequest request;
+    request.window = Window{{-1, -1}, {1.1, 1.2}};
+    const PlanarPortrait portrait = stepped_portrait(each.field, request);
+    const auto count = [&](std::string_view manifold) {
+      return std::ranges::count(portrait.separatrices, manifold, &Separatrix::manifold);
+    };
+    CHECK(count("stable") == each.stable);
+    CHECK(count("unstable") == each.unstable);
+    for (const Separatrix& line : portrait.separatrices) {
+      for (Eigen::Index i = 0; i < line.rows(); ++i) CHECK(each.curve(line.u[i], line.v[i]) == Approx(0).margin(2e-3));
+    }
+  }
+}
+
+TEST_CASE("ordinary orbits do not fill a weak focus or the surroundings of a cycle", "[output]") {
+  // Without the rule for the last turn, an orbit of this focus makes hundreds of turns.
+  const PlanarPortrait focus = stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], -x[0] - 0.002 * x[1]); });
+  REQUIRE(focus.orbits.size() > 5);
+  for (const PortraitOrbit& orbit : focus.orbits) {
+    double angle = 0;
+    for (Eigen::Index i = 1; i < orbit.rows(); ++i) {
+      angle += std::atan2(orbit.u[i - 1] * orbit.v[i] - orbit.v[i - 1] * orbit.u[i],
+                          orbit.u[i - 1] * orbit.u[i] + orbit.v[i - 1] * orbit.v[i]);
+    }
+    CHECK(std::abs(angle) < 2 * std::numbers::pi * 4);
+  }
+}
+
+TEST_CASE("equations are typeset, and slopes of a first-order equation have no heads", "[output]") {
+  PlanarPortrait portrait = stepped_portrait([](const Vector2d& x) { return Vector2d(1, x[0] * x[0] - x[1]); });
+  portrait.name = "y' = 2*x^2-y";
+  const PortraitStyle style{.field = PortraitStyle::Field::motion};
+  const Figure figure = draw(portrait, style);
+  CHECK(figure.title == Text("y′ = 2·x") + sup("2") + "−y");
+  const Lines& slopes = layer(figure.panels[0], "slopes");
+  CHECK(slopes.lines.size() > 100);
+  for (const Polyline& mark : slopes.lines) {
+    const Point from = mark.front(), to = mark.back();
+    const double x = (from.x + to.x) / 2, y = (from.y + to.y) / 2;
+    CHECK((to.y - from.y) == Approx((x * x - y) * (to.x - from.x)).margin(1e-9));
+  }
+  // The field of a system has heads.
+  const Figure other = draw(stepped_portrait(van_der_pol), style);
+  CHECK(layer(other.panels[0], "direction of the motion").lines.size() > 100);
+}
+
+TEST_CASE("a high window is not drawn to scale", "[output]") {
+  const auto drawn = [](const Window& window) {
+    PortraitRequest request;
+    request.window = window;
+    return draw(stepped_portrait(pendulum, request));
+  };
+  const Figure high = drawn({{-1, -3}, {1, 3}}), square = drawn({{-1, -1}, {1, 1}});
+  CHECK_FALSE(high.panels[0].to_scale);
+  CHECK(high.size.height_mm < 1.1 * high.size.width_mm);
+  CHECK(square.panels[0].to_scale);
+}

@@ -153,3 +153,34 @@ TEST_CASE("a limit cycle beside a loop of a saddle is found", "[planar]") {
   CHECK(std::log(found[0].multiplier) == Approx(1.1584079841648676).epsilon(1e-8));
   CHECK_FALSE(found[0].stable);
 }
+
+TEST_CASE("a limit cycle that sticks has the multiplier 0", "[planar]") {
+  // A block on a belt. It leaves the belt at x = 0.4 and sticks again at x = -0.335058894593 (SciPy's DOP853).
+  const auto on_side = [](double sign) {
+    SmoothField field;
+    field.value = [=](const Vector2d& x) { return Vector2d(x[1], -x[0] - (0.4 - 0.2 * sign * (x[1] - 0.5)) * sign); };
+    return field;
+  };
+  SmoothField belt;
+  belt.value = [=](const Vector2d& x) { return on_side(x[1] > 0.5 ? 1 : -1)(x); };
+  belt.branch = [=](const Vector2d& x) { return on_side(x[1] > 0.5 ? 1 : -1); };
+  belt.switches = [](const Vector2d& x) {
+    Eigen::Matrix<double, Eigen::Dynamic, 3> rows(1, 3);
+    rows << x[1] - 0.5, 0, 1;
+    return rows;
+  };
+  const Vector2d corner(1.5, 1.5);
+  const std::vector<LimitCycle> found = find_limit_cycles(belt, find_equilibria(belt, -corner, corner), 1);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].period == Approx(6.736837191765).epsilon(1e-9));
+  CHECK(found[0].multiplier == 0);
+  CHECK(found[0].stable);
+  double left = 0, right = 0;
+  for (const Vector2d& x : found[0].line) {
+    if (std::abs(x[1] - 0.5) > 1e-9) continue;
+    left = std::min(left, x[0]);
+    right = std::max(right, x[0]);
+  }
+  CHECK(left == Approx(-0.335058894593).margin(0.05));
+  CHECK(right == Approx(0.4).margin(0.05));
+}
