@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -15,7 +16,9 @@ namespace {
 /// The fate of a motion that begins near an equilibrium.
 struct Passage {
   enum class End { leaves, arrives, unknown } end;
-  double angle = 0;  ///< direction from the equilibrium at the end, continued over turns
+  double angle = 0;    ///< direction from the equilibrium at the end, continued over turns
+  double nearest = 1;  ///< smallest and largest distance from the equilibrium, in radii of the ellipse
+  double farthest = 1;
 };
 
 /// Follows motions from an ellipse about an equilibrium, forwards or backwards.
@@ -29,7 +32,7 @@ class Surroundings {
   }
 
   Passage passage(double angle) const {
-    constexpr double outside = 1.5, arrived = 0.05, widest = 0.4;
+    constexpr double outside = 1.5, arrived = 1e-3, widest = 0.4;
     constexpr int most = 600;
     const auto scaled = [&](const Vector2d& x) { return Vector2d((x - centre_).cwiseQuotient(half_)); };
     Passage passage{Passage::End::unknown, angle};
@@ -41,7 +44,7 @@ class Surroundings {
       Vector2d here = scaled(start);
       double time = 0, step = 0.1 / speed;
       for (int i = 0; i < most; ++i) {
-        const Vector2d next = scaled(orbit.at(time + step));
+        const Vector2d next = scaled(after(orbit, time + step));
         const double turned = std::atan2(here[0] * next[1] - here[1] * next[0], here.dot(next));
         const double grown = std::log(next.norm() / here.norm());
         if (!(std::abs(turned) < widest && std::abs(grown) < widest)) {
@@ -52,12 +55,16 @@ class Surroundings {
         time += step;
         passage.angle += turned;
         here = next;
-        if (here.norm() > outside) return {Passage::End::leaves, passage.angle};
-        if (here.norm() < arrived) return {Passage::End::arrives, passage.angle};
+        passage.nearest = std::min(passage.nearest, here.norm());
+        passage.farthest = std::max(passage.farthest, here.norm());
+        if (here.norm() > outside || here.norm() < arrived) {
+          passage.end = here.norm() < arrived ? Passage::End::arrives : Passage::End::leaves;
+          return passage;
+        }
         if (std::abs(turned) < widest / 3 && std::abs(grown) < widest / 3) step *= 1.5;
       }
     } catch (const std::domain_error&) {
-      // The field has no value there, or the steps end.
+      // The field has no value at the start.
     }
     return passage;
   }
@@ -89,13 +96,18 @@ class Surroundings {
         if (here.end == arrives && before.end == leaves && after.end == leaves) {
           arrived = true;
           low = high = middle;
+          before = after = here;
           break;
         }
         (is_as_before ? low : high) = middle;
         (is_as_before ? before : after) = here;
       }
-      // Two motions that touch the outer border before and after each other do not come near to the equilibrium.
-      if (!arrived) continue;
+      // Motions also differ where they touch the outer border; there they do not come near to the equilibrium.
+      constexpr double near = 0.3, far = 1.3;
+      const auto passes_near = [](const Passage& each) {
+        return each.end == arrives ? each.farthest < far : each.nearest < near;
+      };
+      if (!arrived || !passes_near(before) || !passes_near(after)) continue;
       const double angle = (low + high) / 2;
       if (!found.empty() && angle - found.back() < same) {
         found.back() = (found.back() + angle) / 2;
@@ -107,6 +119,15 @@ class Surroundings {
   }
 
  private:
+  /// Returns the state at a time; NaN if the motion ends earlier, for example at infinity.
+  static Vector2d after(const reduction::PlanarOrbit& orbit, double time) {
+    try {
+      return orbit.at(time);
+    } catch (const std::domain_error&) {
+      return Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
   const reduction::PlanarReduction& steps_;
   Vector2d centre_, half_;
 };

@@ -19,7 +19,7 @@ struct SeparatrixPoint {
 /// two motions that pass the equilibrium on different sides, and between a motion that passes and one that arrives.
 /// @param sides  sides of the picture; the half axes of the ellipse are 1 % of them
 /// @return empty if a smaller ellipse has other numbers of separatrices
-/// @note accuracy: 5e-4 of the picture. Cost: some 100 000 values of the field
+/// @note accuracy: 1e-5 of the picture. Cost: some 100 000 values of the field
 std::vector<SeparatrixPoint> degenerate_separatrices(const reduction::SmoothField& field, const Eigen::Vector2d& centre,
                                                      const Eigen::Vector2d& sides);
 

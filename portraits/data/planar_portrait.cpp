@@ -446,7 +446,7 @@ class Crowding {
     followed_ = beside_other ? followed_ + 1 : 0;
     if (!place || place == place_) return;
     place_ = place;
-    constexpr int apart = 30;
+    constexpr int apart = 12;
     int nearest = -1;
     neighbours([&](std::size_t cell) {
       if (last_[cell] >= 0 && index_ - last_[cell] > apart) nearest = std::max(nearest, last_[cell]);

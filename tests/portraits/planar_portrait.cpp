@@ -492,6 +492,7 @@ TEST_CASE("ordinary orbits do not fill a weak focus or the surroundings of a cyc
   const PlanarPortrait focus = stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], -x[0] - 0.002 * x[1]); });
   REQUIRE(focus.orbits.size() > 5);
   for (const PortraitOrbit& orbit : focus.orbits) {
+    if (orbit.u.abs().maxCoeff() < 0.05 * focus.window.sides()[0]) continue;
     double angle = 0;
     for (Eigen::Index i = 1; i < orbit.rows(); ++i) {
       angle += std::atan2(orbit.u[i - 1] * orbit.v[i] - orbit.v[i - 1] * orbit.u[i],
