@@ -41,6 +41,9 @@ const std::map<std::string_view, Limit> limits{
      [](const auto& typed, double radius) { return 5 * (typed[1] * radius) / (2 * radius) * 2 * radius * radius / 5; }},
     {"box3d", [](const auto& typed, double radius) { return typed[1] * radius; }},
     {"lammps", the_last},
+    {"ode", the_last},
+    {"gazebo", [](const auto& typed, double /*radius*/) { return 3 * std::numbers::pi * typed[2] * typed[1] / 16; }},
+    {"webots", the_last},
 };
 
 std::vector<double> typed_into(const EngineUse& use, const EngineContact& contact) {
@@ -79,6 +82,12 @@ TEST_CASE("of a body that lies flat the distance of the contact points is the mo
       if (engine.face.parameters.empty()) continue;
       const std::vector<double> typed = typed_into(engine.face, contact);
       REQUIRE(typed.size() == 2);
+      if (engine.name == "box2d") {  // the joint limits the force in N and the torque in N m
+        const double load = puck.ball.mass * puck.environment.gravity;
+        CHECK(typed[0] == Approx(contact.friction * load).epsilon(1e-15));
+        CHECK(typed[1] == Approx(contact.moment_arm() * load).epsilon(1e-12));
+        continue;
+      }
       // bepuphysics2 divides friction by its four contact points.
       const double friction = typed[0] / (engine.name == "bepu" ? 4 : 1);
       CHECK(friction == Approx(contact.friction).epsilon(1e-15));
@@ -105,11 +114,12 @@ TEST_CASE("each engine says what it is, from where, and what it does", "[table]"
     CHECK_FALSE(engine.ball.limit.empty());
     CHECK(engine.face.limit.empty() == engine.face.settings.empty());
     CHECK_FALSE(engine.combination.empty());
-    REQUIRE_FALSE(engine.ball.settings.empty());
+    CHECK(engine.ball.settings.empty() == (engine.name == "box2d"));  // no ball rolls in a plane world
     REQUIRE_FALSE(engine.sources.empty());
     for (std::string_view source : engine.sources) CHECK(source.find('.') != std::string_view::npos);
   }
   CHECK(find_engine("havok") == nullptr);
+  CHECK(unknown_engine().name.empty());
   for (const EngineAlias& alias : engine_aliases()) {
     INFO(alias.name);
     CHECK(names.insert(alias.name).second);
@@ -126,6 +136,9 @@ TEST_CASE("what is published as the radius or diameter of a patch is too much by
   };
   CHECK(times("mujoco", 3) == Approx(2 / (0.2 * 3 * std::numbers::pi / 16)));  // 17
   CHECK(times("physx", 1) == Approx(16 / (3 * std::numbers::pi)));             // 1.7
+  // Gazebo multiplies the patch radius by Hertz's Psi(0) itself.
+  CHECK(find_engine("gazebo")->ball.parameters.back().value(contact) == Approx(contact.patch_radius).epsilon(1e-14));
+  CHECK(times("gazebo", 1) == Approx(1 / 0.2));
   // The spin deceleration in pooltool is (5/2) u_sp g/R = 10.9 rad/s^2 instead of the intended 10.
   CHECK(times("pooltool", 1) == Approx(2.5 * (10 * 2.0 / 5 / 9) * 9.80665 / 10));
   // LAMMPS: the moment of marshall does not depend on the slip. Its remarks say 13 %, 3 times and 10 times.
@@ -136,4 +149,22 @@ TEST_CASE("what is published as the radius or diameter of a patch is too much by
   CHECK(marshall_over_law(0) == Approx(1.13).epsilon(0.002));
   CHECK(marshall_over_law(1) == Approx(3).epsilon(0.01));
   CHECK(marshall_over_law(3) == Approx(10).epsilon(0.01));
+}
+
+TEST_CASE("a parameter of an engine acts on the force, the moment or both, as in its source", "[table]") {
+  const auto acts = [](const EngineUse& use, std::string_view name) {
+    const auto found = std::ranges::find(use.parameters, name, &EngineParameter::name);
+    REQUIRE(found != use.parameters.end());
+    return std::pair{found->acts_on_force(), found->acts_on_moment()};
+  };
+  const std::pair force{true, false}, moment{false, true}, both{true, true};
+  CHECK(acts(find_engine("mujoco")->ball, "friction[0]") == force);
+  CHECK(acts(find_engine("mujoco")->ball, "friction[1]") == moment);
+  CHECK(acts(find_engine("physx")->ball, "dynamicFriction") == both);
+  CHECK(acts(find_engine("bullet")->ball, "setFriction of the ball") == force);
+  CHECK(acts(find_engine("bullet")->ball, "setFriction of the plane") == both);
+  CHECK(acts(find_engine("gazebo")->ball, "torsional coefficient") == moment);
+  CHECK(acts(find_engine("box2d")->face, "maxForce") == force);
+  CHECK(acts(find_engine("box2d")->face, "maxTorque") == moment);
+  CHECK(acts(find_engine("jolt")->face, "mFriction") == both);
 }

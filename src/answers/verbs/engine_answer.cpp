@@ -1,11 +1,15 @@
 #include "answers/verbs/engine_answer.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
 #include "answers/table/text_table.hpp"
 
@@ -29,6 +33,7 @@ struct EngineWithBall {
   const si::EngineUse* use;
   si::EngineContact contact;
   std::vector<Contact> settings;
+  std::vector<TypedValue> typed;  ///< if there are any, the last setting has these values
 };
 
 struct Report {
@@ -39,22 +44,45 @@ struct Report {
   std::vector<EngineWithBall> engines;
 };
 
-EngineWithBall with_ball(const Engine& engine, const si::Experiment& experiment, const si::EngineContact& contact) {
+/// @param friction_share  friction in the engine divided by the intended f
+Contact contact_under(std::string label, si::Cone cone, double arm, double friction_share,
+                      const si::Experiment& experiment) {
+  si::Experiment there = experiment;
+  there.contact.friction *= friction_share;
+  return {std::move(label), std::string(arm > 0 ? si::name(cone) : "none"), arm, si::fade_times(there, cone, arm)};
+}
+
+EngineWithBall with_ball(const Engine& engine, const si::Experiment& experiment, const si::EngineContact& contact,
+                         const std::vector<TypedValue>& typed) {
   const si::EngineUse& use = engine.use_of(experiment.ball.body);
-  EngineWithBall result{&engine, &use, contact, {}};
+  EngineWithBall result{&engine, &use, contact, {}, typed};
   for (const auto& [words, cone, moment_arm, friction_share] : use.settings) {
-    const double arm = moment_arm(contact);
-    si::Experiment there = experiment;
-    there.contact.friction *= friction_share;
+    result.settings.push_back(contact_under(std::string(words), cone, moment_arm(contact), friction_share, experiment));
+  }
+  if (!typed.empty()) {
+    const si::EngineSetting& nearest = use.settings.front();
+    double arm = nearest.moment_arm(contact), friction_share = nearest.friction_share;
+    std::vector<std::string> labels;
+    for (const auto& [parameter, value] : typed) {
+      const double times = value / parameter->value(contact);
+      if (parameter->acts_on_force()) friction_share *= times;
+      if (parameter->acts_on_moment()) arm *= times;
+      labels.push_back(fmt::format("{} = {:.6g}", parameter->name, value));
+    }
     result.settings.push_back(
-        {std::string(words), std::string(arm > 0 ? si::name(cone) : "none"), arm, si::fade_times(there, cone, arm)});
+        contact_under(fmt::format("{}", fmt::join(labels, ", ")), nearest.cone, arm, friction_share, experiment));
   }
   return result;
 }
 
-/// Returns the load in N.
-double load_of(const si::Experiment& experiment) {
-  return experiment.environment.load.value_or(experiment.ball.mass * experiment.environment.gravity);
+/// Returns the letters and digits of a name, in lower case.
+std::string plain(std::string_view name) {
+  std::string letters;
+  for (const char letter : name) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (std::isalnum(byte) != 0) letters += static_cast<char>(std::tolower(byte));
+  }
+  return letters;
 }
 
 /// Returns a text on one line.
@@ -71,7 +99,8 @@ Json list_of_texts(const std::vector<std::string_view>& texts) {
 }
 
 constexpr Field<Contact> setting_fields[]{
-    {"setting", "", "setting of the engine in words; the setting nearest to the law comes first",
+    {"setting", "",
+     "setting of the engine in words; the setting nearest to the law comes first, the values of --set last",
      [](const Contact& of) -> Json { return of.label; }},
     {"cone", "",
      "rule that limits force F and moment M, with F0 and M0 the limits of each alone: elliptic (F/F0)^2 + (M/M0)^2 <= 1, box "
@@ -90,7 +119,7 @@ constexpr Field<Contact> setting_fields[]{
 };
 
 constexpr Field<EngineWithBall> name_fields[]{
-    {"name", "", "name of the engine, as in the argument NAME",
+    {"name", "", "name of the engine, as in the argument NAME; empty for an engine that is not known",
      [](const EngineWithBall& of) -> Json { return of.engine->name; }, "engine"},
 };
 constexpr Field<EngineWithBall> moment_fields[]{
@@ -110,7 +139,7 @@ constexpr Field<EngineWithBall> text_fields[]{
     {"parameters", "", "parameters to type into the engine; the last one sets the moment of friction",
      [](const EngineWithBall& of) {
        Json parameters = Json::object();
-       for (const auto& [name, unit, value] : of.use->parameters) {
+       for (const auto& [name, unit, value, acts_on] : of.use->parameters) {
          parameters[std::string(name)] = {{"value", value(of.contact)}, {"unit", unit}, {"formula", value.formula()}};
        }
        return parameters;
@@ -124,7 +153,7 @@ constexpr Field<EngineWithBall> text_fields[]{
      [](const EngineWithBall& of) { return list_of_texts(of.use->needs); }, ""},
     {"settings", "",
      "list of settings of the engine, each with setting, cone, moment_arm, t_slip, t_spin, slip_length, turns; one row "
-     "of CSV each. Empty if the engine does not support a flat body",
+     "of CSV each. Empty if the engine does not support this kind of body",
      [](const EngineWithBall& of) {
        Json settings = Json::array();
        for (const Contact& setting : of.settings) settings.push_back(members_of(setting_fields, setting));
@@ -150,7 +179,7 @@ constexpr Field<Report> report_fields[]{
      [](const Report& r) -> Json { return r.experiment.ball.body.name; }, ""},
     {"radius", "m", "radius of the ball", [](const Report& r) -> Json { return r.contact.radius; }, ""},
     {"mass", "kg", "mass of the ball", [](const Report& r) -> Json { return r.experiment.ball.mass; }, ""},
-    {"load", "N", "normal force on the plane", [](const Report& r) -> Json { return load_of(r.experiment); }, ""},
+    {"load", "N", "normal force on the plane", [](const Report& r) -> Json { return r.contact.load; }, ""},
     {"friction", "", "coefficient of friction f", [](const Report& r) -> Json { return r.contact.friction; }, ""},
     {"patch_radius", "m", "patch radius a", [](const Report& r) -> Json { return r.contact.patch_radius; }, ""},
     {"pivoting_moment", "",
@@ -185,7 +214,10 @@ constexpr const char* explanation =
     "             knew of the other; pyramid F/F0 + M/M0 <= 1, where either slip or spin is braked; points: friction\n"
     "             at each of a few contact points, averaged over a turn\n";
 
-constexpr const char* not_read = "has no body that lies flat, or was not read for it";
+const char* not_read(const Report& report) {
+  return report.experiment.ball.body.lies_flat() ? "has no body that lies flat, or was not read for it"
+                                                 : "has only bodies that lie flat";
+}
 
 std::string heading(const Report& report, const Digits& digits) {
   const auto& [experiment, law, contact, own, engines] = report;
@@ -193,13 +225,13 @@ std::string heading(const Report& report, const Digits& digits) {
       "{}: radius {} m, mass {} kg, load {} N, friction f = {}, patch radius a = {} m\n"
       "start: slip {} m/s, spin {} rad/s\n"
       "spinning without sliding, law {}: moment = f a Psi(0) load, Psi(0) = {}, f a Psi(0) = {} m\n",
-      experiment.ball.name, digits(contact.radius), digits(experiment.ball.mass), digits(load_of(experiment)),
+      experiment.ball.name, digits(contact.radius), digits(experiment.ball.mass), digits(contact.load),
       digits(contact.friction), digits(contact.patch_radius), digits(si::slip_at_start(experiment)),
       digits(si::spin_at_start(experiment)), law.name(), digits(contact.pivoting_moment), digits(own.moment_arm));
 }
 
 std::string typed_in(const si::EngineParameter& parameter, const si::EngineContact& contact, const Digits& digits) {
-  const auto& [name, unit, value] = parameter;
+  const auto& [name, unit, value, acts_on] = parameter;
   return fmt::format("{} = {}{}{}", name, digits(value(contact)), unit.empty() ? "" : " ", unit);
 }
 
@@ -212,9 +244,9 @@ std::string text_of_all(const Report& report, const Digits& digits) {
   };
   table.add({"engine", "type in", "cone", "slip (s)", "spin (s)", "slid (m)", "turns"});
   add(fmt::format("the {}", report.experiment.ball.body.name), report.own.label, report.own);
-  for (const auto& [engine, use, contact, settings] : report.engines) {
+  for (const auto& [engine, use, contact, settings, typed] : report.engines) {
     if (settings.empty()) {
-      table.add({std::string(engine->name), not_read});
+      table.add({std::string(engine->name), not_read(report)});
     } else {
       const auto& all = use->parameters;
       add(engine->name, all.empty() ? "-" : typed_in(all.back(), contact, digits), settings.front());
@@ -236,15 +268,49 @@ std::string block(std::string label, const std::vector<std::string>& texts) {
   return table.text();
 }
 
+/// Returns sentences that compare the typed values with the right ones; empty if none was typed.
+std::string text_of_typed(const EngineWithBall& of, const Report& report, const Digits& digits) {
+  if (of.typed.empty()) return "";
+  std::vector<std::string> values;
+  for (const auto& [parameter, value] : of.typed) {
+    values.push_back(fmt::format("{} = {} instead of {}{}{}", parameter->name, digits(value),
+                                 digits(parameter->value(of.contact)), parameter->unit.empty() ? "" : " ",
+                                 parameter->unit));
+  }
+  const Contact& right = of.settings.front();
+  const Contact& typed = of.settings.back();
+  return fmt::format(
+      "\n{}:\nthe moment is {} times that of the law; the slip ends after {} s instead of {} s;\n"
+      "the spin ends after {} s instead of {} s, and {} turns instead of {}\n",
+      fmt::join(values, ", "), digits(typed.moment_arm / report.own.moment_arm), digits(typed.fade.slip),
+      digits(right.fade.slip), digits(typed.fade.spin), digits(right.fade.spin), digits(typed.fade.turns),
+      digits(right.fade.turns));
+}
+
+/// Returns the names of the known engines, in lines.
+std::vector<std::string> known_engines() {
+  std::vector<std::string> lines{""};
+  const auto add = [&lines](std::string_view name) {
+    if (lines.back().size() + name.size() > 95) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : ", ") + std::string(name);
+  };
+  for (const Engine& engine : si::engines()) add(engine.name);
+  for (const si::EngineAlias& alias : si::engine_aliases()) add(alias.name);
+  return lines;
+}
+
 std::string text_of(const EngineWithBall& of, const Report& report, const Digits& digits) {
   const Engine& engine = *of.engine;
   const Contact& own = report.own;
-  std::string text = fmt::format("\n{}: github.com/{}, {}\n\n", engine.title, engine.repository, engine.version);
+  const bool known = &engine != &si::unknown_engine();
+  std::string text = known ? fmt::format("\n{}: github.com/{}, {}\n", engine.title, engine.repository, engine.version)
+                           : "\nThis engine is not known. Any engine needs:\n";
+  text += text_of_typed(of, report, digits) + "\n";
   std::vector<std::string> lines;
   for (const si::EngineParameter& parameter : of.use->parameters) {
     lines.push_back(fmt::format("{}   ({})", typed_in(parameter, of.contact, digits), parameter.value.formula()));
   }
-  if (lines.empty()) lines.emplace_back(of.settings.empty() ? not_read : "nothing: it has no such number");
+  if (lines.empty()) lines.emplace_back(of.settings.empty() ? not_read(report) : "nothing: it has no such number");
   text += block("type in", lines);
   if (!of.use->limit.empty()) text += block("limit", {std::string(of.use->limit)});
   text += block("combines", {std::string(engine.combination)}) +
@@ -263,20 +329,52 @@ std::string text_of(const EngineWithBall& of, const Report& report, const Digits
   ball.label = fmt::format("the {}, {}", report.experiment.ball.body.name, own.label);
   add(ball);
   for (const Contact& setting : of.settings) add(setting);
-  return fmt::format("{}\n{}\n{}times        this moment over that of the law\n\n{}{}", text, table.text(), explanation,
-                     block("beware", {engine.remarks.begin(), engine.remarks.end()}),
-                     block("source", {engine.sources.begin(), engine.sources.end()}));
+  return fmt::format(
+      "{}\n{}\n{}times        this moment over that of the law\n\n{}{}", text, table.text(), explanation,
+      block("beware", {engine.remarks.begin(), engine.remarks.end()}),
+      known ? block("source", {engine.sources.begin(), engine.sources.end()}) : block("known", known_engines()));
 }
 
 }  // namespace
 
-Answer engine_answer(const si::Experiment& experiment, const reduction::Law& law, const Engine* only) {
+TypedValue parse_typed_value(const std::string& typed, const si::EngineUse& use) {
+  const std::size_t equals = typed.rfind('=');
+  if (equals == std::string::npos) throw BadInput("NAME=VALUE is needed, such as spinningFriction=1.0");
+  const std::string name = plain(typed.substr(0, equals));
+  std::vector<const si::EngineParameter*> found;
+  std::vector<std::string> names;
+  for (const si::EngineParameter& parameter : use.parameters) {
+    names.emplace_back(parameter.name);
+    if (!name.empty() && plain(parameter.name).find(name) != std::string::npos) found.push_back(&parameter);
+  }
+  if (names.empty()) throw BadInput("the engine has no such number for this body");
+  const auto exact = std::ranges::find_if(
+      found, [&name](const si::EngineParameter* parameter) { return plain(parameter->name) == name; });
+  if (exact != found.end()) found = {*exact};
+  if (found.size() != 1) {
+    throw BadInput("{} of the engine's parameters is called so; parameters: {}",
+                   found.empty() ? "none" : "more than one", fmt::join(names, ", "));
+  }
+  const si::EngineParameter& parameter = *found.front();
+  const double value = parse_number(typed.substr(equals + 1));
+  const bool allowed = parameter.acts_on_force() ? value > 0 : value >= 0;
+  if (!allowed || !std::isfinite(value)) {
+    throw BadInput("{} must be {} and finite{}{}", parameter.name, parameter.acts_on_force() ? "above 0" : "0 or more",
+                   parameter.unit.empty() ? "" : ", in ", parameter.unit);
+  }
+  return {&parameter, value};
+}
+
+Answer engine_answer(const si::Experiment& experiment, const reduction::Law& law, const Engine* only,
+                     const std::vector<TypedValue>& typed) {
   si::mass_for("engine", experiment.ball);
   const si::EngineContact contact = si::contact_of(experiment, law);
   Report report{
       experiment, law, contact, {"law " + law.name(), "", contact.moment_arm(), si::fade_times(experiment, law)}, {}};
-  for (const Engine& engine : si::engines()) {
-    if (only == nullptr || &engine == only) report.engines.push_back(with_ball(engine, experiment, contact));
+  if (only != nullptr) {
+    report.engines.push_back(with_ball(*only, experiment, contact, typed));
+  } else {
+    for (const Engine& engine : si::engines()) report.engines.push_back(with_ball(engine, experiment, contact, {}));
   }
   Answer answer{.members = members_of(report_fields, report)};
   for (const EngineWithBall& engine : report.engines) {

@@ -1,6 +1,7 @@
 #include "contensou/si/engine.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,9 @@ namespace {
 constexpr EngineNumber f_alone{1, true}, f_a_psi{1, true, true, true}, a_psi{1, false, true, true}, nothing{0},
     pure_one{}, f_a{1, true, true}, two_a{2, false, true}, f_a_psi_by_R{1, true, true, true, -1},
     f_a_psi_by_R2{1, true, true, true, -2};
+/// 16/(3 pi) a Psi(0): the patch radius for an engine that multiplies by Hertz's Psi(0) = 3 pi/16 itself.
+constexpr EngineNumber hertz_radius{16 / (3 * std::numbers::pi), false, true, true};
+constexpr EngineNumber f_load{1, true, false, false, 0, true}, f_a_psi_load{1, true, true, true, 0, true};
 constexpr EngineNumber five_millimetres{0.005};  ///< default of MuJoCo, and of engines that copy it
 
 /// Returns the use of an engine whose contact points lie on the rim of a cylinder. The distance of the points from the
@@ -23,7 +27,7 @@ EngineUse face_on_rim(std::string_view name, Cone cone, std::vector<std::string_
   needs.insert(needs.begin(), "the body's own mass and inertia: those of a smaller shape are smaller");
   settings.insert(settings.begin(),
                   {{"shape of radius a Psi(0)", cone, f_a_psi}, {"shape of its own radius", cone, f_a}});
-  return {{{name, "", f_alone}, {"radius of the shape", "m", a_psi}},
+  return {{{name, "", f_alone, ActsOn::both}, {"radius of the shape", "m", a_psi}},
           cone == Cone::box ? "M <= f sum(distance of a contact point to their middle, times its load)"
                             : "at each contact point: friction <= f times its load",
           std::move(needs),
@@ -39,12 +43,13 @@ double EngineNumber::operator()(const EngineContact& contact) const {
   if (psi) product *= contact.pivoting_moment;
   for (int i = 0; i < radius; ++i) product *= contact.radius;
   for (int i = radius; i < 0; ++i) product /= contact.radius;
-  return product;
+  return load ? product * contact.load : product;
 }
 
 std::string EngineNumber::formula() const {
-  std::string text = factor == 1 ? "" : fmt::format("{}", factor);
-  for (const auto& [power, name] : {std::pair{f, "f"}, std::pair{a, "a"}, std::pair{psi, "Psi(0)"}}) {
+  std::string text = factor == 1 ? "" : fmt::format("{:.6g}", factor);
+  for (const auto& [power, name] :
+       {std::pair{f, "f"}, std::pair{a, "a"}, std::pair{psi, "Psi(0)"}, std::pair{load, "N"}}) {
     if (power) text += (text.empty() ? "" : " ") + std::string(name);
   }
   return text.empty() ? "1" : text + (radius == -2 ? "/R^2" : radius == -1 ? "/R" : "");
@@ -54,7 +59,16 @@ EngineContact contact_of(const Experiment& experiment, const reduction::Law& law
   return {.friction = experiment.contact.friction,
           .patch_radius = patch_radius_of(experiment, law),
           .pivoting_moment = law.pivoting_moment(),
-          .radius = experiment.ball.radius};
+          .radius = experiment.ball.radius,
+          .load = experiment.environment.load.value_or(experiment.ball.mass * experiment.environment.gravity)};
+}
+
+bool EngineParameter::acts_on_force() const {
+  return acts_on == ActsOn::both || (acts_on == ActsOn::by_value && !value.a);
+}
+
+bool EngineParameter::acts_on_moment() const {
+  return acts_on == ActsOn::both || acts_on == ActsOn::moment || (acts_on == ActsOn::by_value && value.a);
 }
 
 const std::vector<Engine>& engines() {
@@ -150,7 +164,7 @@ const std::vector<Engine>& engines() {
        "PhysX",
        "NVIDIA-Omniverse/PhysX",
        "5.6.1 (commit a3d8a64)",
-       {{{"dynamicFriction", "", f_alone}, {"minTorsionalPatchRadius", "m", a_psi}},
+       {{{"dynamicFriction", "", f_alone, ActsOn::both}, {"minTorsionalPatchRadius", "m", a_psi}},
         "M <= f N max(minTorsionalPatchRadius, sqrt(penetration torsionalPatchRadius))",
         {"solverType eTGS: under ePGS, the default, the numbers are ignored",
          "a contact with a single anchor point, as a ball has"},
@@ -176,7 +190,7 @@ const std::vector<Engine>& engines() {
        "bulletphysics/bullet3",
        "commit 6c888f4 (after 3.25)",
        {{{"setFriction of the ball", "", f_alone},
-         {"setFriction of the plane", "", pure_one},
+         {"setFriction of the plane", "", pure_one, ActsOn::both},
          {"setSpinningFriction of the ball", "m", f_a_psi}},
         "M <= s N with s = sA fB + sB fA; and the impulse of M is at most the number s in each step",
         {"setRollingFriction above 0, however small: without it spinning friction is ignored"},
@@ -281,12 +295,105 @@ const std::vector<Engine>& engines() {
         "their middle times load, each for itself. There are four at most; a cylinder is a hull of flat sides."},
        {"src/contact_solver.c:491-525", "src/contact_solver.c:235-239", "src/contact.c:651-690",
         "include/box3d/types.h:406-408", "src/physics_world.c:154-158", "include/box3d/constants.h:107"}},
+      {"ode",
+       "ODE",
+       "odedevs/ode",
+       "commit 624b1c1 (after 0.16.6)",
+       {{{"mu = mu2", "", f_alone}, {"rhoN", "m", f_a_psi}},
+        "M <= rhoN N",
+        {"surface.mode: dContactRolling, dContactAxisDep and dContactApprox1: without the last the limits\n"
+         "are mu in N and rhoN in N m, whatever the load",
+         "rho = rho2 = 0: they brake the rolling"},
+        {{"dContactRolling, dContactAxisDep", box, f_a_psi}, {"no dContactRolling (default)", box, nothing}}},
+       face_on_rim("mu", points, {"no dContactRolling: each contact point would have a moment of its own"}),
+       "none: the program that uses it fills dSurfaceParameters for each contact",
+       {"dContactAxisDep is dContactMu2 under another name: with it mu2 counts, too, and must be set.",
+        "Without dContactAxisDep rho takes the place of rho2 and rhoN: it brakes the rolling as well.",
+        "Friction is limited by mu N along each of two axes: for a slip between them it is up to 1.41 times as\n"
+        "large. Shown for a slip along an axis.",
+        "A cylinder on a plane has four contact points on the rim, 90 degrees apart, which stay where they are in\n"
+        "the world while it turns."},
+       {"ode/src/joints/contact.cpp:73-116", "ode/src/joints/contact.cpp:254-293", "ode/src/joints/contact.cpp:300-344",
+        "include/ode/contact.h:34-73", "ode/src/lcp.cpp:933-949", "ode/src/quickstep.cpp:3017-3023",
+        "ode/src/collision_cylinder_plane.cpp:121-213"}},
+      {"gazebo",
+       "Gazebo classic (with ODE)",
+       "gazebosim/gazebo-classic",
+       "commits be2dc76 (contact), 73be891 (collision), b48a8d4 (solver), 49811db (cylinder)",
+       {{{"mu = mu2", "", f_alone},
+         {"torsional coefficient", "", f_alone, ActsOn::moment},
+         {"patch_radius", "m", hertz_radius}},
+        "M <= (3 pi/16) coefficient patch_radius N",
+        {"<surface><friction><torsional>: coefficient, patch_radius and use_patch_radius true",
+         "the physics engine ode"},
+        {{"patch_radius", box, f_a_psi},
+         {"patch_radius a, coefficient 1 (default)", box, EngineNumber{3 * std::numbers::pi / 16, false, true}},
+         {"patch_radius 0 (default)", box, nothing}}},
+       face_on_rim("mu = mu2", points,
+                   {"patch_radius 0, the default: each contact point would have a moment of its own"}),
+       "mu, mu2 and coefficient the smaller of the two surfaces, patch_radius the larger: set both;\n"
+       "use_patch_radius must be true on both",
+       {"3 pi/16 is Psi(0) of Hertz's pressure: for it patch_radius is the radius of the patch itself.",
+        "The tutorial writes mu3 inside <ode> and takes use_patch_radius true for surface_radius. The source\n"
+        "reads <torsional><coefficient>, and use_patch_radius true takes patch_radius.",
+        "With use_patch_radius false the radius is sqrt(surface_radius depth), with the depth of the simulated\n"
+        "contact.",
+        "Friction is limited by mu N along each of two axes, unless friction_model is cone: for a slip between\n"
+        "them it is up to 1.41 times as large. Shown for a slip along an axis.",
+        "Gazebo Sim (gz-sim), its successor, was not read."},
+       {"deps/opende/src/joints/contact.cpp (dxJointContact::getInfo2)",
+        "gazebo/physics/ode/ODEPhysics.cc (ODEPhysics::Collide)",
+        "gazebo/physics/ode/ODESurfaceParams.cc (ODESurfaceParams::Load)",
+        "deps/opende/src/quickstep_pgs_lcp.cpp (ComputeRows)",
+        "deps/opende/src/collision_cylinder_plane.cpp (dCollideCylinderPlane)",
+        "gazebosim/sdformat 8e777e0, sdf/1.7/surface.sdf (torsional)",
+        "osrf/gazebo_tutorials 192b21b, torsional_friction/tutorial.md"}},
+      {"webots",
+       "Webots",
+       "cyberbotics/webots",
+       "commits eee8e09 (contacts), 8364fc9 (its copy of ODE), 0207bfd (manual)",
+       {{{"coulombFriction", "", f_alone}, {"rollingFriction rhoN", "m", f_a_psi}},
+        "M <= rhoN N, with rhoN the third number of rollingFriction",
+        {"a ContactProperties node for the two contactMaterials: without one friction is 1, without a moment",
+         "rollingFriction 0 0 rhoN: the first two numbers brake the rolling"},
+        {{"rollingFriction 0 0 rhoN", box, f_a_psi}, {"rollingFriction 0 0 0 (default)", box, nothing}}},
+       face_on_rim("coulombFriction", points,
+                   {"rollingFriction 0 0 0, the default: each contact point would have a moment of its own"}),
+       "none: ContactProperties belong to a pair of materials",
+       {"Before pull request 6618 (August 2024) rhoN > 0 left the friction along the second axis undefined.",
+        "-1 stands for infinity.",
+        "Friction is limited by f N along each of two axes: for a slip between them it is up to 1.41 times as\n"
+        "large. Shown for a slip along an axis.",
+        "A cylinder on a plane has four contact points on the rim, 90 degrees apart, which turn with it."},
+       {"src/webots/engine/WbSimulationCluster.cpp (fillSurfaceParameters)",
+        "src/ode/ode/src/joints/contact.cpp (dxJointContact::getInfo2)",
+        "src/ode/ode/src/collision_cylinder_plane.cpp (_cldInitCylinderPlane)",
+        "docs/reference/contactproperties.md (rollingFriction)", "github.com/cyberbotics/webots/pull/6618"}},
+      {"box2d",
+       "Box2D",
+       "erincatto/box2d",
+       "2.4.2 (commit 411acc3) and 3.2.0 (commit 617d32a)",
+       {{}, "none: it is plane, and no ball rolls in it", {}, {}},
+       {{{"maxForce", "N", f_load}, {"maxTorque", "N m", f_a_psi_load}},
+        "F <= maxForce and M <= maxTorque, whatever the load",
+        {"a world without gravity that is seen from above",
+         "2.4: a b2FrictionJoint to the ground, anchored at the body's centre of mass",
+         "3.2: a b2MotorJoint to the ground with velocities 0: maxVelocityForce, maxVelocityTorque"},
+        {{"maxForce and maxTorque", box, f_a_psi},
+         {"maxTorque = maxForce a", box, f_a},
+         {"maxTorque 0 (default)", box, nothing}}},
+       "none: the joint belongs to a pair of bodies",
+       {"For a disc under uniform pressure maxTorque is (2/3) f m g R.",
+        "The force is clamped as a vector, the torque by itself: slip and spin do not affect each other.",
+        "Version 3 has no b2FrictionJoint: its b2MotorJoint contains it."},
+       {"src/dynamics/b2_friction_joint.cpp:147-182 (2.4.2)", "include/box2d/b2_friction_joint.h:37-55 (2.4.2)",
+        "src/motor_joint.c:332-423 (3.2.0)", "include/box2d/types.h:707-725 (3.2.0)", "docs/migration.md:210 (3.2.0)"}},
       {"bepu",
        "bepuphysics2",
        "bepu/bepuphysics2",
        "2.5.0-beta.28 (commit 956a679)",
        {{}, "M <= FrictionCoefficient penetration N", {}, {{"one contact point, no penetration", box, nothing}}},
-       {{{"FrictionCoefficient", "", EngineNumber{4, true}}, {"radius of the shape", "m", a_psi}},
+       {{{"FrictionCoefficient", "", EngineNumber{4, true}, ActsOn::both}, {"radius of the shape", "m", a_psi}},
         "n points: M <= (FrictionCoefficient/n) sum(distance to their middle, times the load of each)",
         {"the body's own mass and inertia: those of a smaller shape are smaller"},
         {{"shape of radius a Psi(0)", box, f_a_psi},
@@ -365,6 +472,38 @@ const std::vector<Engine>& engines() {
         "src/GRANULAR/gran_sub_mod_twisting.cpp (GranSubModTwistingMarshall::init)",
         "doc/src/pair_granular.rst (twisting, mixing)"}}};
   return table;
+}
+
+const Engine& unknown_engine() {
+  using enum Cone;
+  static const Engine engine{
+      "",
+      "any engine",
+      "",
+      "",
+      {{{"limit of the force/load", "", f_alone}, {"limit of the moment/load", "m", f_a_psi}},
+       "F <= f N, M <= f a Psi(0) N, and one rule for both",
+       {"friction proportional to the load N of the contact",
+        "a moment about the normal of the contact: without it a ball spins for ever",
+        "one rule for both limits: with the elliptic rule slip and spin end together, as under the law"},
+       {{"(F/F0)^2 + (M/M0)^2 <= 1", elliptic, f_a_psi},
+        {"F <= F0 and M <= M0", box, f_a_psi},
+        {"F/F0 + M/M0 <= 1", pyramid, f_a_psi},
+        {"no moment", box, nothing}}},
+      {{{"limit of the force/load", "", f_alone}, {"limit of the moment/load", "m", f_a_psi}},
+       "F <= f N, M <= f a Psi(0) N, and one rule for both",
+       {"friction proportional to the load N of the contact",
+        "either a moment of one contact, or contact points at a Psi(0) from their middle, not both"},
+       {{"(F/F0)^2 + (M/M0)^2 <= 1", elliptic, f_a_psi},
+        {"F <= F0 and M <= M0", box, f_a_psi},
+        {"F/F0 + M/M0 <= 1", pyramid, f_a_psi},
+        {"contact points at a Psi(0)", points, f_a_psi},
+        {"one contact point without a moment", box, nothing}}},
+      "see how it makes one number of the numbers of two bodies: smaller, larger, product or mean",
+      {"If its number for the moment is a pure number, ask by which length it is multiplied: divide by that.",
+       "contensou/wrench_kernel.h has the force and the moment of the law itself, in one header for any engine."},
+      {}};
+  return engine;
 }
 
 const std::vector<EngineAlias>& engine_aliases() {

@@ -14,6 +14,7 @@ struct EngineContact {
   double patch_radius;     ///< a, m
   double pivoting_moment;  ///< Psi(0) of the law
   double radius;           ///< R, m
+  double load;             ///< N, in N
 
   /// Returns f a Psi(0) in m: the moment of spinning without sliding divided by the load.
   double moment_arm() const { return friction * patch_radius * pivoting_moment; }
@@ -23,11 +24,13 @@ struct EngineContact {
 /// @throws std::domain_error  as patch_radius_of
 EngineContact contact_of(const Experiment& experiment, const reduction::Law& law);
 
-/// A number of an engine in SI units: factor times f, a and Psi(0), each only if its flag is true, times a power of R.
+/// A number of an engine in SI units: factor times f, a, Psi(0) and the load N, each only if its flag is true, times a
+/// power of R.
 struct EngineNumber {
   double factor = 1;
   bool f = false, a = false, psi = false;
   int radius = 0;  ///< power of R, -2 to 2
+  bool load = false;
 
   double operator()(const EngineContact& contact) const;
 
@@ -35,11 +38,19 @@ struct EngineNumber {
   std::string formula() const;
 };
 
+/// The limit to which a parameter of an engine is proportional; by_value: the moment if its value contains a, else the
+/// force.
+enum class ActsOn { by_value, moment, both };
+
 /// A number that a user types into an engine.
 struct EngineParameter {
   std::string_view name;  ///< name of the number in the engine
   std::string_view unit;  ///< SI unit; empty for a pure number
   EngineNumber value;
+  ActsOn acts_on = ActsOn::by_value;
+
+  bool acts_on_force() const;
+  bool acts_on_moment() const;
 };
 
 /// One way to set up an engine, and the resulting limit of its contact.
@@ -83,6 +94,9 @@ struct EngineAlias {
 
 /// Returns the known engines.
 const std::vector<Engine>& engines();
+
+/// Returns what any engine needs: the limits of force and moment, and the rules for both. Its name is empty.
+const Engine& unknown_engine();
 
 /// Returns the known programs that use one of the engines.
 const std::vector<EngineAlias>& engine_aliases();
