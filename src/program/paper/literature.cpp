@@ -84,6 +84,47 @@ double height_of_rolling() {
   return high * centre / (centre - slip_over_speed(high));
 }
 
+/// Returns the moment of a contact that only turns, divided by f N a. It is summed over rings of the patch with Hertz's
+/// pressure, in the angle t with rho = sin t. In this angle the trapezoidal rule is exact.
+double moment_of_hertz() {
+  constexpr int rings = 64;
+  constexpr double step = std::numbers::pi / 2 / rings;
+  double sum = 0;
+  for (int i = 1; i < rings; ++i) {
+    const double rho = std::sin(i * step), pressure = 1.5 * std::cos(i * step);  // pi a^2 p/N
+    sum += 2 * rho * pressure * rho * std::cos(i * step) * step;
+  }
+  return sum;
+}
+
+/// Returns the angle in degrees between the paths of a rolling cue ball before it hits a ball at rest of the same mass
+/// and after it rolls again. The hit is elastic and without friction.
+/// @param cut  angle between the first path and the line of the centres, in degrees, 0 < cut < 90
+double deflection(double cut) {
+  si::Experiment ball = si::find_ball("pool")->experiment;
+  const double speed = 1, angle = cut * std::numbers::pi / 180;
+  const double kept = speed * std::sin(angle);  // along the tangent of the two balls; the spin is that of the rolling
+  ball.start = si::Velocities{.velocity = {kept * std::sin(angle), kept * std::cos(angle)},
+                              .angular_velocity = {0, speed / ball.ball.radius, 0}};
+  const si::Motion motion = si::Motion::reduced(ball, law_named("exact"));
+  const auto velocity = motion.at(motion.stop_time()).velocity;
+  return std::atan2(velocity.y(), velocity.x()) * 180 / std::numbers::pi;
+}
+
+/// Returns the largest deflection, by a search over the cut angle in thirds.
+double largest_deflection() {
+  double low = 15, high = 45;
+  for (int i = 0; i < 60; ++i) {
+    const double left = low + (high - low) / 3, right = high - (high - low) / 3;
+    if (deflection(left) < deflection(right)) {
+      low = left;
+    } else {
+      high = right;
+    }
+  }
+  return deflection((low + high) / 2);
+}
+
 /// Returns the spin deceleration of a curling stone with its typical spin, multiplied by v, in m/s^3. The stone has the
 /// friction of the program DigitalCurling.
 /// @param v  slip, m/s, > 0
@@ -110,6 +151,10 @@ std::vector<Statement> published_numbers() {
       grains{"J. S. Marshall, J. Comput. Phys. 228 (2009) 1541, as coded in LAMMPS", "github.com/lammps/lammps",
              "code"},
       coriolis{"G. Coriolis, Theorie mathematique des effets du jeu de billard (1835)", "", "as cited"},
+      gazebo{"Gazebo, tutorial on torsional friction", "github.com/osrf/gazebo_tutorials", "text"},
+      peace_sign{"D. Alciatore, The 30 degree rule, Billiards Digest (April 2004)", "billiards.colostate.edu",
+                 "first page"},
+      players{"AzBilliards, thread 107367: tan = sin C cos C/(sin^2 C + 2/5) for the cut C", "", "as cited"},
       stones{"DigitalCurling, simulator_fcv1.cpp: a fit to stones", "github.com/digitalcurling", "code"};
   const auto ray = [](const reduction::ReducedSystem& system) {
     return reduction::Flow(system).terminal().rays.front().k;
@@ -135,6 +180,12 @@ std::vector<Statement> published_numbers() {
              law_named("uniform").pivoting_moment()),
       number("moment of a contact of grains that only turns, over f N a", grains, 2. / 3, rounding,
              law_named("exact").pivoting_moment(), Verdict::not_true),
+      number("moment of a sphere's contact that only turns, over f N a", gazebo, 3 * std::numbers::pi / 16, rounding,
+             moment_of_hertz()),
+      number("largest deflection of a rolling cue ball by another ball, degrees", players,
+             std::atan(std::sqrt(2. / 7) * 5 / 4) * 180 / std::numbers::pi, rounding, largest_deflection()),
+      number("its deflection at a half-ball hit, by the 30 degree rule, degrees", peace_sign, 30, three_digits,
+             deflection(30), Verdict::not_true),
       number("time after which a ball without spin rolls, in v/(f g)", textbooks, 2. / 7, rounding,
              bowled.motion.stop_time() * bowled.friction / bowled.speed),
       number("its speed then, over v", textbooks, 5. / 7, rounding, bowled.end.velocity.norm() / bowled.speed),
