@@ -487,7 +487,9 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
   constexpr int most = 4000;
   Polyline line;
   Vector2d here = x;
-  double time = 0, step = near / speed;
+  // Beside a saddle the motion becomes faster: a longer first step could pass over a whole loop to the saddle.
+  constexpr double first = 1e-4;
+  double time = 0, step = (is_ordinary ? 1 : first) * near / speed;
   const double last = motion.period().value_or(infinity);
   // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
   constexpr int turns = 3;

@@ -389,6 +389,17 @@ TEST_CASE("separatrices have a direction, and a connection is one line", "[outpu
   }
   const PlanarPortrait loop = stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], x[0] - x[0] * x[0]); });
   CHECK(count(loop, "connection") == 1);
+  // Two loops inside two connections of other saddles. The orbits come from V.
+  const PlanarField two_loops = [](const Vector2d& x) {
+    return Vector2d(x[1], std::sin(x[0]) * (std::cos(x[0]) - 0.3));
+  };
+  const PlanarReduction solved = reduction::by_factor({two_loops}, {0.3, 0.5});
+  REQUIRE(solved.solved());
+  PortraitRequest few;
+  few.orbits = 2;
+  const PlanarPortrait loops = planar_portrait(solved, "a system", few);
+  CHECK(count(loops, "connection") == 4);
+  CHECK(count(loops, "unstable") == 2);
   const PlanarPortrait damped =
       stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], x[0] - std::pow(x[0], 3) - 0.2 * x[1]); });
   CHECK(count(damped, "connection") == 0);
