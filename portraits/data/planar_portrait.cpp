@@ -242,7 +242,7 @@ class ScaledTracer final : public PlanarTracer {
     if (!from_here) follow(line, on_orbit, course.low, here);
     line.push_back({x[0], x[1]});
     follow(line, on_orbit, here, course.high);
-    if (sector.to_ray && seen(end.second)) {
+    if ((sector.to_ray || slides_along(sector.to)) && seen(end.second)) {
       const Polyline rest = ray(sector.to, end.second, std::nullopt);
       line.insert(line.end(), rest.begin(), rest.end());
     }
@@ -250,6 +250,14 @@ class ScaledTracer final : public PlanarTracer {
   }
 
   bool seen(double p) const { return p > lowest_ && p < highest_; }
+
+  /// Returns true if motions meet a jump of the field at this angle and slide along it.
+  bool slides_along(double q) const {
+    return std::ranges::any_of(plane_.rays(), [&](const reduction::PlanarRay& ray) {
+      return std::abs(std::remainder(ray.q - q, 2 * pi)) < 1e-9 && ray.attracts && ray.order == 0 && ray.angular < 0 &&
+             std::isinf(ray.angular);
+    });
+  }
 
   /// Returns the rate of the distance from the centre on a ray, or its sign alone; negative towards the centre.
   double radial_at(double q) const {
