@@ -63,9 +63,9 @@ std::string typed_formulas() {
   for (const auto& [sign, meaning] : parts) text += help_entry(sign, meaning);
   return text + "\n" +
          help_paragraph(
-             "A motion that meets a jump of the equations, as in x'' = -x - 0.2*sign(x'), crosses the jump, slides "
-             "along it, or rests there (Filippov's definition). If the motions on both sides point away from the "
-             "jump, no motion is chosen.");
+             "Where the equations jump, as in x'' = -x - 0.2*sign(x'), Filippov's definition holds. A motion that is "
+             "led to the jump from both sides slides along it. It rests there if the sliding speed is 0. If the "
+             "motions on both sides point away from the jump, the motion is not unique, and none is chosen.");
 }
 
 std::string views() {

@@ -38,10 +38,9 @@ class ReduceCommand final : public Verb {
       std::string text = help_paragraph(
           "Kinds of equations that the answer names; behind \"orbits:\" those of dy/dx = y'/x' for a system:");
       for (const auto& [name, meaning] : equation_kinds()) text += help_entry(name, meaning);
-      text += "\n" + help_paragraph("Parts of the curves at which the equations jump, by Filippov's definition:");
-      text += help_entry("sliding", "motions from both sides meet the curve and go on along it");
-      text += help_entry("rest", "motions from both sides meet the curve and stay there");
-      text += help_entry("not unique", "motions leave to both sides, and none is chosen");
+      text += "\n" + help_paragraph(
+                         "Where the equations jump, motions cross, slide, rest, or are not unique: 'contensou help "
+                         "formulas'.");
       return text;
     });
     system_.argument().excludes({&law_.argument()}, "friction is in the formulas");
