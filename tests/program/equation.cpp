@@ -162,6 +162,25 @@ TEST_CASE("each kind of equation that is named holds by its definition", "[symme
   WARN("without an answer of SymPy: " << undecided);
 }
 
+TEST_CASE("kinds hold by their definitions for starts next to the origin and far from it, too", "[symmetry]") {
+  for (const Row& row : kamke()) {
+    const FormulaField field = row.field();
+    const auto R = [&](double x, double y) {
+      const Vector2d f = field({x, y});
+      return f[1] / f[0];
+    };
+    for (const double size : {1e-6, 1e5}) {
+      const auto equation = equation_of(field, size * row.start);
+      REQUIRE(equation);
+      for (std::string kind : kinds_of(*equation)) {
+        if (kind.starts_with(of_orbits)) kind.erase(0, of_orbits.size());
+        INFO(row.name << ": v' = (" << row.g << ")/(" << row.f << "), start times " << size << ": " << kind);
+        CHECK(holds(kind, R));
+      }
+    }
+  }
+}
+
 TEST_CASE("formulas of H are constant along orbits, and their texts read back", "[invariant]") {
   int solved = 0, separated = 0;
   for (const Row& row : kamke()) {

@@ -33,11 +33,17 @@ std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& for
   std::uniform_real_distribution<double> size(std::log(least), std::log(most));
   std::vector<Eigen::Vector2d> all;
   constexpr int tries = 1500;
+  // Next to the origin and far from it one term hides all others: half of the points are of size 1 there.
+  constexpr double usual = 30;
+  const auto is_usual = [](double value) {
+    return value == 0 || (std::abs(value) > 1 / usual && std::abs(value) < usual);
+  };
+  const bool of_two_sizes = !is_usual(start[0]) || !is_usual(start[1]);
   for (int i = 0; i < tries && all.size() < enough; ++i) {
     Eigen::Vector2d x;
     for (const Eigen::Index k : {0, 1}) {
       const bool minus = quadrant ? start[k] < 0 : random() % 2 == 0;
-      const double unit = start[k] == 0 ? 1 : std::abs(start[k]);
+      const double unit = start[k] == 0 || (of_two_sizes && i % 2 == 1) ? 1 : std::abs(start[k]);
       x[k] = (minus ? -unit : unit) * std::exp(size(random));
     }
     const auto has_value = [&](const E& e) { return std::isfinite(e({x[0], x[1]})); };
