@@ -32,8 +32,8 @@ void Argument::require_rules(const CLI::App& app) const {
     if (const std::string names = names_given(others); !names.empty())
       throw BadInput("{} and {} exclude each other: {}", name_, names, reason);
   }
-  for (const auto& [other, reason] : needs_) {
-    if (!other->given())
+  for (const auto& [other, reason, instead] : needs_) {
+    if (!other->given() && !(instead != nullptr && instead->given()))
       throw BadInput("{} {}: add {} {}", name_, reason, other->name_, other->option_->get_type_name());
   }
 }

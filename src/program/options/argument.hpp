@@ -43,7 +43,11 @@ class Argument {
   }
 
   /// Requires another argument beside this one. The message is "THIS REASON: add OTHER".
-  void needs(const Argument& other, const std::string& reason) { needs_.emplace_back(&other, reason); }
+  void needs(const Argument& other, const std::string& reason) { needs_.push_back({&other, reason, nullptr}); }
+  /// The same, unless `instead` is given. `instead` may be this argument.
+  void needs(const Argument& other, const std::string& reason, const Argument& instead) {
+    needs_.push_back({&other, reason, &instead});
+  }
 
   /// Returns true if the argument was given. Returns false also for a verb without this argument.
   bool given() const { return option_ != nullptr && option_->count() > 0; }
@@ -70,7 +74,12 @@ class Argument {
   CLI::Option* option_ = nullptr;
   std::string name_;
   std::vector<std::pair<Arguments, std::string>> exclusions_;
-  std::vector<std::pair<const Argument*, std::string>> needs_;
+  struct Need {
+    const Argument* other;
+    std::string reason;
+    const Argument* instead;  ///< may be null
+  };
+  std::vector<Need> needs_;
 };
 
 /// An option without a value.

@@ -107,8 +107,12 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
   ball_.excludes({&mu(), &drive(), &u0_, &v0_},
                  "with --ball, use --patch-radius, --spin and --slip, and for a drive --rolling-friction or --slope");
   ball_.excludes({&body_argument()},
-                 "the body is part of --ball. A disc or ring in SI units is a run file with body = \"disc\" in [ball] "
-                 "('contensou balls puck' prints one); without --ball give --mu, --u0 and --v0");
+                 takes_own_body_
+                     ? "the body is part of --ball; a body of your own has no --ball, but --radius, --mass and "
+                       "--friction"
+                     : "the body is part of --ball. A disc or ring in SI units is a run file with body = "
+                       "\"disc\" in [ball] ('contensou balls puck' prints one); without --ball give --mu, "
+                       "--u0 and --v0");
   app.option_defaults()->group(ball_group());
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const si::Quantity& quantity = *si::quantities()[i];
@@ -138,12 +142,20 @@ void StartOptions::add_ball(CLI::App& app, const std::string& help, Offer offer)
                    read);
     of_ball_.push_back(&values_[i]);
     if (quantity.section == si::slip.section) velocities_.push_back(&values_[i]);
-    if (!radius_is_ball_) values_[i].needs(ball_, "changes a ball or puck ('contensou balls' lists them)");
+    if (radius_is_ball_) continue;
+    constexpr const char* reason = "changes a ball or puck ('contensou balls' lists them)";
+    if (takes_own_body_) {
+      values_[i].needs(ball_, reason, value(si::radius));
+    } else {
+      values_[i].needs(ball_, reason);
+    }
+    if (takes_own_body_ && &quantity == &si::radius)
+      values_[i].excludes({&mu(), &drive(), &u0_, &v0_}, "a body in SI units has --patch-radius, --spin and --slip");
   }
 }
 
 GivenStart StartOptions::read(const reduction::Law& law) const {
-  if (ball_.given()) {
+  if (ball_given()) {
     const si::Experiment experiment = read_ball(law);
     try {
       (void)si::drive_of(experiment);  // throws with the reason if the motion has no reduced system
@@ -185,7 +197,7 @@ std::vector<GivenStart> StartOptions::read_several(const reduction::Law& law) co
 }
 
 reduction::ReducedSystem StartOptions::read_body(const reduction::Law& law) const {
-  if (ball_.given()) return read(law).system;
+  if (ball_given()) return read(law).system;
   return read_system(law, "--mu M, --ball NAME|FILE.toml");
 }
 
@@ -201,7 +213,16 @@ const si::Description& StartOptions::ball_of_its_own() const {
     }
     throw BadInput("--ball missing: give --ball NAME|FILE.toml, or --radius");
   }
-  if (!ball_.given()) throw BadInput("--ball missing: give --ball NAME|FILE.toml");
+  if (!ball_.given() && ball_given()) {
+    own_.emplace();
+    own_->set_body(body());
+    own_->set_name(body_argument().given() ? body_argument().text() : "ball");
+    return *own_;
+  }
+  if (!ball_.given()) {
+    throw BadInput("--ball missing: give --ball NAME|FILE.toml{}",
+                   body_argument().given() ? ", or --radius, --mass and --friction" : "");
+  }
   try {
     own_ = names_a_file(ball_.text(), {".toml"}) ? si::read_run_file(ball_.text(), find_law_or_formulas)
                                                  : si::describe(require_ball(ball_.text()).experiment);
@@ -288,15 +309,15 @@ si::Experiment StartOptions::read_rolling_ball(const reduction::Law& law, const 
                                                const si::Description& between) const {
   const si::Experiment experiment = read_ball(law, between);
   if (!experiment.ball.body.lies_flat()) return experiment;
-  ball_.reject(fmt::format("a {} lies flat and never rolls; {}", experiment.ball.body.name, way_out));
+  reject_ball(fmt::format("a {} lies flat and never rolls; {}", experiment.ball.body.name, way_out));
 }
 
 std::string StartOptions::standard_law() const {
-  return ball_.given() ? si::law_of(ball_of_its_own()) : std::string(body().law);
+  return ball_given() ? si::law_of(ball_of_its_own()) : std::string(body().law);
 }
 
 bool StartOptions::brings_law() const {
-  return (ball_.given() && !ball_of_its_own().law().empty()) || standard_law() != Body{}.law;
+  return (ball_given() && !ball_of_its_own().law().empty()) || standard_law() != Body{}.law;
 }
 
 void StartOptions::tell_new_patch(const si::Experiment& experiment, const reduction::Law& law) const {

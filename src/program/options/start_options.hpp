@@ -74,8 +74,12 @@ class StartOptions : public BodyOptions {
   /// add_ball.
   void take_radius_for_ball() { radius_is_ball_ = true; }
 
-  /// Returns true if any of these options was given, except --body.
-  bool given() const { return !names_given({&mu(), &drive(), &u0_, &v0_, &ball_}).empty(); }
+  /// Accepts a body of one's own in place of --ball: --radius and further values, with --body. This must be called
+  /// before add_ball.
+  void take_own_body() { takes_own_body_ = true; }
+
+  /// Returns true if any of these options was given, except --body alone.
+  bool given() const { return !names_given({&mu(), &drive(), &u0_, &v0_}).empty() || ball_given(); }
 
   /// Returns the arguments that one start has and a table of starts replaces: --mu, --u0, --v0, and velocities of a
   /// ball.
@@ -88,7 +92,7 @@ class StartOptions : public BodyOptions {
   double drive_along_x(si::Experiment ball) const;
 
   /// Returns true if the options give no motion: neither --u0 nor --v0 nor --ball.
-  bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_.given(); }
+  bool without_motion() const { return !u0_.given() && !v0_.given() && !ball_given(); }
 
   /// Reads the start from the options.
   /// @param law  law of the system; a patch that is given by a spin deceleration is computed under this law
@@ -101,7 +105,8 @@ class StartOptions : public BodyOptions {
   std::array<const ArgumentOf<double>*, 2> speeds() const { return {&u0_, &v0_}; }
 
   Argument& ball() { return ball_; }
-  bool ball_given() const { return ball_.given(); }
+  /// Returns true if --ball or a body of one's own was given.
+  bool ball_given() const { return ball_.given() || (takes_own_body_ && value(si::radius).given()); }
 
   /// Also allows --load to name a table of the load against time. This must be called before add_ball.
   void take_load_history() { takes_load_history_ = true; }
@@ -157,7 +162,7 @@ class StartOptions : public BodyOptions {
   Argument ball_;
   const ArgumentOf<std::vector<double>>& value(const si::Quantity& quantity) const;
 
-  bool radius_is_ball_ = false, takes_load_history_ = false;
+  bool radius_is_ball_ = false, takes_own_body_ = false, takes_load_history_ = false;
   mutable std::optional<si::LoadHistory> load_history_;  ///< empty until load_history() has read the table, once
   mutable std::optional<si::Description> own_;           ///< ball of --ball, read once, because its file may be a pipe
   std::vector<ArgumentOf<std::vector<double>>> values_{si::quantities().size()};

@@ -45,6 +45,8 @@ class AimCommand final : public Verb {
     rolls_at_.needs(rolling_speed_, "goes with --rolling-speed");
     rolling_speed_.needs(rolls_at_, "goes with --rolls-at");
     spin_.needs(rolls_at_, "goes with --rolls-at and --rolling-speed");
+    start_.take_own_body();
+    start_.add_body(app);
     start_.add_ball(app, "real body in SI units, built-in or from a run file; its start is not used",
                     StartOptions::no_start);
     law_.add(app);

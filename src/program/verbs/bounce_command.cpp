@@ -14,6 +14,8 @@ namespace {
 class BounceCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
+    start_.take_own_body();
+    start_.add_body(app);
     start_.add_ball(app, "real ball in SI units: built-in, or from a run file", [](const si::Quantity& of) {
       return &of != &si::slip && &of != &si::velocity && &of != &si::load && &of != &si::slope &&
              &of != &si::rolling_friction;
@@ -42,7 +44,8 @@ class BounceCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     const reduction::Law law = law_.read(start_.standard_law());
-    si::Experiment experiment = start_.read_rolling_ball(law, "'contensou roll' gives its motion");
+    si::Experiment experiment = start_.read_rolling_ball(law, "'contensou roll' gives its motion",
+                                                         start_.ball().given() ? si::Description{} : at_rest(""));
     start_.require_undriven(experiment, "bounce");
     if (!normal_speed_.given() && !drop_.given()) throw BadInput("--normal-speed missing: give it, or --drop LENGTH");
     if (!restitution_.given()) throw BadInput("--restitution missing: 0 (it stays down) to 1 (it loses nothing)");

@@ -21,6 +21,7 @@ class CheckCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     system_.add(app);
+    start_.take_own_body();
     start_.add(app);
     start_.add_drive(app);
     law_.add(app);

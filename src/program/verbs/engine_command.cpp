@@ -24,6 +24,8 @@ class EngineCommand final : public Verb {
         "may be given more than once",
         [](const std::string& typed) { return typed; }, true);
     set_.needs(engine_, "belongs to one engine");
+    start_.take_own_body();
+    start_.add_body(app);
     start_.add_ball(app);
     law_.add(app);
     output_.add(app);

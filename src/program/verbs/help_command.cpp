@@ -221,7 +221,8 @@ std::string ball() {
       "inertia J_z about the vertical. --drive RHO is a constant force along the slip, divided by the coefficient of "
       "friction f and the load. Rolling resistance with the coefficient u_r has RHO = u_r/f. A body that slides "
       "straight down a slope has RHO = tan(angle)/(chi f). Each of the following options replaces a value of the body "
-      "that --ball names. A verb offers the options that it uses. 'contensou balls' lists the built-in bodies, "
+      "that --ball names. In stop, roll, aim, engine, bounce and check, --radius, --mass, --friction and, for a ball, "
+      "--patch-radius also describe a body without --ball; --body is its kind. A verb offers the options that it uses. 'contensou balls' lists the built-in bodies, "
       "'contensou help files' describes run files, 'contensou help units' lists the units.",
       ball_group(), [&](CLI::App& app) { start.add_ball(app); });
 }

@@ -89,6 +89,8 @@ class RollCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.take_load_history();
+    start_.take_own_body();
+    start_.add_body(app);
     start_.add_ball(app);
     app.option_defaults()->group("Stroke of a cue along x, instead of the start of the ball");
     strike_.add(app, "--strike", "SPEED",

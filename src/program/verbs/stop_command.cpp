@@ -37,6 +37,7 @@ class StopCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
     start_.take_load_history();
+    start_.take_own_body();
     start_.add(app);
     start_.add_drive(app);
     law_.add(app, ". With --batch also several names, between commas");
