@@ -25,7 +25,8 @@ std::string usual_name(std::string_view name) {
       {"time", "t"},       {"timestamp", "t"}, {"t_s", "t"},         {"seconds", "t"},  {"theta", "angle"},
       {"\u03b8", "angle"}, {"yaw", "angle"},   {"heading", "angle"}, {"v_x", "vx"},     {"v_{x}", "vx"},
       {"v_y", "vy"},       {"v_{y}", "vy"},    {"omega_x", "wx"},    {"omega_y", "wy"}, {"omega_z", "wz"},
-      {"omega", "wz"},     {"pos_x", "x"},     {"pos_y", "y"},       {"x_m", "x"},      {"y_m", "y"}};
+      {"omega", "wz"},     {"pos_x", "x"},     {"pos_y", "y"},       {"x_m", "x"},      {"y_m", "y"},
+      {"fz", "load"},      {"f", "load"},      {"force", "load"}};
   std::string small(name);
   std::ranges::transform(small, small.begin(),
                          [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });

@@ -16,7 +16,7 @@ struct Heading {
 Heading heading_of(std::string_view text);
 
 /// Returns the usual name of a column: in small letters, "t" for time, "angle" for theta, "vx" for v_x, "wx" for
-/// omega_x, "x" for pos_x. An ending _sd is kept, and the name before it is converted likewise.
+/// omega_x, "x" for pos_x, "load" for Fz. An ending _sd is kept, and the name before it is converted likewise.
 std::string usual_name(std::string_view name);
 
 /// Returns the size of a unit in SI units (in radians for an angle); 1 for an empty unit.

@@ -64,7 +64,10 @@ const std::vector<Dimension>& dimensions() {
       {"DECELERATION", "rad/s^2", "radians per second squared", {{"deg/s^2", pi, 180}, {"rev/s^2", 2 * pi}}},
       {"ACCELERATION", "m/s^2", "metres per second squared", {{"cm/s^2", 1, 100}, {"ft/s^2", 3048, 1e4}}},
       {"ANGLE", "deg", "degrees", {{"rad", 180, pi}}},
-      {"FORCE", "N", "newtons", {{"kN", 1e3}, {"lbf", 44482216152605, 1e13}}},
+      {"FORCE",
+       "N",
+       "newtons",
+       {{"kN", 1e3}, {"mN", 1, 1e3}, {"kgf", 980665, 1e5}, {"gf", 980665, 1e8}, {"lbf", 44482216152605, 1e13}}},
       {"PRESSURE", "Pa", "pascals", {{"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}}},
   };
   return all;
