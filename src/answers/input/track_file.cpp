@@ -74,7 +74,7 @@ std::string unit_doubt(const SeriesColumns& of, const fit::Series& series) {
 
 bool is_measured(std::string_view field) {
   field = without_spaces(field);
-  for (std::string_view nothing : {"", "nan", "NaN", "NAN", "NA"}) {
+  for (std::string_view nothing : {"", "-", "nan", "NaN", "NAN", "NA"}) {
     if (field == nothing) return false;
   }
   return true;
@@ -135,12 +135,16 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
       if (const std::string nearest = nearest_name(name, known); !nearest.empty())
         hints += fmt::format("; {} is not read: did you mean '{}'?", quotation(name), nearest);
     }
+    std::vector<std::string> found;
+    for (const std::string& name : table.names()) found.push_back(quotation(name));
     const bool separator = table.names().size() == 1 && table.names().front().find(';') != std::string::npos;
+    if (separator) hints.clear();
     fail(
         fmt::format("a track has a column t and one or more of {}, each with NAME{} where its errors are known; "
-                    "no {} here{}{}",
-                    fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is", hints,
-                    separator ? "; a comma or a tab must separate columns" : ""));
+                    "no {} here, but {}{}{}",
+                    fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is",
+                    fmt::join(found, ", "), hints,
+                    separator ? "; a comma or a tab must separate columns: sed 's/,/./g; s/;/,/g' converts them" : ""));
   }
   const bool in_pixels = std::ranges::any_of(columns, [](const auto& each) { return is_in_pixels(each.value); });
   if (unused != nullptr && in_pixels) unused->pixel = false;

@@ -29,7 +29,7 @@ struct Unused {
   bool fps = false, pixel = false;
 };
 
-/// Returns false for an empty field, and for the words that numpy and R write for a missing value.
+/// Returns false for an empty field, a dash, and the words that numpy and R write for a missing value.
 bool is_measured(std::string_view field);
 
 /// Returns the names of all observables of a ball.
