@@ -400,9 +400,9 @@ struct LimitCycle {
 
 /// Finds the limit cycles that turn about equilibria, as fixed points of the return map of a ray.
 ///
-/// Each of the first six equilibria with a positive or unknown index gets a ray. About 50 orbits start along the ray and
-/// are followed for one turn, by steps. Cycles that touch from one side only are not found, and cycles about a center
-/// whose orbits all are closed are no limit cycles.
+/// Each of the first six equilibria with a positive or unknown index gets a ray. About 50 orbits start along the ray
+/// and are followed for one turn, by steps. Cycles that touch from one side only are not found, and cycles about a
+/// center whose orbits all are closed are no limit cycles.
 ///
 /// Accuracy  1e-9 of the period and of the point, if the multiplier is not near 1
 /// Cost      at most 400 000 values of the field for each ray, and 2 000 000 for each cycle
@@ -410,8 +410,8 @@ struct LimitCycle {
 /// @param reach       length of the rays, in half sides of this rectangle; rays begin at reach/10000
 std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equilibria& equilibria, double reach);
 
-/// Returns true if the motion from a start, by steps, nears a stable limit cycle: within 100 periods it comes to 1e-3 of
-/// the size of the cycle, and returns after one period to 1e-6 of this size.
+/// Returns true if the motion from a start, by steps, nears a stable limit cycle: within 100 periods it comes to 1e-3
+/// of the size of the cycle, and returns after one period to 1e-6 of this size.
 bool nears(const SmoothField& field, const LimitCycle& cycle, const Eigen::Vector2d& start);
 
 }  // namespace contensou::reduction
