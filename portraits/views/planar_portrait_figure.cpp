@@ -357,7 +357,10 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   constexpr std::size_t longest_title = 80;
   figure.title = typeset(shortened(portrait.name, longest_title));
   const std::string kind(portrait.plane.kind().empty() ? "kind not decided" : portrait.plane.kind());
-  const std::string_view form = portrait.plane.form();
+  std::string form(portrait.plane.form());
+  for (const std::size_t i : {0U, 1U}) {
+    if (form.ends_with(i == 0 ? " u" : " v")) form.replace(form.size() - 1, 1, portrait.variables[i]);
+  }
   const char* of_form = form == "affine" ? "generator of the orbits" : "inverse integrating factor";
   figure.subtitle = !scaling ? (form.empty() ? std::string("no exact solution found: orbits by time steps")
                                              : fmt::format("orbits by quadrature; {}: {}", of_form, form))

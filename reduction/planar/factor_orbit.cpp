@@ -197,6 +197,7 @@ class Follower {
     constexpr int most_at_a_point = 8;
     if (still_ > most_at_a_point) {
       ended_ = true;
+      if (changes_in_rounding(x_, 0) || changes_in_rounding(x_, 1)) return end(PlanarEnd::border, motion_.followed);
       return stop("rounding hides which motion leaves a switching curve");
     }
     if (next.region) return enter_region(*next.region);
@@ -469,18 +470,23 @@ class Follower {
     return speed > singular * first_->f.norm() && speed < short_way * size_ * growth;
   }
 
+  /// Returns true if the field changes by a part of itself within the last digit of a coordinate, as next to a pole.
+  bool changes_in_rounding(const Vector2d& x, int i) const {
+    constexpr double part = 0.01;
+    const auto there = jet_of(field_, x);
+    return there && there->slopes.col(i).norm() * eps * std::abs(x[i]) >= part * there->f.norm();
+  }
+
   /// Ends the orbit at a pole of the field that it nears so slowly that rounding stops one coordinate before, as for
   /// y' = x/(2 - x) or y' = tan(x) y. What the panels say from there on is wrong.
   bool ends_at_pole() {
     constexpr std::size_t many = 100;
-    constexpr double changes = 0.01;  // of the field in the last digit of the coordinate
     const auto& panels = motion_.panels;
     for (int i = 0; i < 2; ++i) {
       std::size_t first = panels.size();
       while (first > 0 && panels[first - 1].at(-1)[i] == x_[i]) --first;
       if (panels.size() - first < many) continue;
-      const auto there = jet_of(field_, panels[first].at(-1));
-      if (!there || !(there->slopes.col(i).norm() * eps * std::abs(x_[i]) >= changes * there->f.norm())) continue;
+      if (!changes_in_rounding(panels[first].at(-1), i)) continue;
       // The pole is the place of the largest speed ahead of a state that rounding does not reach.
       constexpr double clear = 1e-8, reach = 10;
       std::size_t k = first;
@@ -599,7 +605,7 @@ class Follower {
   /// as y = 1 - x of y' = 1/(x + y - 2).
   bool runs_beside_curve() const {
     constexpr std::size_t some = 8;
-    constexpr double near = 1e-8, nears = 2;
+    constexpr double near = 2e-10, nears = 2;
     if (!whole_.switches || motion_.panels.size() < some || region_->slides()) return false;
     const Eigen::MatrixX3d now = whole_.switches(x_);
     const Eigen::MatrixX3d then = whole_.switches(motion_.panels[motion_.panels.size() - some].at(-1));

@@ -204,6 +204,7 @@ class FactorWalk {
       if ((sides_ * there < 0).any()) throw std::domain_error("PlanarReduction: V jumps on the way");
     }
     constexpr unsigned halvings = 2;  // V is smooth in its box, and near the orbit the integral is about 0
+    bool centred = false;  // the box has just been put about x_
     while (x_ != target) {
       double part = 1;  // share of the way that lies well within the box
       if (!holds_everywhere(factor_.form())) {
@@ -213,10 +214,12 @@ class FactorWalk {
         }
       }
       constexpr double least = 1e-3;
-      if (!(part > least) && part < 1) {
+      if (!(part > least) && part < 1 && !centred) {
         fit_anew();
+        centred = true;
         continue;
       }
+      centred = false;
       const Vector2d next = part >= 1 ? target : Vector2d(x_ + part * (target - x_));
       integral_ += FactorSolution::line_integral(x_, next, value(x_).first, halvings,
                                                  [this](const Vector2d& x) { return value(x); });
@@ -244,7 +247,8 @@ class FactorWalk {
                                                                 : std::numeric_limits<double>::quiet_NaN();
     };
     Box box = box_about(x_);
-    for (int i = 0; i <= halvings && fits_ < most; ++i, ++fits_, box.radii /= 2) {
+    for (int i = 0; i <= halvings && fits_ < most; ++i, box.radii /= 2) {
+      ++fits_;
       const auto samples = sample(solution_.fitted, box);
       const auto fit = samples ? fit_factor(factor_.form(), *samples, known) : std::nullopt;
       if (!fit || !fit->small || fit->factor.vanishes) continue;

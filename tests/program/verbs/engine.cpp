@@ -41,7 +41,7 @@ TEST_CASE("engine says how far a puck slides and how often it turns, by law and 
     close(engine.at("settings")[0], slide, slid, a * a * 1e4 / (4 * 0.1 * g * (2 * a / 3)) / (2 * pi));
     close(engine.at("settings")[1], slide, slid, a * a * 1e4 / (4 * 0.1 * g * a) / (2 * pi));
   }
-  CHECK(box == std::set<std::string>{"jolt", "rapier", "box3d", "bepu"});
+  CHECK(box == std::set<std::string>{"jolt", "rapier", "box2d", "box3d", "bepu"});
   // bepu uses a quarter of the typed friction, so the body slides four times as far.
   const auto bepu =
       json_of("engine bepu --ball puck --slip 5 --spin 100 --friction 0.1 --format json").at("engines")[0];
