@@ -584,7 +584,7 @@ class Follower {
         append(*panel);
         return true;
       }
-      if (runs_beside_curve()) {
+      if (crosses_by_rounding(here)) {
         ended_ = true;
         stop("rounding hides whether the orbit comes to a switching curve or a pole; it comes");
         return true;
@@ -601,12 +601,13 @@ class Follower {
     return false;
   }
 
-  /// Returns true if the orbit stays so near a switching curve or a pole that rounding can move it across, as far out
-  /// as y = 1 - x of y' = 1/(x + y - 2).
-  bool runs_beside_curve() const {
+  /// Returns true if the orbit stays so near a switching curve or a pole that the rounding of the state, which hides
+  /// digits of the field, can move it across, as far out on y = 1 - x of y' = 1/(x + y - 2).
+  bool crosses_by_rounding(const Jet& here) const {
     constexpr std::size_t some = 8;
-    constexpr double near = 2e-10, nears = 2;
+    constexpr double near = 2e-10, nears = 2, hides = 1e-9;
     if (!whole_.switches || motion_.panels.size() < some || region_->slides()) return false;
+    if (!(noise_.norm() > hides * here.f.norm())) return false;
     const Eigen::MatrixX3d now = whole_.switches(x_);
     const Eigen::MatrixX3d then = whole_.switches(motion_.panels[motion_.panels.size() - some].at(-1));
     for (Eigen::Index i = 0; i < now.rows(); ++i) {

@@ -204,7 +204,7 @@ class FactorWalk {
       if ((sides_ * there < 0).any()) throw std::domain_error("PlanarReduction: V jumps on the way");
     }
     constexpr unsigned halvings = 2;  // V is smooth in its box, and near the orbit the integral is about 0
-    bool centred = false;  // the box has just been put about x_
+    bool centred = false;             // the box has just been put about x_
     while (x_ != target) {
       double part = 1;  // share of the way that lies well within the box
       if (!holds_everywhere(factor_.form())) {
