@@ -286,7 +286,7 @@ test("typed equations are drawn as the program draws them; a click starts an orb
   await type("typed", "x'' = -a*x; a = 4");
   assert.equal(await page.inputValue("#typed-points"), "");
   assert.equal(await page.textContent("#typed-problem"), "");
-  assert.deepEqual((await figure()).marks, [["centre of the symmetry", [0, 0]]]);
+  assert.deepEqual((await figure()).marks, [["center", [0, 0]]]);
   await type("typed", "");
   assert.ok(!(await page.isVisible("#typed-plane")));
   await close();
