@@ -131,7 +131,10 @@ class Follower {
   }
 
   void follow(int most_work) {
-    int next_anchor = 0, next_look = 500'000;
+    // The first look comes early only for an orbit that has gone far: the rest of another one may be asked for.
+    constexpr int early = 100'000, usual = 500'000;
+    constexpr double distant = 1e4;
+    int next_anchor = 0, next_look = early;
     if (ended_) return;
     for (int i = 0; work_ < most_work; ++i) {
       const auto here = jet_of(field_, x_);
@@ -140,8 +143,8 @@ class Follower {
         return stop("the field has no derivatives");
       }
       if (work_ >= next_look) {
-        if (leaves_for_ever()) return;
-        next_look *= 2;
+        if ((work_ >= usual || x_.norm() > distant * size_) && leaves_for_ever()) return;
+        next_look = next_look < usual ? usual : 2 * next_look;
       }
       if (i == next_anchor) {
         anchor(here->f);
