@@ -1,6 +1,7 @@
 #include "contensou/reduction/planar_reduction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -167,12 +168,56 @@ PlanarOrbit PlanarReduction::part_of_orbit(const Vector2d& start) const {
 
 PlanarReduction PlanarReduction::reversed() const { return PlanarReduction(solution_->reversed()); }
 
+namespace {
+
+/// Returns the limit of the states next to a border. There a coordinate is a constant and a power of the time left, and
+/// the constant follows from three states (Aitken's process).
+Vector2d limit_at_border(const PlanarOrbit::Motion& motion) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(motion.end_time)) return {unknown, unknown};
+  std::array<Vector2d, 4> x;
+  try {
+    for (int k = 0; k < 4; ++k) {
+      x[static_cast<std::size_t>(k)] = motion.at(motion.end_time * (1 - std::pow(10, k - 9)));
+    }
+  } catch (const std::domain_error&) {
+    return {unknown, unknown};
+  }
+  Vector2d end;
+  for (int i = 0; i < 2; ++i) {
+    const auto limit = [&](std::size_t k) -> double {
+      const double last = x[k][i] - x[k + 1][i], step = x[k + 1][i] - x[k + 2][i];
+      constexpr double slow = 0.97, rounding = 1e-12;
+      if (std::abs(last) <= rounding * std::abs(x[k][i])) return x[k][i];
+      if (!(std::abs(last) < slow * std::abs(step))) return std::copysign(infinity, last);  // as a logarithm does
+      return x[k][i] - last * last / (last - step);
+    };
+    end[i] = limit(0);
+    const double error = std::abs(end[i] - limit(1)), unit = std::pow(10, std::ceil(std::log10(error)));
+    if (error > 0 && std::isfinite(unit)) end[i] = unit * std::round(end[i] / unit);
+  }
+  return end;
+}
+
+}  // namespace
+
 PlanarOrbit::PlanarOrbit(std::shared_ptr<const Motion> motion) : motion_(std::move(motion)) {}
 PlanarEnd PlanarOrbit::end() const { return motion_->end; }
 std::optional<double> PlanarOrbit::period() const { return motion_->period(); }
 double PlanarOrbit::first_slide() const { return motion_->first_slide(); }
 const std::string& PlanarOrbit::undecided() const { return motion_->undecided; }
-Vector2d PlanarOrbit::limit() const { return motion_->limit; }
+Vector2d PlanarOrbit::limit() const {
+  switch (motion_->end) {
+    case PlanarEnd::centre:
+    case PlanarEnd::rest:
+    case PlanarEnd::equilibrium:
+      return motion_->at_end();
+    case PlanarEnd::border:
+      return limit_at_border(*motion_);
+    default:
+      return motion_->limit;
+  }
+}
 double PlanarOrbit::end_time() const {
   return motion_->end == PlanarEnd::border && !motion_->border_time_known ? infinity : motion_->end_time;
 }

@@ -687,13 +687,11 @@ class Blackboard {
       case PlanarEnd::border: {
         if (!std::isfinite(time)) return "it comes to a border of the equation, a pole or a jump";
         constexpr double before = 1e-9;
-        Vector2d x = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+        Vector2d x = orbit.limit();
+        if (first) x[0] = start[0] + time;
         std::string reason;
         try {
-          x = orbit.at(time * (1 - before));
-          reason = steps_.broken_at(x);
-          x = last_state(orbit, time);
-          if (first) x[0] = start[0] + time;
+          reason = steps_.broken_at(orbit.at(time * (1 - before)));
         } catch (const std::domain_error&) {
           // The last state is not known.
         }
@@ -705,43 +703,14 @@ class Blackboard {
                            reason.empty() ? "a pole or a jump of the equation" : reason);
       }
       default:
-        if (first && std::isfinite(time) && is_steep(orbit, time)) {
-          constexpr double before = 1e-9;
-          const std::string reason = steps_.broken_at(orbit.at(time * (1 - before)));
-          if (!reason.empty()) return fmt::format("{}: {} grows beyond all numbers; {}", when, steps_.names[1], reason);
-        }
         return "not decided: " + orbit.undecided();
     }
   }
 
   /// Returns "it tends to" the limit of the orbit, or to the words if the limit is not known.
   std::string tends_to(const PlanarOrbit& orbit, std::string_view words) const {
-    Vector2d limit = orbit.at(infinity);
-    constexpr double rounding = 1e-12;
-    limit = (limit.array().abs() < rounding * limit.norm()).select(0, limit);
-    return fmt::format("it tends to {}", limit.allFinite() ? place(limit) : words);
-  }
-
-  /// Returns the state at the end of an orbit at a border. Next to it the coordinates change as a constant and a power
-  /// of the time left, whose limit follows from three states (Aitken's process). Digits in which the limits from two
-  /// triples differ are rounded away.
-  static Vector2d last_state(const PlanarOrbit& orbit, double time) {
-    std::array<Vector2d, 4> x;
-    for (int k = 0; k < 4; ++k) x[static_cast<std::size_t>(k)] = orbit.at(time * (1 - std::pow(10, k - 9)));
-    Vector2d end = x[0];
-    for (int i = 0; i < 2; ++i) {
-      const auto limit = [&](std::size_t k) -> double {
-        const double last = x[k][i] - x[k + 1][i], step = x[k + 1][i] - x[k + 2][i];
-        constexpr double slow = 0.97, rounding = 1e-12;
-        if (std::abs(last) <= rounding * std::abs(x[k][i])) return x[k][i];
-        if (!(std::abs(last) < slow * std::abs(step))) return std::copysign(infinity, last);  // as a logarithm does
-        return x[k][i] - last * last / (last - step);
-      };
-      end[i] = limit(0);
-      const double error = std::abs(end[i] - limit(1)), unit = std::pow(10, std::ceil(std::log10(error)));
-      if (error > 0 && std::isfinite(unit)) end[i] = unit * std::round(end[i] / unit);
-    }
-    return end;
+    const Vector2d limit = orbit.limit();
+    return fmt::format("it tends to {}", limit.allFinite() ? place(limit, limit.norm()) : words);
   }
 
   bool is_steep(const PlanarOrbit& orbit, double time) const {

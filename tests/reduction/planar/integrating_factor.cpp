@@ -323,7 +323,12 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
       },
       {0, 0.5}, PlanarEnd::infinity, infinity);
   // Poles at which u stands still by rounding, as v goes to infinity like a logarithm or a power.
-  ends([](Dual u, Dual) { return std::array{0 * u + 1, u / (2 - u)}; }, {0.5, 1}, PlanarEnd::border, 1.5);
+  CHECK(ends(
+            [](Dual u, Dual) {
+              return std::array{0 * u + 1, u / (2 - u)};
+            },
+            {0.5, 1}, PlanarEnd::border, 1.5)
+            .limit()[1] == infinity);
   ends(
       [](Dual u, Dual v) {
         return std::array{0 * u + 1, sin(u) / cos(u) * v};
@@ -334,7 +339,14 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
         return std::array{0 * u + 1, (cos(u) - 2 * u * v) / (u * u - 1)};
       },
       {0.5, 1}, PlanarEnd::border, 0.5);
-  ends([](Dual, Dual v) { return std::array{Dual(1), -1 / v}; }, {1.3, 0.7}, PlanarEnd::border, 0.7 * 0.7 / 2);
+  const Vector2d at_root = ends(
+                               [](Dual, Dual v) {
+                                 return std::array{Dual(1), -1 / v};
+                               },
+                               {1.3, 0.7}, PlanarEnd::border, 0.7 * 0.7 / 2)
+                               .limit();
+  CHECK(at_root[0] == Approx(1.3 + 0.7 * 0.7 / 2).epsilon(1e-8));
+  CHECK(at_root[1] == 0);
   ends(
       [](Dual u, Dual v) {
         return std::array{-sqrt(u), sqrt(u) - sqrt(v)};

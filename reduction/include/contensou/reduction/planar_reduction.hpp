@@ -242,8 +242,9 @@ class PlanarOrbit {
   /// Returns the reason why the end is not decided; empty if the end is decided.
   const std::string& undecided() const;
 
-  /// Returns the limits of the coordinates as the motion goes to infinity, such as (inf, -5.718): infinite, finite to 9
-  /// digits, or NaN if unknown.
+  /// Returns the limits of the coordinates at the end, such as (inf, -5.718) for an end at infinity: infinite, finite,
+  /// or NaN if unknown. At infinity they have 9 digits. At a border two sequences of states give them, and digits in
+  /// which the two differ are rounded away.
   Eigen::Vector2d limit() const;
 
   /// Returns the state at a time after the start. A motion that ends where f = 0 stays there from end_time on.
