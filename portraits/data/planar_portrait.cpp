@@ -17,7 +17,6 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
-#include "data/degenerate_separatrices.hpp"
 #include "data/isochrones.hpp"
 #include "data/planar_window.hpp"
 #include "data/tracing.hpp"
@@ -597,7 +596,8 @@ std::vector<SaddleBranch> branches_of(const TimedTracer& tracer, const reduction
     const int zeros = (values[0] == 0 ? 1 : 0) + (values[1] == 0 ? 1 : 0);
     if (saddle.eigenvalues->first.imag() != 0) continue;
     if (zeros == 2) {
-      for (const SeparatrixPoint& point : degenerate_separatrices(field, saddle.x, window.sides())) {
+      for (const reduction::SeparatrixPoint& point :
+           reduction::degenerate_separatrices(field, saddle.x, window.sides())) {
         follow(point.x, point.stable);
       }
       continue;

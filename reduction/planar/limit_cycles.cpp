@@ -23,6 +23,7 @@
 #include "contensou/reduction/planar_reduction.hpp"
 #include "planar/inverse_factor.hpp"
 #include "planar/region.hpp"
+#include "planar/winding.hpp"
 
 namespace contensou::reduction {
 
@@ -87,46 +88,27 @@ class ReturnMap {
 
 std::optional<Turn> ReturnMap::turn(double place, bool back) const {
   constexpr int most = 500;
-  constexpr double widest = 0.6, least = 1e-4, far = 1e3, still = 1e-6, long_time = 1e3;
-  const auto scaled = [&](const Vector2d& x) { return Vector2d((x - centre_).cwiseQuotient(half_)); };
+  constexpr double widest = 0.6, least = 1e-4, far = 1e3, still = 1e-6, long_time = 1e3, first = 0.1;
   try {
     const PlanarReduction& system = back ? back_ : forth_;
-    const double speed = system.field()(point(place)).cwiseQuotient(half_).norm();
-    Turn turn{place, system.part_of_orbit(point(place)), {0}};
-    Vector2d here = scaled(point(place));
-    double angle = 0, step = 0.1 * place / speed;
-    const double unit = place / speed;
+    const Vector2d start = point(place);
+    const double speed = system.field()(start).cwiseQuotient(half_).norm(), unit = place / speed;
     if (!(speed > 0)) return std::nullopt;
-    for (int i = 0; i < most; ++i) {
-      const double time = turn.times.back();
-      Vector2d next;
-      double turned = infinity, grown = infinity;
-      try {
-        next = scaled(turn.orbit.at(time + step));
-        turned = std::atan2(cross(here, next), here.dot(next));
-        grown = std::log(next.norm() / here.norm());
-      } catch (const std::domain_error&) {
-        if (step < still * unit) return std::nullopt;
-      }
-      if (!(std::abs(turned) < widest && std::abs(grown) < widest)) {
-        step /= 2;
-        if (!(time + step > time)) return std::nullopt;
-        continue;
-      }
-      if (std::abs(angle + turned) >= 2 * pi) {
-        const auto across = [&](double t) { return cross(way(), scaled(turn.orbit.at(t))); };
-        turn.times.push_back(root_between(across, time, time + step));
-        turn.place = scaled(turn.orbit.at(turn.times.back())).norm() / way().norm();
+    Turn turn{place, system.part_of_orbit(start), {0}};
+    Winding winding(turn.orbit, start, centre_, half_, widest, first * unit, still * unit);
+    for (int i = 0; i < most && winding.advance(); ++i) {
+      if (std::abs(winding.angle()) >= 2 * pi) {
+        const auto across = [&](double t) { return cross(way(), winding.scaled(turn.orbit.at(t))); };
+        turn.times.push_back(root_between(across, winding.before(), winding.time()));
+        turn.place = winding.scaled(turn.orbit.at(turn.times.back())).norm() / way().norm();
         return turn;
       }
-      const double moved = (next - here).norm(), distance = next.norm();
-      if (distance < least * place || distance > far * place || (moved < still * distance && step > long_time * unit)) {
+      const double distance = winding.here().norm();
+      if (distance < least * place || distance > far * place) return std::nullopt;
+      if (winding.moved() < still * distance && winding.time() - winding.before() > long_time * unit) {
         return std::nullopt;
       }
-      angle += turned;
-      here = next;
-      turn.times.push_back(time + step);
-      if (std::abs(turned) < widest / 3 && std::abs(grown) < widest / 3) step *= 1.5;
+      turn.times.push_back(winding.time());
     }
   } catch (const std::domain_error&) {
     // The field has no value at the place.

@@ -41,6 +41,13 @@ std::pair<double, double> rate_along(const SmoothField& field, Index function, c
   return {gradient.dot(f), tangent * gradient.norm() * speed};
 }
 
+/// Goes from a point to the curve on which a switching function is 0, by a step of Newton's method.
+Vector2d towards_curve(const SmoothField& field, Index function, const Vector2d& x) {
+  const Eigen::RowVector3d h = field.switches(x).row(function);
+  const Vector2d gradient = h.tail<2>();
+  return x - h[0] / gradient.squaredNorm() * gradient;
+}
+
 }  // namespace
 
 Vector2d sliding_velocity(const Vector2d& first, const Vector2d& second, double rate_first, double rate_second) {
@@ -99,9 +106,7 @@ bool Region::contains(const Vector2d& x) const {
 
 Vector2d Region::on_curve(const Vector2d& x) const {
   if (!slide_) return x;
-  const Eigen::RowVector3d h = whole_->switches(x).row(slide_->function);
-  const Vector2d gradient = h.tail<2>();
-  const Vector2d there = x - h[0] / gradient.squaredNorm() * gradient;
+  const Vector2d there = towards_curve(*whole_, slide_->function, x);
   return there.allFinite() ? there : x;
 }
 
@@ -188,14 +193,11 @@ std::optional<SwitchingMotion> motion_on_curve(const SmoothField& field, Index f
   constexpr int steps = 4;
   constexpr double part = 1e-9, near = 1e-3;
   const Vector2d from = x;
-  Vector2d normal;
   for (int i = 0; i < steps; ++i) {
-    const Eigen::RowVector3d h = field.switches(x).row(function);
-    normal = h.tail<2>();
-    x -= h[0] / normal.squaredNorm() * normal;
+    x = towards_curve(field, function, x);
     if (!((x - from).norm() < near * size)) return std::nullopt;
   }
-  normal.normalize();
+  const Vector2d normal = field.switches(x).row(function).tail<2>().normalized();
   const Region first(field, Vector2d(x + part * size * normal)), second(field, Vector2d(x - part * size * normal));
   const auto f = value_of(first.field().value, x), g = value_of(second.field().value, x);
   if (!f || !g) return std::nullopt;
@@ -254,8 +256,7 @@ class Junction {
           curves_, [&](const Vector2d& n) { return parallel(n, one.normal); }, &Curve::normal);
       const Eigen::MatrixX3d rows = field_.switches(x_);
       if (other == curves_.end()) {
-        const Vector2d gradient = rows.row(one.function).tail<2>();
-        x_ -= rows(one.function, 0) / gradient.squaredNorm() * gradient;
+        x_ = towards_curve(field_, one.function, x_);
       } else {
         Eigen::Matrix2d gradients;
         gradients << rows.row(one.function).tail<2>(), rows.row(other->function).tail<2>();
@@ -341,9 +342,7 @@ std::optional<Region> Junction::slide(std::size_t i, bool& ambiguous) const {
     return std::abs(rate) > least ? rate : 0;
   };
   if (rate_at(f) == 0 && rate_at(g) == 0) {
-    from += ahead * size_ * along;
-    const Eigen::RowVector3d h = field_.switches(from).row(function);
-    from -= h[0] / h.tail<2>().squaredNorm() * h.tail<2>().transpose();
+    from = towards_curve(field_, function, from + ahead * size_ * along);
   }
   const Vector2d velocity = value(from);
   if (!(velocity.dot(along) > rounding * speed_)) return std::nullopt;

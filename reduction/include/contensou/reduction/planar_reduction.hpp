@@ -411,6 +411,23 @@ struct LimitCycle {
 /// @param reach       length of the rays, in half sides of this rectangle; rays begin at reach/10000
 std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equilibria& equilibria, double reach);
 
+/// A point at which a separatrix of an equilibrium crosses a small closed curve about the equilibrium.
+struct SeparatrixPoint {
+  Eigen::Vector2d x;
+  bool stable;  ///< true if the motion from the point tends to the equilibrium
+};
+
+/// Finds the separatrices of an equilibrium whose eigenvalues are both 0. The motions from the points of a small
+/// ellipse are followed until they leave its surroundings or come near to the equilibrium. A separatrix starts between
+/// two motions that pass the equilibrium on different sides, and between a motion that passes and one that arrives.
+///
+/// Accuracy  1e-5 of the sides
+/// Cost      some 100 000 values of the field
+/// @param sides  the half axes of the ellipse are 1 % of them
+/// @return empty if a smaller ellipse has other numbers of separatrices
+std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, const Eigen::Vector2d& centre,
+                                                     const Eigen::Vector2d& sides);
+
 /// Returns true if the motion from a start, by steps, nears a stable limit cycle: within 100 periods it comes to 1e-3
 /// of the size of the cycle, and returns after one period to 1e-6 of this size.
 bool nears(const SmoothField& field, const LimitCycle& cycle, const Eigen::Vector2d& start);

@@ -1,12 +1,13 @@
-#include "data/degenerate_separatrices.hpp"
-
+// Separatrices of an equilibrium whose eigenvalues are both 0.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
-namespace contensou::portraits {
+#include "contensou/reduction/planar_reduction.hpp"
+#include "planar/winding.hpp"
+
+namespace contensou::reduction {
 
 using Eigen::Vector2d;
 using std::numbers::pi;
@@ -24,7 +25,7 @@ struct Passage {
 /// Follows motions from an ellipse about an equilibrium, forwards or backwards.
 class Surroundings {
  public:
-  Surroundings(const reduction::PlanarReduction& steps, const Vector2d& centre, const Vector2d& half)
+  Surroundings(const PlanarReduction& steps, const Vector2d& centre, const Vector2d& half)
       : steps_(steps), centre_(centre), half_(half) {}
 
   Vector2d point(double angle) const {
@@ -32,36 +33,23 @@ class Surroundings {
   }
 
   Passage passage(double angle) const {
-    constexpr double outside = 1.5, arrived = 1e-3, widest = 0.4;
+    constexpr double outside = 1.5, arrived = 1e-3, widest = 0.4, first = 0.1;
     constexpr int most = 600;
-    const auto scaled = [&](const Vector2d& x) { return Vector2d((x - centre_).cwiseQuotient(half_)); };
     Passage passage{Passage::End::unknown, angle};
     try {
       const Vector2d start = point(angle);
       const double speed = steps_.field()(start).cwiseQuotient(half_).norm();
       if (!(speed > 0)) return passage;
-      const reduction::PlanarOrbit orbit = steps_.part_of_orbit(start);
-      Vector2d here = scaled(start);
-      double time = 0, step = 0.1 / speed;
-      for (int i = 0; i < most; ++i) {
-        const Vector2d next = scaled(after(orbit, time + step));
-        const double turned = std::atan2(here[0] * next[1] - here[1] * next[0], here.dot(next));
-        const double grown = std::log(next.norm() / here.norm());
-        if (!(std::abs(turned) < widest && std::abs(grown) < widest)) {
-          step /= 2;
-          if (!(time + step > time)) return passage;
-          continue;
-        }
-        time += step;
-        passage.angle += turned;
-        here = next;
-        passage.nearest = std::min(passage.nearest, here.norm());
-        passage.farthest = std::max(passage.farthest, here.norm());
-        if (here.norm() > outside || here.norm() < arrived) {
-          passage.end = here.norm() < arrived ? Passage::End::arrives : Passage::End::leaves;
+      Winding winding(steps_.part_of_orbit(start), start, centre_, half_, widest, first / speed);
+      for (int i = 0; i < most && winding.advance(); ++i) {
+        const double distance = winding.here().norm();
+        passage.angle = angle + winding.angle();
+        passage.nearest = std::min(passage.nearest, distance);
+        passage.farthest = std::max(passage.farthest, distance);
+        if (distance > outside || distance < arrived) {
+          passage.end = distance < arrived ? Passage::End::arrives : Passage::End::leaves;
           return passage;
         }
-        if (std::abs(turned) < widest / 3 && std::abs(grown) < widest / 3) step *= 1.5;
       }
     } catch (const std::domain_error&) {
       // The field has no value at the start.
@@ -119,28 +107,19 @@ class Surroundings {
   }
 
  private:
-  /// Returns the state at a time; NaN if the motion ends earlier, for example at infinity.
-  static Vector2d after(const reduction::PlanarOrbit& orbit, double time) {
-    try {
-      return orbit.at(time);
-    } catch (const std::domain_error&) {
-      return Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-
-  const reduction::PlanarReduction& steps_;
+  const PlanarReduction& steps_;
   Vector2d centre_, half_;
 };
 
 }  // namespace
 
-std::vector<SeparatrixPoint> degenerate_separatrices(const reduction::SmoothField& field, const Vector2d& centre,
+std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, const Vector2d& centre,
                                                      const Vector2d& sides) {
   constexpr double tolerance = 1e-9, radius = 0.01, smaller = 0.4;
-  const reduction::PlanarReduction forth = reduction::by_steps(field, tolerance), back = forth.reversed();
+  const PlanarReduction forth = by_steps(field, tolerance), back = forth.reversed();
   std::vector<SeparatrixPoint> points;
   for (const bool stable : {true, false}) {
-    const reduction::PlanarReduction& steps = stable ? forth : back;
+    const PlanarReduction& steps = stable ? forth : back;
     const Surroundings wide(steps, centre, radius * sides), narrow(steps, centre, smaller * radius * sides);
     const std::vector<double> angles = wide.separatrices();
     if (narrow.separatrices().size() != angles.size()) return {};
@@ -149,4 +128,4 @@ std::vector<SeparatrixPoint> degenerate_separatrices(const reduction::SmoothFiel
   return points;
 }
 
-}  // namespace contensou::portraits
+}  // namespace contensou::reduction
