@@ -93,7 +93,7 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
                       PortraitStyle style) {
   const PhasePortrait& first = portraits.front();
   const ViewLayout& layout = layout_of(first.view);
-  if (first.view == View::story) {
+  if (layout.has_drawings) {
     style.colour_by_time = false;
     if (style.arrows == PortraitStyle::Arrows::time) style.arrows = PortraitStyle::Arrows::one;
   }
@@ -148,7 +148,7 @@ MappedFigure draw_all(std::span<const PhasePortrait> portraits, std::span<const 
     }
   };
   add_panels();
-  if (first.view == View::story) {
+  if (layout.has_drawings) {
     // The legend decides the height of the panel, and the drawings of the patch are circles on paper.
     const Box box = lay_out(figure).panels.front().box;
     look.panel_mm = {box.width, box.height};

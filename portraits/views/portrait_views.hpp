@@ -48,6 +48,9 @@ struct ViewLayout {
   /// plane. If it is null, the bands are equal.
   std::pair<double, double> (*times)(const PhasePortrait&);
   Text (*shows)(const PhasePortrait&);  ///< subtitle
+  /// True for a view with drawings of objects: orbits have no colours of time and one arrow each, and the panel is made
+  /// again when its size on the page is known.
+  bool has_drawings = false;
 };
 
 /// Returns the stop time of the state u = exp(x) V/mu, v = exp(y) V, where V is the height of the window.
@@ -137,7 +140,8 @@ inline const std::array view_layouts{
                story_view, 1, 170, 110, nullptr,
                [](const PhasePortrait&) {
                  return Text("spin turns the friction away from the slide: the body slides longer");
-               }},
+               },
+               true},
 };
 
 }  // namespace contensou::portraits

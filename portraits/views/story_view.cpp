@@ -71,7 +71,8 @@ std::vector<MappedPanel> story_view(const Drawing& drawing) {
   const PortraitOrbit motion = told(portrait);
   const double mu = portrait.system().mu(), u = motion.u[0], v = motion.v[0], side = u < 0 ? -1 : 1;
   // The plane of the motions, with room for the patches beside it.
-  const double widest = 1.15 * std::abs(u), highest = 1.2 * v, room = 1.75 * std::abs(u);
+  constexpr double beside = 1.5;
+  const double widest = portrait.window.u(), highest = portrait.window.v(), room = beside * widest;
   Panel panel;
   panel.x = {
       drawing.speed(math("u = R ω") + sub(math("z"))), std::min(side * room, 0.), std::max(side * room, 0.), false, {}};

@@ -21,8 +21,8 @@ using Eigen::Vector2d;
 namespace {
 
 /// Returns the distance from the origin, in steps of a factor 2, at which the field first changes along several
-/// directions: a component or a switching function changes its sign, or f differs from f(0) by half of f(0). 0 if there
-/// is no change.
+/// directions: a component or a switching function changes its sign, or f comes to differ from f(0) by half of f(0). 0
+/// if there is no change.
 double first_change(const SmoothField& field) {
   constexpr int directions = 16, farthest = 60;
   struct There {
@@ -35,11 +35,14 @@ double first_change(const SmoothField& field) {
     return there;
   };
   const auto origin = value_of(field.value, Vector2d::Zero());
+  const auto differs = [&](const Vector2d& f) {
+    constexpr double half = 0.5;
+    return origin && !origin->isZero(0) && (f - *origin).stableNorm() > half * origin->stableNorm();
+  };
   const auto changes = [&](const There& before, const There& there) {
     if (before.f && there.f) {
-      constexpr double half = 0.5;
       if ((before.f->array() * there.f->array() < 0).any()) return true;
-      if (origin && (*there.f - *origin).stableNorm() > half * origin->stableNorm() && !origin->isZero(0)) return true;
+      if (differs(*there.f) && !differs(*before.f)) return true;  // a jump at the origin is no length
     }
     return (before.switches.array() * there.switches.array() < 0).any();
   };

@@ -2,8 +2,8 @@
 // of them. The return map of the ray moves the place s, at which an orbit crosses the ray, to the place P(s) after one
 // turn. A fixed point with a change of sign of ln P(s)/s is a limit cycle: stable if the sign changes from + to -.
 //
-// Where the orbit does not return, the map of the reversed motion, P^-1, is taken. P contracts towards a stable cycle
-// and P^-1 towards an unstable one, so Newton's or any other method for roots meets no growth of errors.
+// The map of the reversed motion, P^-1, replaces P for an orbit that does not return. P contracts towards a stable
+// cycle and P^-1 towards an unstable one, so Newton's or any other method for roots meets no growth of errors.
 //
 // Multiplier. Let d be the distance of a neighbouring orbit across the motion. The rate of |f| d is div f |f| d
 // (Liouville). Where f jumps from f- to f+ on a curve with the normal n, d f is multiplied by (n . f+)/(n . f-),

@@ -9,7 +9,7 @@
 // a little later decides. Sliding ends at a tangent point at which the side turns away; the side's own motion leaves
 // there. If the rate stays 0, the curve is an orbit of this side, and the combination is the field of this side.
 //
-// Where several curves meet, their tangents divide a small circle into sectors. A motion leaves into a sector if its
+// The tangents of several curves that meet divide a small circle into sectors. A motion leaves into a sector if its
 // field points into it, and along a half tangent if both neighbours let it slide away from the point. If there is one
 // such way, it is the motion. If there is none and the hull contains 0, the motion rests.
 #include "planar/region.hpp"
@@ -334,7 +334,7 @@ std::optional<Region> Junction::slide(std::size_t i, bool& ambiguous) const {
     const Vector2d gradient = switches(x).row(function).tail<2>(), one = f(x), other = g(x);
     return sliding_velocity(one, other, gradient.dot(one), gradient.dot(other));
   };
-  // Where both rates are 0, as at the end of a curve that is an orbit of one side, the point ahead decides.
+  // Both rates are 0 at the end of a curve that is an orbit of one side. There the point ahead decides.
   constexpr double rounding = 1e-13, apart = 1e-6, ahead = 1e-4;
   Vector2d from = x_;
   const auto rate_at = [&](const SmoothField& of) {

@@ -173,7 +173,7 @@ test("the address of the opening asks again, until the reader changes something"
   await page.locator("#spin-slider").press("ArrowRight");
   assert.match(await address(500), /^ball=puck&.*orbits=2\.305/);
   await close();
-  // Without motion the page shows the end; its address asks a friend all the same.
+  // The page shows the end at once if motion is reduced; its address asks a friend all the same.
   await open("#lab=0", { stopped: true });
   assert.equal(await address(500), "");
   await close();

@@ -499,7 +499,7 @@ TEST_CASE("degenerate equilibria have the separatrices of their sectors", "[outp
 }
 
 TEST_CASE("ordinary orbits do not fill a weak focus or the surroundings of a cycle", "[output]") {
-  // Without the rule for the last turn, an orbit of this focus makes hundreds of turns.
+  // An orbit of this focus would make hundreds of turns without the rule for the last turn.
   const PlanarPortrait focus = stepped_portrait([](const Vector2d& x) { return Vector2d(x[1], -x[0] - 0.002 * x[1]); });
   REQUIRE(focus.orbits.size() > 5);
   for (const PortraitOrbit& orbit : focus.orbits) {

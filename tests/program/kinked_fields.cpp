@@ -221,7 +221,7 @@ class Reference {
         lost_ = true;
     }
     if (!leaves) return;
-    // Where both sides turn away at once, the motion is not unique.
+    // The motion is not unique if both sides turn away at once.
     const auto [a, b] = rates_of_slide(x_);
     const RealState slopes = field_.gates[*slide_].slopes(x_), rate = rate_on(x_, a > 0 ? -1 : 1);
     const Real other = std::fabs(a > 0 ? b : a) / std::hypot(slopes[0], slopes[1]) / std::hypot(rate[0], rate[1]);

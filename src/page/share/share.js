@@ -114,7 +114,7 @@ export function makeShare(store, { plane, hero, why, player, address, film, type
     write($("roll-command"), roll ?? "");
     $("roll-line").hidden = !roll;
     if (store.typed) write($("typed-command"), typedCommand(state, store.typed));
-    // What is not there has no picture.
+    // A hidden part of the page has no picture.
     for (const option of $("picture").options) option.hidden = $(option.value).hidden;
     const { ball, law } = state;
     $("engine-line").hidden = !ball || !contact;

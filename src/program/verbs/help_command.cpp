@@ -63,7 +63,7 @@ std::string typed_formulas() {
   for (const auto& [sign, meaning] : parts) text += help_entry(sign, meaning);
   return text + "\n" +
          help_paragraph(
-             "Where the equations jump, as in x'' = -x - 0.2*sign(x'), Filippov's definition holds. A motion that is "
+             "Equations that jump, as x'' = -x - 0.2*sign(x'), are solved by Filippov's definition. A motion that is "
              "led to the jump from both sides slides along it. It rests there if the sliding speed is 0. If the "
              "motions on both sides point away from the jump, the motion is not unique, and none is chosen.");
 }

@@ -39,7 +39,7 @@ class ReduceCommand final : public Verb {
           "Kinds of equations that the answer names; behind \"orbits:\" those of dy/dx = y'/x' for a system:");
       for (const auto& [name, meaning] : equation_kinds()) text += help_entry(name, meaning);
       text += "\n" + help_paragraph(
-                         "Where the equations jump, motions cross, slide, rest, or are not unique: 'contensou help "
+                         "Motions at a jump of the equations cross, slide, rest, or are not unique: 'contensou help "
                          "formulas'.");
       return text;
     });

@@ -308,7 +308,7 @@ const std::vector<Engine>& engines() {
        face_on_rim("mu", points, {"no dContactRolling: each contact point would have a moment of its own"}),
        "none: the program that uses it fills dSurfaceParameters for each contact",
        {"dContactAxisDep is dContactMu2 under another name: with it mu2 counts, too, and must be set.",
-        "Without dContactAxisDep rho takes the place of rho2 and rhoN: it brakes the rolling as well.",
+        "rho takes the place of rho2 and rhoN without dContactAxisDep: it brakes the rolling as well.",
         "Friction is limited by mu N along each of two axes: for a slip between them it is up to 1.41 times as\n"
         "large. Shown for a slip along an axis.",
         "A cylinder on a plane has four contact points on the rim, 90 degrees apart, which stay where they are in\n"
@@ -336,7 +336,7 @@ const std::vector<Engine>& engines() {
        {"3 pi/16 is Psi(0) of Hertz's pressure: for it patch_radius is the radius of the patch itself.",
         "The tutorial writes mu3 inside <ode> and takes use_patch_radius true for surface_radius. The source\n"
         "reads <torsional><coefficient>, and use_patch_radius true takes patch_radius.",
-        "With use_patch_radius false the radius is sqrt(surface_radius depth), with the depth of the simulated\n"
+        "The radius is sqrt(surface_radius depth) if use_patch_radius is false, with the depth of the simulated\n"
         "contact.",
         "Friction is limited by mu N along each of two axes, unless friction_model is cone: for a slip between\n"
         "them it is up to 1.41 times as large. Shown for a slip along an axis.",
