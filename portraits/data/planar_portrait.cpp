@@ -379,11 +379,7 @@ class TimedTracer final : public PlanarTracer {
   }
 
   std::optional<std::size_t> sector(const Vector2d& x) const override {
-    try {
-      if (plane_.field()(x).allFinite()) return 0;
-    } catch (const std::exception&) {
-    }
-    return std::nullopt;
+    return rate_of(plane_.field(), x) ? std::optional<std::size_t>(0) : std::nullopt;
   }
 
  private:
@@ -775,11 +771,8 @@ template <class Holds>
 std::vector<PortraitOrbit> zero_curves(const reduction::SmoothField& field, int component, const Window& window,
                                        const Holds& holds) {
   const auto value = [&](const Vector2d& x) {
-    try {
-      return field(x)[component];
-    } catch (const std::exception&) {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
+    const auto rate = rate_of(field, x);
+    return rate ? (*rate)[component] : std::numeric_limits<double>::quiet_NaN();
   };
   std::vector<PortraitOrbit> curves;
   for (const Polyline& line : zero_lines({window.low, window.high, value}, window.sides())) {
@@ -802,11 +795,8 @@ std::vector<PortraitOrbit> curves_of_equilibria(const reduction::SmoothField& fi
   double largest = 0;
   constexpr int across = 7;
   const auto speed = [&](const Vector2d& x) {
-    try {
-      return field(x).norm();
-    } catch (const std::exception&) {
-      return infinity;
-    }
+    const auto rate = rate_of(field, x);
+    return rate ? rate->norm() : infinity;
   };
   for (int i = 0; i < across * across; ++i) {
     const double at = speed(

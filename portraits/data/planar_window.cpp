@@ -15,8 +15,6 @@ using Eigen::Vector2d;
 using reduction::Equilibria;
 using reduction::Equilibrium;
 
-namespace {
-
 std::optional<Vector2d> rate_of(const reduction::SmoothField& field, const Vector2d& x) {
   try {
     const Vector2d f = field(x);
@@ -25,6 +23,8 @@ std::optional<Vector2d> rate_of(const reduction::SmoothField& field, const Vecto
     return std::nullopt;
   }
 }
+
+namespace {
 
 /// Returns true if f(map(x)) = sign * f(x), component by component, at points of a rectangle about the origin.
 template <class Map>

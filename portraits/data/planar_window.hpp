@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,9 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
 
 /// Returns the limit cycles that turn about equilibria of a window and its surroundings.
 std::vector<reduction::LimitCycle> cycles_within(const reduction::PlanarReduction& plane, const Window& window);
+
+/// Returns the field at a point; empty if it has no value there.
+std::optional<Eigen::Vector2d> rate_of(const reduction::SmoothField& field, const Eigen::Vector2d& x);
 
 /// Returns the smallest window that contains a window and a point.
 Window united(const Window& window, const Eigen::Vector2d& x);

@@ -14,6 +14,7 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
+#include "data/planar_window.hpp"
 #include "data/tracing.hpp"
 #include "views/panel_layers.hpp"
 
@@ -275,14 +276,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   axes.x.name = variable(portrait.variables[0]);
   axes.y.name = variable(portrait.variables[1]);
   axes.to_scale = to_scale;
-  const auto rate_at = [&](Point at) -> std::optional<Vector2d> {
-    try {
-      const Vector2d rate = portrait.plane.field()({at.x, at.y});
-      return rate.allFinite() ? std::optional(rate) : std::nullopt;
-    } catch (const std::exception&) {
-      return std::nullopt;
-    }
-  };
+  const auto rate_at = [&](Point at) { return rate_of(portrait.plane.field(), {at.x, at.y}); };
   for (Polyline& part : gaps_of([&](Point place) { return rate_at(from_paper(axes, place)).has_value(); })) {
     for (Point& point : part) point = from_paper(axes, point);
     axes.regions.push_back({std::move(part), grey_of(look.palette)});
