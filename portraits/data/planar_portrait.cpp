@@ -973,8 +973,9 @@ PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, 
   std::ranges::for_each(on_disc.through, move);
   PlanarView round{{Vector2d(-1, -1), Vector2d(1, 1)}, flat.cycles};
   for (reduction::LimitCycle& cycle : round.cycles) std::ranges::transform(cycle.line, cycle.line.begin(), onto);
+  constexpr double fine = 1e-9;  // tolerance of steps; the picture shows less
   PlanarPortrait portrait =
-      portrait_in(std::move(round), reduction::by_steps(disc.field), std::move(name), on_disc, &disc);
+      portrait_in(std::move(round), reduction::by_steps(disc.field, fine), std::move(name), on_disc, &disc);
 
   const auto unrolled = [&](std::vector<PortraitOrbit>& lines) {
     for (PortraitOrbit& line : lines) {

@@ -60,9 +60,13 @@ struct Homogenised {
     Matrix2d slopes = Matrix2d::Zero();
   };
 
-  Value operator()(const Vector2d& X) const {
+  Value operator()(const Vector2d& X, bool with_slopes) const {
     const double w = 1 - X.squaredNorm();
-    const auto term = [](double base, int n) { return n < 0 ? 0 : std::pow(base, n); };
+    const auto term = [](double base, int n) {
+      double product = n < 0 ? 0 : 1;
+      for (; n > 0; --n) product *= base;
+      return product;
+    };
     Value value;
     for (int c : {0, 1}) {
       const MatrixXd& all = coefficients[static_cast<std::size_t>(c)];
@@ -72,6 +76,7 @@ struct Homogenised {
           const int k = degree - i - j;
           const double u = term(X[0], i), v = term(X[1], j), power = term(w, k);
           value.g[c] += all(i, j) * u * v * power;
+          if (!with_slopes) continue;
           const double by_w = k * u * v * term(w, k - 1);
           value.slopes(c, 0) += all(i, j) * (i * term(X[0], i - 1) * v * power - 2 * X[0] * by_w);
           value.slopes(c, 1) += all(i, j) * (j * term(X[1], j - 1) * u * power - 2 * X[1] * by_w);
@@ -203,16 +208,16 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
   }
   g.coefficients = in_units(g.coefficients, radius);
   const auto value = [g](const Vector2d& X) -> Vector2d {
-    const Vector2d at = g(X).g;
+    const Vector2d at = g(X, false).g;
     return at - 2 * X.dot(at) / (1 + X.squaredNorm()) * X;
   };
   const auto jacobian = [g](const Vector2d& X) -> Matrix2d {
-    const auto [at, slopes] = g(X);
+    const auto [at, slopes] = g(X, true);
     const double one = 1 + X.squaredNorm(), inner = X.dot(at);
     return slopes - 2 / one * (inner * Matrix2d::Identity() + X * (at + slopes.transpose() * X).transpose()) +
            4 * inner / (one * one) * X * X.transpose();
   };
-  const auto plain = [g](const Vector2d& X) -> Vector2d { return g(X).g; };
+  const auto plain = [g](const Vector2d& X) -> Vector2d { return g(X, false).g; };
   PoincareDisc disc{g.degree, radius, SmoothField(value, jacobian), SmoothField(plain), {}, {}};
 
   constexpr double around = 1.05;
