@@ -204,4 +204,4 @@ def test_a_fault_of_ours_is_said_to_be_one():
     nothing = dict(view=None, window=None, orbits=None, through=[], isochrones=None, against=None, arrows="time", field="none",
                    axes=True, colour="time", style="print", scale="bent", estimate=False, size=(None, None), title=None)
     with pytest.raises(RuntimeError, match="^a fault of contensou, not of the input; please report it with what was asked: the call above$"):
-        ct._core.Portrait([], None, None, **nothing)  # no flow: the package never asks so
+        ct._core.Portrait([], None, None, nothing)  # no flow: the package never asks so
