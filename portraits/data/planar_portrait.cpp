@@ -17,11 +17,9 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
-#include "data/isochrones.hpp"
 #include "data/planar_window.hpp"
 #include "data/tracing.hpp"
 #include "data/widest_gaps.hpp"
-#include "data/zero_lines.hpp"
 
 namespace contensou::portraits {
 
@@ -54,23 +52,6 @@ Course course_of(const PlanarSector& sector) {
 Vector2d vector_of(const State& x) { return {x.u, x.v}; }
 Vector2d vector_of(Point x) { return {x.x, x.y}; }
 
-/// Returns the parts of an orbit that lie in a window.
-/// @param time_left  returns the time left at a point
-std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
-                                    const std::function<double(const Vector2d&)>& time_left) {
-  std::vector<PortraitOrbit> parts;
-  for (const Polyline& line : clipped(panel_of(window), orbit)) {
-    if (line.size() < 2) continue;
-    PortraitOrbit part = columns(line, infinity);
-    for (Eigen::Index i = 0; i < part.rows(); ++i) {
-      // A chord may change the order of times in the last digits.
-      part.tau_left[i] = std::min(time_left({part.u[i], part.v[i]}), i > 0 ? part.tau_left[i - 1] : infinity);
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 /// Traces orbits in a window.
 class PlanarTracer {
  public:
@@ -85,7 +66,17 @@ class PlanarTracer {
     return parts(line(x, from_here));
   }
   std::vector<PortraitOrbit> parts(const Polyline& line) const {
-    return parts_of(line, window_, [this](const Vector2d& at) { return time_left(at); });
+    std::vector<PortraitOrbit> parts;
+    for (const Polyline& visible : clipped(panel_, line)) {
+      if (visible.size() < 2) continue;
+      PortraitOrbit part = columns(visible, infinity);
+      for (Eigen::Index i = 0; i < part.rows(); ++i) {
+        // A chord may change the order of times in the last digits.
+        part.tau_left[i] = std::min(time_left({part.u[i], part.v[i]}), i > 0 ? part.tau_left[i - 1] : infinity);
+      }
+      parts.push_back(std::move(part));
+    }
+    return parts;
   }
 
   /// Returns the parts in the window of an ordinary orbit. It may end early, so that lines do not cover each other.

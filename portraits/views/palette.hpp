@@ -7,7 +7,6 @@
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 
 namespace contensou::portraits {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contensou/portraits/figure.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
 #include "views/palette.hpp"
 
 namespace contensou::portraits {

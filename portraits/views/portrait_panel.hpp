@@ -8,7 +8,6 @@
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "views/panel_layers.hpp"
 
 namespace contensou::portraits {
