@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "contensou/portraits/figure.hpp"
