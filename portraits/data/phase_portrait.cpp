@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "contensou/reduction/detail/root.hpp"
 #include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "data/isochrones.hpp"
 #include "data/round_numbers.hpp"
 #include "data/tracing.hpp"
 
@@ -93,11 +91,6 @@ using Track = std::vector<Instant>;  // from the first state to the stop
 Instant instant(const Orbit::Remaining& at, double mu, double ln_k_stop) {
   const double ln_k = at.u == 0 ? (at.v > 0 ? infinity : ln_k_stop) : at.ln_v - std::log(mu * std::abs(at.u));
   return {at.u, at.v, at.ln_v, ln_k, at.tau_left};
-}
-
-/// Converts a state with a given time left.
-Instant instant(const OrbitPoint& point, double left, double mu, double ln_k_stop) {
-  return instant({point.u, point.v, point.ln_v, left}, mu, ln_k_stop);
 }
 
 /// Returns the visible change of ln k. Beyond |ln k| = 20 orbits cannot be distinguished from an axis.
@@ -260,7 +253,9 @@ class OrbitTracer {
     const Orbit orbit = flow_.orbit(start);
     const auto distance = [this](const Instant& a, const Instant& b) { return on_window(a, b); };
     const double end = ln_k_stop(start);
-    const auto timed = [&](const OrbitPoint& point, double left) { return instant(point, left, system_.mu(), end); };
+    const auto timed = [&](const OrbitPoint& point, double left) {
+      return instant({point.u, point.v, point.ln_v, left}, system_.mu(), end);
+    };
     Track track{timed(orbit.at_time(0), orbit.stop_time())};
     if (!orbit.on_axis()) {
       constexpr double lowest = -20;
@@ -313,7 +308,8 @@ class OrbitTracer {
     Track track;
     for (Eigen::Index i = 0; i < motion.points.rows(); ++i) {
       const OrbitPoint point = motion.points.row(i);
-      track.push_back(instant(point, std::max(0.0, motion.stop_time - point.tau), system_.mu(), ln_k_stop(start)));
+      const double left = std::max(0.0, motion.stop_time - point.tau);
+      track.push_back(instant({point.u, point.v, point.ln_v, left}, system_.mu(), ln_k_stop(start)));
     }
     return track;
   }

@@ -5,11 +5,11 @@
 #include <functional>
 #include <initializer_list>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <numbers>
-#include <set>
 #include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,11 +17,9 @@
 #include "contensou/portraits/layout.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
-#include "data/isochrones.hpp"
 #include "data/planar_window.hpp"
 #include "data/tracing.hpp"
 #include "data/widest_gaps.hpp"
-#include "data/zero_lines.hpp"
 
 namespace contensou::portraits {
 
@@ -54,23 +52,6 @@ Course course_of(const PlanarSector& sector) {
 Vector2d vector_of(const State& x) { return {x.u, x.v}; }
 Vector2d vector_of(Point x) { return {x.x, x.y}; }
 
-/// Returns the parts of an orbit that lie in a window.
-/// @param time_left  returns the time left at a point
-std::vector<PortraitOrbit> parts_of(const Polyline& orbit, const Window& window,
-                                    const std::function<double(const Vector2d&)>& time_left) {
-  std::vector<PortraitOrbit> parts;
-  for (const Polyline& line : clipped(panel_of(window), orbit)) {
-    if (line.size() < 2) continue;
-    PortraitOrbit part = columns(line, infinity);
-    for (Eigen::Index i = 0; i < part.rows(); ++i) {
-      // A chord may change the order of times in the last digits.
-      part.tau_left[i] = std::min(time_left({part.u[i], part.v[i]}), i > 0 ? part.tau_left[i - 1] : infinity);
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 /// Traces orbits in a window.
 class PlanarTracer {
  public:
@@ -85,7 +66,17 @@ class PlanarTracer {
     return parts(line(x, from_here));
   }
   std::vector<PortraitOrbit> parts(const Polyline& line) const {
-    return parts_of(line, window_, [this](const Vector2d& at) { return time_left(at); });
+    std::vector<PortraitOrbit> parts;
+    for (const Polyline& visible : clipped(panel_, line)) {
+      if (visible.size() < 2) continue;
+      PortraitOrbit part = columns(visible, infinity);
+      for (Eigen::Index i = 0; i < part.rows(); ++i) {
+        // A chord may change the order of times in the last digits.
+        part.tau_left[i] = std::min(time_left({part.u[i], part.v[i]}), i > 0 ? part.tau_left[i - 1] : infinity);
+      }
+      parts.push_back(std::move(part));
+    }
+    return parts;
   }
 
   /// Returns the parts in the window of an ordinary orbit. It may end early, so that lines do not cover each other.
@@ -346,22 +337,17 @@ class TimedTracer final : public PlanarTracer {
       : PlanarTracer(plane, window),
         in_disc_(in_disc),
         forth_{plane, reduction::by_steps(plane.field()), {}},
-        back_{plane.reversed(), forth_.by_steps.reversed(), {}},
-        beside_cycle_(raster * raster),
-        passed_(raster * raster) {
+        back_{plane.reversed(), forth_.by_steps.reversed(), {}} {
     for (const reduction::LimitCycle& cycle : cycles) {
-      for (const Vector2d& x : cycle.line) mark_beside(x);
+      for (const Vector2d& x : cycle.line) {
+        for_cells_about(cell_of(x, coarse), 12, [&](int cell) { beside_cycle_.insert(cell); });
+      }
       for (std::size_t i = 1; i < cycle.line.size(); ++i) {
         const Vector2d step = cycle.line[i] - cycle.line[i - 1];
-        const int pieces = 1 + static_cast<int>(2 * cells * step.cwiseQuotient(window.sides()).norm());
+        const int pieces = 1 + static_cast<int>(2 * fine * step.cwiseQuotient(window.sides()).norm());
         for (int k = 0; k < pieces; ++k) {
-          const Cell cell = cell_of(cycle.line[i - 1] + step * k / pieces);
-          constexpr int around = 3;
-          for (int j = 0; j < (2 * around + 1) * (2 * around + 1); ++j) {
-            (cycle.stable ? forth_ : back_)
-                .cycles.insert(
-                    {cell.first + j % (2 * around + 1) - around, cell.second + j / (2 * around + 1) - around});
-          }
+          for_cells_about(cell_of(cycle.line[i - 1] + step * k / pieces, fine), 3,
+                          [&](int cell) { (cycle.stable ? forth_ : back_).cycles.insert(cell); });
         }
       }
     }
@@ -382,7 +368,7 @@ class TimedTracer final : public PlanarTracer {
     line.push_back({x[0], x[1]});
     std::ranges::copy(follow(forth_, x, true), std::back_inserter(line));
     for (const Point& at : line) {
-      if (const auto place = raster_place(vector_of(at))) passed_[*place] = true;
+      if (window_.contains({at.x, at.y})) passed_.insert(cell_of(vector_of(at), coarse));
     }
     return parts(line);
   }
@@ -393,19 +379,27 @@ class TimedTracer final : public PlanarTracer {
   }
 
  private:
-  using Cell = std::pair<int, int>;
-  static constexpr int cells = 300;   ///< cells of the picture along a side
-  static constexpr int raster = 150;  ///< coarser cells, two of which are a visible distance
+  // The window and its surroundings are divided into cells, which have numbers. Two coarse cells are a visible
+  // distance.
+  static constexpr int fine = 300, coarse = 150;  ///< cells along a side of the window
+  static constexpr int row = 1 << 14;             ///< difference of the numbers of two cells one above the other
 
-  /// A system, its orbits by steps in time, and the cells about the limit cycles that its motions near.
+  /// A system, its orbits by steps in time, and the fine cells about the limit cycles that its motions near.
   struct Way {
     PlanarReduction plane, by_steps;
-    std::set<Cell> cycles;
+    std::unordered_set<int> cycles;
   };
 
-  Cell cell_of(const Vector2d& x) const {
+  int cell_of(const Vector2d& x, int cells) const {
     const Vector2d place = (x - window_.low).cwiseQuotient(window_.sides()).cwiseMax(-9).cwiseMin(9) * cells;
-    return {static_cast<int>(std::floor(place[0])), static_cast<int>(std::floor(place[1]))};
+    return row * static_cast<int>(std::floor(place[1])) + static_cast<int>(std::floor(place[0]));
+  }
+  /// Calls a function for the cells about a cell.
+  template <class Function>
+  static void for_cells_about(int cell, int around, const Function& function) {
+    for (int i = -around; i <= around; ++i) {
+      for (int j = -around; j <= around; ++j) function(cell + row * i + j);
+    }
   }
 
   Polyline line(const Vector2d& x, bool from_here) const override {
@@ -418,54 +412,32 @@ class TimedTracer final : public PlanarTracer {
   }
   Polyline follow(const Way& way, const Vector2d& x, bool is_ordinary = false) const;
 
-  /// Returns the number of the coarse cell of a point, empty outside the window.
-  std::optional<std::size_t> raster_place(const Vector2d& x) const {
-    const Vector2d place = (x - window_.low).cwiseQuotient(window_.sides()) * raster;
-    if (!(place.minCoeff() >= 0 && place.maxCoeff() < raster)) return std::nullopt;
-    return static_cast<std::size_t>(place[1]) * raster + static_cast<std::size_t>(place[0]);
-  }
-  /// Calls a function for the coarse cells about a cell.
-  template <class Function>
-  static void for_cells_about(std::size_t place, int around, const Function& function) {
-    const int column = static_cast<int>(place % raster), row = static_cast<int>(place / raster);
-    for (int i = std::max(0, column - around); i <= std::min(raster - 1, column + around); ++i) {
-      for (int j = std::max(0, row - around); j <= std::min(raster - 1, row + around); ++j) {
-        function(static_cast<std::size_t>(j * raster + i));
-      }
-    }
-  }
-  void mark_beside(const Vector2d& x) {
-    constexpr int around = 12;
-    const auto place = raster_place(x);
-    if (place) for_cells_about(*place, around, [&](std::size_t cell) { beside_cycle_[cell] = true; });
-  }
-
   bool in_disc_;
   Way forth_, back_;
-  std::vector<bool> beside_cycle_;    ///< coarse cells about limit cycles, which all orbits come near
-  mutable std::vector<bool> passed_;  ///< coarse cells of ordinary orbits
+  std::unordered_set<int> beside_cycle_ = {};    ///< coarse cells about limit cycles, which all orbits come near
+  mutable std::unordered_set<int> passed_ = {};  ///< coarse cells of ordinary orbits
 };
 
 /// Finds where an ordinary orbit becomes useless in a picture: beside a cycle where it follows another orbit, and
 /// where it follows its own last turn for a whole turn.
 class Crowding {
  public:
-  Crowding(std::size_t places) : last_(places, -1) {}
-
   /// Adds the next point.
+  /// @param cell        its coarse cell; empty outside the window
   /// @param neighbours  calls its argument for the coarse cells about the point
   template <class Neighbours>
-  void add(std::optional<std::size_t> place, bool beside_other, const Neighbours& neighbours) {
+  void add(std::optional<int> cell, bool beside_other, const Neighbours& neighbours) {
     ++index_;
     followed_ = beside_other ? followed_ + 1 : 0;
-    if (!place || place == place_) return;
-    place_ = place;
+    if (!cell || cell == cell_) return;
+    cell_ = cell;
     constexpr int apart = 12;
     int nearest = -1;
-    neighbours([&](std::size_t cell) {
-      if (last_[cell] >= 0 && index_ - last_[cell] > apart) nearest = std::max(nearest, last_[cell]);
+    neighbours([&](int other) {
+      const auto last = last_.find(other);
+      if (last != last_.end() && index_ - last->second > apart) nearest = std::max(nearest, last->second);
     });
-    last_[*place] = index_;
+    last_[*cell] = index_;
     if (nearest < 0) {
       since_ = index_;
     } else {
@@ -477,8 +449,8 @@ class Crowding {
   static constexpr int most = 15;  ///< points beside another orbit
 
  private:
-  std::vector<int> last_;
-  std::optional<std::size_t> place_;
+  std::unordered_map<int, int> last_;  ///< number of the last point in a cell
+  std::optional<int> cell_;
   int index_ = 0, since_ = 0, turn_ = 1 << 30, followed_ = 0;
 };
 
@@ -507,9 +479,9 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
   const double last = motion.period().value_or(infinity);
   // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
   constexpr int turns = 3;
-  std::map<Cell, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
-  bool apart = !way.cycles.contains(cell_of(x));
-  Crowding crowding(is_ordinary ? raster * raster : 0);
+  std::unordered_map<int, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
+  bool apart = !way.cycles.contains(cell_of(x, fine));
+  Crowding crowding;
   for (int i = 0; i < most && time < last; ++i) {
     const double next = std::min(time + step, last);
     Vector2d there;
@@ -537,12 +509,13 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
       continue;
     }
     // The cycle itself is drawn, so the orbit ends before it covers the cycle.
-    const bool at_cycle = way.cycles.contains(cell_of(there));
+    const int cell = cell_of(there, fine);
+    const bool at_cycle = way.cycles.contains(cell);
     if (apart && at_cycle) break;
     apart = !at_cycle;
     if (beyond == 0) {
-      auto& [when, count] = visits[cell_of(there)];
-      const bool again = count > 0 && static_cast<int>(line.size()) - when > cells / 10;
+      auto& [when, count] = visits[cell];
+      const bool again = count > 0 && static_cast<int>(line.size()) - when > fine / 10;
       when = static_cast<int>(line.size());
       count += count == 0 || again ? 1 : 0;
       if (count > turns) break;
@@ -551,10 +524,10 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
     here = there;
     time = next;
     if (is_ordinary) {
-      const auto place = raster_place(here);
+      const auto place = beyond == 0 ? std::optional(cell_of(here, coarse)) : std::nullopt;
       bool beside_other = false;
-      if (place && beside_cycle_[*place]) {
-        for_cells_about(*place, 1, [&](std::size_t cell) { beside_other = beside_other || passed_[cell]; });
+      if (place && beside_cycle_.contains(*place)) {
+        for_cells_about(*place, 1, [&](int near_by) { beside_other = beside_other || passed_.contains(near_by); });
       }
       crowding.add(place, beside_other, [&](const auto& look) { for_cells_about(*place, 1, look); });
       if (crowding.follows_other()) line.resize(line.size() - std::min<std::size_t>(line.size(), Crowding::most));

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
@@ -32,5 +33,10 @@ std::optional<Eigen::Vector2d> rate_of(const reduction::SmoothField& field, cons
 
 /// Returns the smallest window that contains a window and a point.
 Window united(const Window& window, const Eigen::Vector2d& x);
+
+/// Returns the curves on which a function is 0 within its rectangle, with or without a change of its sign. Squares are
+/// 1/160 of a window.
+/// @param sides  sides of the window
+std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Eigen::Vector2d& sides);
 
 }  // namespace contensou::portraits

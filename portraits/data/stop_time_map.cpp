@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "data/isochrones.hpp"
 #include "data/round_numbers.hpp"
+#include "data/tracing.hpp"
 
 namespace contensou::portraits {
 

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "contensou/reduction/detail/infinity.hpp"
 #include "views/portrait_views.hpp"
 

@@ -2,12 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 
 namespace contensou::portraits {
 

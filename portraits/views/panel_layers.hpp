@@ -2,12 +2,11 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "contensou/portraits/figure.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
 #include "views/palette.hpp"
 
 namespace contensou::portraits {

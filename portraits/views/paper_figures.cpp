@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 
 namespace contensou::portraits {

@@ -219,6 +219,12 @@ void add_cycles(PanelLayers& layers, const PlanarPortrait& portrait, const Palet
   }
 }
 
+Lines lines_of(const PanelLayers& layers, const std::vector<PortraitOrbit>& curves, Stroke stroke, const Text& legend) {
+  Lines lines{{}, stroke, legend};
+  for (TimedLine& curve : layers.lines_of(curves)) lines.lines.push_back(std::move(curve.line));
+  return lines;
+}
+
 /// Adds the separatrices, one layer for each manifold.
 void add_separatrices(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
   struct Look {
@@ -234,9 +240,7 @@ void add_separatrices(PanelLayers& layers, const PlanarPortrait& portrait, const
     std::ranges::copy_if(portrait.separatrices, std::back_inserter(curves),
                          [&](const Separatrix& each) { return each.manifold == look.manifold; });
     if (curves.empty()) continue;
-    Lines lines{{}, {palette.comparison, look.width, look.dashed}, look.legend};
-    for (TimedLine& curve : layers.lines_of(curves)) lines.lines.push_back(std::move(curve.line));
-    layers.add_invariant(std::move(lines));
+    layers.add_invariant(lines_of(layers, curves, {palette.comparison, look.width, look.dashed}, look.legend));
   }
 }
 
@@ -366,16 +370,13 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     add_separatrices(layers, portrait, look.palette);
     add_cycles(layers, portrait, look.palette);
   }
-  if (!portrait.lines_of_equilibria.empty()) {
-    Lines lines{{}, {look.palette.invariant, 4, false, true}, "equilibria"};
-    for (TimedLine& curve : layers.lines_of(portrait.lines_of_equilibria)) lines.lines.push_back(std::move(curve.line));
-    layers.panel().lines.push_back(std::move(lines));
-  }
+  const auto add_curves = [&](const std::vector<PortraitOrbit>& curves, Stroke stroke, const Text& legend) {
+    if (!curves.empty()) layers.panel().lines.push_back(lines_of(layers, curves, stroke, legend));
+  };
+  add_curves(portrait.lines_of_equilibria, {look.palette.invariant, 4, false, true}, "equilibria");
   for (std::size_t i : {0U, 1U}) {
-    if (portrait.nullclines[i].empty()) continue;
-    Lines lines{{}, {look.palette.invariant, 1.5, i == 1, i == 0}, variable(portrait.variables[i] + "'") + " = 0"};
-    for (TimedLine& curve : layers.lines_of(portrait.nullclines[i])) lines.lines.push_back(std::move(curve.line));
-    layers.panel().lines.push_back(std::move(lines));
+    add_curves(portrait.nullclines[i], {look.palette.invariant, 1.5, i == 1, i == 0},
+               variable(portrait.variables[i] + "'") + " = 0");
   }
   add_switching(layers, portrait.switching, look.palette);
   if (portrait.disc) add_infinity(layers, portrait, look.palette);

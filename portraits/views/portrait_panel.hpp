@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "views/panel_layers.hpp"
 
 namespace contensou::portraits {

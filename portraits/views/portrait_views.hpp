@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "contensou/reduction/small_mu.hpp"
 #include "data/round_numbers.hpp"
 #include "views/portrait_views.hpp"

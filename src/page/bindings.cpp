@@ -23,7 +23,6 @@
 #include "answers/asked/portrait_spec.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/render.hpp"
 #include "contensou/reduction/detail/root.hpp"
@@ -175,7 +174,7 @@ class Plane {
   /// Returns the TeX file that the program writes for a request. Only the tests use it.
   std::string portrait_file(const val& asked) const {
     const answers::PortraitSpec question = question_of(asked, flow());
-    return portraits::pgfplots(question.figure(question.portrait()));
+    return portraits::pgfplots(question.mapped_figure(question.portrait()).figure);
   }
 
   /// Returns the stop time of one start.

@@ -107,19 +107,32 @@ py::dict dict_of(const Figure& figure) {
                                   : std::nullopt);
 }
 
-using Sides = std::pair<double, double>;
+/// Returns an argument of Python's function, or a default if the function does not have it.
+template <class Value>
+Value argument(const py::dict& asked, const char* name, Value otherwise = {}) {
+  if (!asked.contains(name)) return otherwise;
+  try {
+    return asked[name].cast<Value>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(
+        fmt::format("{}: a value of another type is needed; got {}", name, py::repr(asked[name]).cast<std::string>()));
+  }
+}
 
-/// A window: its sides (U, V), or both ends of each side.
-using AskedWindow = std::variant<Sides, std::pair<Sides, Sides>>;
-
-/// A number of isochrones, or the times of isochrones.
-using AskedIsochrones = std::variant<int, std::vector<double>>;
-
-/// Returns the request that portraits of all systems share.
-portraits::PortraitRequest request_of(const std::optional<AskedWindow>& window, std::optional<int> orbits,
-                                      const std::vector<Sides>& through,
-                                      const std::optional<AskedIsochrones>& isochrones) {
-  portraits::PortraitRequest request{.orbits = orbits};
+/// Returns the contents that the arguments of a portrait request.
+portraits::PortraitRequest request_of(const py::dict& asked) {
+  using Sides = std::pair<double, double>;
+  portraits::PortraitRequest request{.orbits = argument<std::optional<int>>(asked, "orbits"),
+                                     .nullclines = argument<bool>(asked, "nullclines")};
+  if (const auto u = argument<std::optional<double>>(asked, "u"))
+    request.highlight = {*u, argument<double>(asked, "v")};
+  const auto name_of_view = [](portraits::View each) { return name(each); };
+  if (const auto view = argument<std::optional<std::string>>(asked, "view"))
+    request.view = entry_of("view", portraits::views(), name_of_view, *view);
+  request.linear =
+      one_of<bool>("scale", {{"bent", false}, {"linear", true}}, argument<std::string>(asked, "scale", "bent"));
+  // A window is given by its sides (U, V), or by both ends of each side.
+  const auto window = argument<std::optional<std::variant<Sides, std::pair<Sides, Sides>>>>(asked, "window");
   if (window && std::holds_alternative<Sides>(*window)) {
     const auto& [u, v] = std::get<Sides>(*window);
     request.sides = Eigen::Vector2d(u, v);
@@ -127,94 +140,82 @@ portraits::PortraitRequest request_of(const std::optional<AskedWindow>& window, 
     const auto& [u, v] = std::get<1>(*window);
     request.window = {{u.first, v.first}, {u.second, v.second}};
   }
-  for (const auto& [u, v] : through) request.through.push_back({u, v});
-  if (!isochrones) return request;
-  if (const int* count = std::get_if<int>(&*isochrones)) {
-    request.isochrones = *count;
-    return request;
+  for (const auto& [u, v] : argument<std::vector<Sides>>(asked, "through")) request.through.push_back({u, v});
+  const auto isochrones = argument<std::optional<std::variant<int, std::vector<double>>>>(asked, "isochrones");
+  if (isochrones && std::holds_alternative<int>(*isochrones)) {
+    request.isochrones = std::get<int>(*isochrones);
+  } else if (isochrones) {
+    request.isochrone_times = std::get<1>(*isochrones);
+    if (request.isochrone_times.empty()) request.isochrones = 0;
   }
-  request.isochrone_times = std::get<1>(*isochrones);
-  if (request.isochrone_times.empty()) request.isochrones = 0;
   return request;
 }
 
-using Size = std::pair<std::optional<double>, std::optional<double>>;
+using Field = PortraitStyle::Field;
 
-/// Returns the style that portraits of all systems share.
-PortraitStyle style_of(const std::string& arrows, bool axes, const std::string& colour, const std::string& style,
-                       const Size& size) {
+/// Returns the style that the arguments of a portrait request.
+PortraitStyle style_of(const py::dict& asked, const std::vector<std::pair<std::string, Field>>& fields) {
   using Arrows = PortraitStyle::Arrows;
-  return {.arrows = one_of<Arrows>("arrow place",
-                                   {{"time", Arrows::time}, {"one", Arrows::one}, {"none", Arrows::none}}, arrows),
-          .invariant = axes,
-          .colour_by_time = one_of<bool>("colour", {{"time", true}, {"none", false}}, colour),
-          .screen = one_of<bool>("style", {{"print", false}, {"screen", true}}, style),
-          .size = {size.first, size.second}};
+  const auto chosen = [&]<class Value>(const char* name, const char* kind,
+                                       const std::vector<std::pair<std::string, Value>>& choices) {
+    return one_of(kind, choices, argument<std::string>(asked, name));
+  };
+  const auto [width, height] = argument<std::pair<std::optional<double>, std::optional<double>>>(asked, "size");
+  return {.arrows = chosen.operator()<Arrows>("arrows", "arrow place",
+                                              {{"time", Arrows::time}, {"one", Arrows::one}, {"none", Arrows::none}}),
+          .field = chosen("field", "field", fields),
+          .invariant = argument<bool>(asked, "axes"),
+          .colour_by_time = chosen.operator()<bool>("colour", "colour", {{"time", true}, {"none", false}}),
+          .estimate = argument<bool>(asked, "estimate"),
+          .screen = chosen.operator()<bool>("style", "style", {{"print", false}, {"screen", true}}),
+          .size = {width, height}};
 }
 
-Figure titled(Figure figure, const std::optional<std::string>& title, const Size& size) {
+/// Returns a figure with the requested title, without the room that a shorter figure leaves.
+Figure finished(Figure figure, const std::optional<std::string>& title, const portraits::AskedSize& size) {
   if (title) {
     figure.title = portraits::shortened(*title, 200);
     figure.subtitle = "";
   }
-  return size.second ? figure : portraits::trimmed(std::move(figure));
+  return size.height_mm ? figure : portraits::trimmed(std::move(figure));
 }
 
-/// Returns a portrait.
+/// Returns a portrait of planes of (2.6).
 /// @param flows  one or more, of planes to compare; the other arguments apply to all
 Portrait portrait_of(const std::vector<reduction::Flow>& flows, const std::optional<si::Experiment>& experiment,
-                     const std::optional<Sides>& start, const std::optional<std::string>& view,
-                     const std::optional<AskedWindow>& window, std::optional<int> orbits,
-                     const std::vector<Sides>& through, const std::optional<AskedIsochrones>& isochrones,
-                     const std::optional<reduction::Law>& against, const std::string& arrows, const std::string& field,
-                     bool axes, const std::string& colour, const std::string& style, const std::string& scale,
-                     bool estimate, const Size& size, const std::optional<std::string>& title) {
-  using Field = PortraitStyle::Field;
-  answers::PortraitSpec asked{.flow = flows.at(0),
-                              .experiment = experiment,
-                              .request = request_of(window, orbits, through, isochrones),
-                              .style = style_of(arrows, axes, colour, style, size)};
-  if (start) asked.start = reduction::State{start->first, start->second};
-  if (experiment) asked.start = si::reduced_start(*experiment);
-  const auto name_of_view = [](portraits::View each) { return name(each); };
-  if (view) asked.request.view = entry_of("view", portraits::views(), name_of_view, *view);
-  asked.request.comparison = against;
-  asked.request.linear = one_of<bool>("scale", {{"bent", false}, {"linear", true}}, scale);
-  asked.style.field = one_of<Field>(
-      "field", {{"none", Field::none}, {"motion", Field::motion}, {"regularised", Field::regularised}}, field);
-  if (estimate && asked.request.view != portraits::View::time) {
+                     const std::optional<reduction::Law>& against, const py::dict& asked) {
+  const auto title = argument<std::optional<std::string>>(asked, "title");
+  answers::PortraitSpec spec{
+      .flow = flows.at(0),
+      .experiment = experiment,
+      .request = request_of(asked),
+      .style =
+          style_of(asked, {{"none", Field::none}, {"motion", Field::motion}, {"regularised", Field::regularised}})};
+  spec.start = experiment ? std::optional(si::reduced_start(*experiment)) : spec.request.highlight;
+  spec.request.comparison = against;
+  if (spec.style.estimate && spec.request.view != portraits::View::time) {
     throw std::domain_error("estimate is drawn against time: view=\"time\" is needed");
   }
-  if (estimate && against) throw std::domain_error("estimate and against exclude each other: both would be dashed");
-  asked.style.estimate = estimate;
-  std::vector<answers::PortraitSpec> all;
-  for (const reduction::Flow& flow : flows) {
-    all.push_back(asked);
-    all.back().flow = flow;
-  }
+  if (spec.style.estimate && against)
+    throw std::domain_error("estimate and against exclude each other: both would be dashed");
+  std::vector<answers::PortraitSpec> all(flows.size(), spec);
+  for (std::size_t i = 0; i < flows.size(); ++i) all[i].flow = flows[i];
+  const py::gil_scoped_release released;
   std::vector<PhasePortrait> data = answers::portraits_of(all);
-  Figure figure = titled(answers::figure_of(all, data), title, size);
+  Figure figure = finished(answers::figure_of(all, data), title, spec.style.size);
   return {std::move(figure),
-          [data = std::move(data), source = asked.source()] { return portraits::to_json(data, source); }};
+          [data = std::move(data), source = spec.source()] { return portraits::to_json(data, source); }};
 }
 
-Portrait portrait_of_plane(const Planar& planar, const std::string& system, const std::optional<Sides>& start,
-                           const std::optional<AskedWindow>& window, std::optional<int> orbits,
-                           const std::vector<Sides>& through, const std::optional<AskedIsochrones>& isochrones,
-                           const std::string& arrows, const std::string& field, bool axes, bool nullclines,
-                           const std::string& colour, const std::string& style, const Size& size,
-                           const std::optional<std::string>& title) {
-  using Field = PortraitStyle::Field;
-  portraits::PortraitRequest asked = request_of(window, orbits, through, isochrones);
-  if (start) asked.highlight = {start->first, start->second};
-  asked.nullclines = nullclines;
-  PortraitStyle looks = style_of(arrows, axes, colour, style, size);
-  looks.field = one_of<Field>("field", {{"none", Field::none}, {"motion", Field::motion}}, field);
+/// Returns a portrait of the plane of another system.
+Portrait portrait_of_plane(const Planar& planar, const std::string& system, const py::dict& asked) {
+  const auto title = argument<std::optional<std::string>>(asked, "title");
+  const PortraitStyle looks = style_of(asked, {{"none", Field::none}, {"motion", Field::motion}});
   return interruptible([&]() -> Portrait {
-    portraits::PlanarPortrait data = portraits::planar_portrait(planar.plane, system, asked);
+    portraits::PlanarPortrait data = portraits::planar_portrait(planar.plane, system, request_of(asked));
     data.variables = planar.variables;
     data.parameters = planar.parameters;
-    Figure figure = titled(portraits::draw(data, looks), title, size);
+    Figure figure = finished(portraits::draw(data, looks), title, looks.size);
     return {std::move(figure),
             [data = std::move(data)] { return portraits::to_json(data, {.version = CONTENSOU_VERSION}); }};
   });
@@ -224,14 +225,8 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
 
 void bind_portraits(py::module_& module) {
   py::class_<Portrait>(module, "Portrait")
-      .def(py::init(&portrait_of), py::arg("flows"), py::arg("experiment"), py::arg("start"), py::kw_only(),
-           py::arg("view"), py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"),
-           py::arg("against"), py::arg("arrows"), py::arg("field"), py::arg("axes"), py::arg("colour"),
-           py::arg("style"), py::arg("scale"), py::arg("estimate"), py::arg("size"), py::arg("title"), Released())
-      .def_static("of_plane", &portrait_of_plane, py::arg("planar"), py::arg("system"), py::arg("start"), py::kw_only(),
-                  py::arg("window"), py::arg("orbits"), py::arg("through"), py::arg("isochrones"), py::arg("arrows"),
-                  py::arg("field"), py::arg("axes"), py::arg("nullclines"), py::arg("colour"), py::arg("style"),
-                  py::arg("size"), py::arg("title"))
+      .def(py::init(&portrait_of), py::arg("flows"), py::arg("experiment"), py::arg("against"), py::arg("asked"))
+      .def(py::init(&portrait_of_plane), py::arg("planar"), py::arg("system"), py::arg("asked"))
       .def("render",
            [](const Portrait& portrait, const std::string& ending, const std::string& font, double dpi) {
              const auto format = portraits::find_picture_format(ending);

@@ -16,7 +16,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/portraits/layout.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "figures.hpp"
 

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/laws.hpp"
 
 using namespace contensou;

@@ -1,4 +1,4 @@
-#include "contensou/portraits/phase_portrait_figure.hpp"
+#include "contensou/portraits/phase_portrait.hpp"
 
 #include <algorithm>
 #include <cmath>

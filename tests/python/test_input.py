@@ -180,6 +180,7 @@ def test_what_is_out_of_range_is_told_by_its_name(ask, words):
     ("count", lambda: FLOW.orbit(u=1, v=1).sample("a")), ("row", lambda: POOL.roll(slip=[1])["a"]),
     ("view", lambda: ct.portrait(mu=0.3, view=3)), ("font", lambda: ct.portrait(mu=0.3, font=3)),
     ("orbits", lambda: ct.portrait(mu=0.3, orbits=2.5)), ("axes", lambda: ct.portrait(mu=0.3, axes="no")),
+    ("size", lambda: ct.portrait(mu=0.3, size=("wide", 90))), ("isochrones", lambda: ct.portrait(mu=0.3, isochrones=1.5)),
     ("through", lambda: ct.portrait(mu=0.3, through=3)), ("through", lambda: ct.portrait(mu=0.3, through=[(1, 2, 3)]))])
 def test_what_is_of_another_kind_is_told_by_its_name(name, ask):
     refused(ask, TypeError, f"^{name}: .* (is|are) needed")
@@ -204,4 +205,4 @@ def test_a_fault_of_ours_is_said_to_be_one():
     nothing = dict(view=None, window=None, orbits=None, through=[], isochrones=None, against=None, arrows="time", field="none",
                    axes=True, colour="time", style="print", scale="bent", estimate=False, size=(None, None), title=None)
     with pytest.raises(RuntimeError, match="^a fault of contensou, not of the input; please report it with what was asked: the call above$"):
-        ct._core.Portrait([], None, None, **nothing)  # no flow: the package never asks so
+        ct._core.Portrait([], None, None, nothing)  # no flow: the package never asks so

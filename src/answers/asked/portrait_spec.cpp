@@ -78,7 +78,7 @@ std::vector<portraits::PhasePortrait> portraits_of(const std::vector<PortraitSpe
 }
 
 portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::vector<portraits::PhasePortrait>& all) {
-  if (specs.size() == 1) return specs.front().figure(all.front());
+  if (specs.size() == 1) return specs.front().mapped_figure(all.front()).figure;
   std::vector<portraits::PortraitCaption> captions;
   for (std::size_t i = 0; i < specs.size(); ++i) captions.push_back(specs[i].caption(all[i]));
   portraits::PortraitCaption& first = captions.front();
@@ -101,10 +101,6 @@ portraits::Figure figure_of(const std::vector<PortraitSpec>& specs, const std::v
 std::vector<si::ReducedPiece> PortraitSpec::pieces() const {
   if (!experiment || !si::is_driven(*experiment) || !start || (start->u == 0 && start->v == 0)) return {};
   return si::Motion::reduced(*experiment, flow.system().law()).pieces();
-}
-
-portraits::Figure PortraitSpec::figure(const portraits::PhasePortrait& portrait) const {
-  return mapped_figure(portrait).figure;
 }
 
 portraits::MappedFigure PortraitSpec::mapped_figure(const portraits::PhasePortrait& portrait) const {

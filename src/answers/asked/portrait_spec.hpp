@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/si/motion.hpp"
 
@@ -23,10 +22,7 @@ struct PortraitSpec {
   /// @throws std::domain_error  as phase_portrait
   portraits::PhasePortrait portrait() const;
 
-  /// Draws a portrait, in SI units if `experiment` is set.
-  portraits::Figure figure(const portraits::PhasePortrait& portrait) const;
-
-  /// Draws a portrait and returns the figure with the map of each panel.
+  /// Draws a portrait, in SI units if `experiment` is set. Returns the figure with the map of each panel.
   portraits::MappedFigure mapped_figure(const portraits::PhasePortrait& portrait) const;
 
   /// Returns the source of the portrait (version, ball, seconds per tau), for files with the data of the portrait.

@@ -11,7 +11,6 @@
 
 #include "answers/table/text_table.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/portraits/theory_figures.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "options/figure_options.hpp"

@@ -85,67 +85,52 @@ constexpr std::string_view uncoupled = "uncoupled";  // the value of --against f
 std::vector<FieldText> portrait_fields() {
   return {
       {"CSV `kind`, `index`", "",
-       "type of the line: orbit, highlight, through, isochrone, and with --against also against_orbit and "
-       "against_isochrone; number of the line within its type"},
-      {"CSV `u`, `v`, `tau`", "speed", "states on the line; tau: time that is left until the stop"},
-      {"CSV `ln_v`, `k`", "", "natural logarithm of v, and ratio k = v/(mu |u|)"},
+       "type of the line: orbit, highlight, through, isochrone; with --against also against_orbit, against_isochrone or "
+       "uncoupled; with --system also separatrix and invariant. Number of the line within its type"},
+      {"CSV `u`, `v`, `tau`", "speed",
+       "states on the line; tau: time that is left until the stop. With --system it is the time until the centre, or inf "
+       "if the motion does not reach the centre"},
+      {"CSV `ln_v`, `k`", "", "natural logarithm of v, and ratio k = v/(mu |u|); not with --system"},
       {"CSV `beta`", "1/speed", "time beta since the first state of an orbit, with --view regularised"},
       {"CSV `t`", "s", "time that is left until the stop, with --ball"},
       {"JSON `portraits` [{`version`, ...}]", "",
        "list of portraits with the members below, if --mu or --law has several values"},
-      {"`law`, `mu`", "", "law of friction and ratio mu; columns of CSV only if --mu or --law has several values"},
-      {"JSON `body` {`chi`, `gamma`}, `view`", "", "inertia of the body; name of the view"},
-      {"JSON `window` [U, V] or [[U1, U2], [V1, V2]]", "speed", "part of the plane of u and v that is drawn"},
-      {"JSON `drive`", "", "constant force along the slip divided by f N, from --drive, rolling friction or a slope"},
-      {"JSON `ball`, `seconds_per_tau`", "s/speed", "name of the ball; number of seconds in one unit of tau"},
+      {"JSON `window` [...]", "speed", "part of the plane of u and v that is drawn: [U, V] or [[U1, U2], [V1, V2]]"},
       {"JSON `orbits` [{`u`, `v`, `ln_v`, `k`, `beta`, `tau_left`}]", "as in CSV",
-       "list of orbits, each with lists of its states and of the times left until the stop; beta only with --view "
-       "regularised"},
-      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "lines of states with one stop time each"},
-      {"JSON `highlight`, `through` [...]", "",
-       "orbit of the start; orbits through the points of --through. Their form is that of an entry of orbits"},
-      {"JSON `against` {`law`, `orbits`, `isochrones`}", "", "orbits and isochrones under the law of --against"},
-      {"JSON `uncoupled` [...]", "",
-       "with --against uncoupled: motions of the uncoupled model, in the form of an entry of orbits; the kind uncoupled "
-       "of CSV"},
-  };
-}
-
-/// Returns the fields of the data of a portrait of --system.
-std::vector<FieldText> system_portrait_fields() {
-  return {
-      {"CSV `kind`, `index`", "",
-       "type of the line: orbit, highlight, through, separatrix, invariant, isochrone; number within the type"},
-      {"CSV `u`, `v`, `tau`", "",
-       "states on the line; tau: time that is left until the centre, or inf if the motion does not reach the centre"},
-      {"JSON `system`, `variables` [x, y]", "",
-       "equations as typed, and their letters; u and v stand for them in the other fields"},
-      {"JSON `kind`, `rays` [{`angle`, `attracts`, `to_centre`}]", "", "type of the centre, and rays, as in reduce"},
-      {"JSON `form`", "",
-       "type of the solution as in reduce; absent for a scaling; null if the orbits are computed in time steps"},
-      {"JSON `centre` [U, V]", "", "centre of the scaling symmetry; null if there is none"},
-      {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane of u and v that is drawn"},
-      {"JSON `view`, `degree`, `radius`, `at_infinity` [{`angle`, `kind`, `eigenvalues`, `index`}]", "",
-       "with --view disc: name of the view, degree of the polynomials, radius of the dotted circle, and equilibria at "
-       "infinity with their directions"},
-      {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "", "as in reduce: jumps that motions do not cross"},
-      {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`, `index`}], `equilibria_within`, `equilibria_complete`, "
-       "`equilibria_curve`",
-       "", "points of the window at which u and v do not change, as in reduce --system"},
-      {"JSON `orbits` [{`u`, `v`, `tau_left`}]", "",
-       "list of orbits, each with lists of its states and of the times left until the stop"},
-      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "", "lines on which the time left is equal"},
-      {"JSON `cycles` [{`u`, `v`, `period`, `multiplier`, `stable`}]", "",
-       "limit cycles with a point of each; multiplier: factor of a small distance from the cycle in a turn, or null if it "
-       "is not certain"},
-      {"JSON `highlight`, `through` [...]", "",
-       "orbit of the start, and orbits through the points of --through, in the form of an entry of orbits"},
-      {"JSON `separatrices` [{`manifold`, ...}]", "",
-       "orbits that begin or end in saddles, like an entry of orbits. unstable: the orbit begins in a saddle; stable: it "
-       "ends there; connection: it does both"},
-      {"JSON `invariant` [{`u`, `v`}]", "", "curves on which the inverse integrating factor is 0"},
-      {"JSON `equilibria_lines`, `u_nullclines`, `v_nullclines` [{`u`, `v`}]", "",
-       "curves of equilibria; with --nullclines the curves on which u, or v, does not change"},
+       "list of orbits, each with lists of its states and of the times left; ln_v, k and beta as in CSV"},
+      {"JSON `isochrones` [{`tau_stop`, `u`, `v`}]", "speed", "lines on which the time left is tau_stop"},
+      {"JSON `highlight`, `through`, `uncoupled` [...]", "",
+       "orbit of the start, with --system a list of its parts in the window; orbits through the points of --through; "
+       "motions of the uncoupled model, with --against uncoupled. Their form is that of an entry of orbits"},
+      {"`law`, `mu`", "", "law of friction and ratio mu; columns of CSV only if --mu or --law has several values"},
+      {"JSON `body` {`chi`, `gamma`}, `view`, `drive`", "",
+       "inertia of the body; name of the view; constant force along the slip divided by f N, from --drive, rolling "
+       "friction or a slope"},
+      {"JSON `ball`, `seconds_per_tau`", "s/speed", "name of the ball; number of seconds in one unit of tau"},
+      {"JSON `against` {...}", "", "law, orbits and isochrones under the law of --against"},
+      {"JSON `system`, `variables` [...]", "",
+       "equations of --system as typed, and their two letters. u and v stand for the letters in the other fields. The "
+       "fields below are for --system"},
+      {"JSON `kind`, `form`, `centre` [...]", "",
+       "type of the centre; type of the solution as in reduce, absent for a scaling, and null if the orbits are computed "
+       "in time steps; centre of the scaling symmetry, or null"},
+      {"JSON `rays`, `switching` [...]", "",
+       "as in reduce --system: rays with angle, attracts and to_centre; curves that motions do not cross, with the kind "
+       "of their motion"},
+      {"JSON `equilibria` [...], `equilibria_within`, `equilibria_complete`, `equilibria_curve`", "",
+       "points of the window at which u and v do not change, with kind, eigenvalues and index as in reduce --system"},
+      {"JSON `degree`, `radius`, `at_infinity` [...]", "",
+       "with --view disc: degree of the polynomials, radius of the dotted circle, and equilibria at infinity, each with "
+       "angle, kind, eigenvalues and index"},
+      {"JSON `cycles` [...]", "",
+       "limit cycles: a point of each, its period, stable, and multiplier. The multiplier is the factor of a small "
+       "distance from the cycle in a turn, or null if it is not certain"},
+      {"JSON `separatrices` [...]", "",
+       "orbits that begin or end in saddles, like an entry of orbits. manifold unstable: the orbit begins in a saddle; "
+       "stable: it ends there; connection: it does both"},
+      {"JSON `invariant`, `equilibria_lines`, `u_nullclines`, `v_nullclines` [...]", "",
+       "curves on which the inverse integrating factor is 0; curves of equilibria; with --nullclines the curves on which "
+       "u, or v, does not change"},
   };
 }
 
@@ -324,7 +309,7 @@ class PortraitCommand final : public Verb {
                     max_orbits),
         into(request_.orbits, at_most(max_orbits)));
     add(
-        "--through", "U,V", "point through which one more orbit is drawn; may be repeated",
+        "--through", "U,V", "point of one more orbit to draw; may be repeated",
         [this](const std::string& typed) { request_.through.push_back(parse_point(typed)); }, true);
     add("--isochrones", "N|T1,T2,...",
         fmt::format("lines of equal stop time: about how many, 0 to {} (default 7), or a list of stop times, with "
@@ -352,7 +337,7 @@ class PortraitCommand final : public Verb {
                                                  {"regularised", Style::Field::regularised},
                                                  {"", Style::Field::motion}})))
         ->expected(0, 1);
-    add("--axes", "on|off", "orbits that are straight lines: the axes, and a ray if there is one (default on)",
+    add("--axes", "on|off", "straight orbits: the axes, and rays (default on)",
         into(style_.invariant, one_of<bool>({{"on", true}, {"off", false}})));
     add("--colour,--color", "BY",
         "colour of orbits: time (default; shows the time left until the stop) or none (one colour)",
@@ -393,10 +378,11 @@ class PortraitCommand final : public Verb {
                           {"a table of facts", answer_formats("text")}}};
 };
 
-const RegisteredVerb<PortraitCommand> portrait_verb(
-    Purpose::draw, "portrait", "Draw a phase portrait", "contensou portrait --mu 0.3 -o portrait.svg",
-    {{"", portrait_fields}, {"--system", system_portrait_fields}, {"--facts", phase_plane_fields}},
-    {"u", "v", "mu", "k", "f, N", "tau", "stop", "(2.6), (2.7)", "orbit", "ray"});
+const RegisteredVerb<PortraitCommand> portrait_verb(Purpose::draw, "portrait", "Draw a phase portrait",
+                                                    "contensou portrait --mu 0.3 -o portrait.svg",
+                                                    {{"", portrait_fields}, {"--facts", phase_plane_fields}},
+                                                    {"u", "v", "mu", "k", "f, N", "tau", "stop", "(2.6), (2.7)",
+                                                     "orbit", "ray"});
 
 }  // namespace
 

@@ -85,13 +85,7 @@ class Portrait:
             raise ValueError(f"size: single, double, or (width, height) in mm is needed, got {size!r}")
         sides = (_widths[size], None) if isinstance(size, str) else size or (None, None)
         kinds = {"window": _plain(asked["window"]), "isochrones": _plain(asked["isochrones"])}
-        try:
-            self._core = draw(dict(asked, size=sides, **kinds))
-        except TypeError as error:
-            if "incompatible" not in str(error):
-                raise
-            given = ", ".join(f"{key} {type(value).__name__}" for key, value in asked.items() if value is not None)
-            raise TypeError(f"portrait: an argument is of another kind than it takes; given are {given}") from None
+        self._core = draw(dict(asked, size=sides, **kinds))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Portrait, (self._draw, self._asked)
@@ -115,7 +109,7 @@ class Portrait:
     @property
     def data(self) -> dict[str, Any]:
         """The content of `contensou portrait -o FILE.json`, with lists of numbers as arrays. `contensou help fields`
-        describes the members; those of a Reduction are the fields of `portrait --system`."""
+        describes the members."""
         return dict(_columns(json.loads(self._core.json())))
 
     @property
@@ -237,10 +231,6 @@ class Portrait:
                                             shrinkA=0, shrinkB=0, color=layer["colour"], linewidth=0.5, clip_on=False))
 
 
-def start_of(asked: dict[str, Any]) -> Optional[tuple[float, float]]:
-    return None if asked["u"] is None else (asked["u"], asked["v"])
-
-
 def _of_system(asked: dict[str, Any]) -> _core.Portrait:
     ball, law, against = asked["ball"], asked["law"], asked["against"]
     experiment = None if ball is None else a_ball(ball)._experiment
@@ -254,11 +244,7 @@ def _of_system(asked: dict[str, Any]) -> _core.Portrait:
         flows = [experiment.flow(ball._law(each)._core) for each in laws]
     else:
         raise ValueError("ball and mu, u, v, body, drive exclude each other: a ball brings them")
-    return _core.Portrait(
-        flows, experiment, start_of(asked), against=None if against is None else law_of(against)._core,
-        **{key: asked[key] for key in ("view", "window", "orbits", "through", "isochrones", "arrows", "field", "axes",
-                                       "colour", "style", "scale", "estimate", "size", "title")},
-    )
+    return _core.Portrait(flows, experiment, None if against is None else law_of(against)._core, asked)
 
 
 def portrait(

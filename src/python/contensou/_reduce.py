@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._display import table, with_picture
 from ._numbers import needs, number, numbers, together
-from ._portrait import Portrait, points_of, start_of
+from ._portrait import Portrait, points_of
 
 if TYPE_CHECKING:
     from ._numbers import Number
@@ -276,11 +276,7 @@ class Reduction:
 
 def _of_plane(asked: dict[str, Any]) -> _core.Portrait:
     reduction = asked["reduction"]
-    return _core.Portrait.of_plane(
-        reduction._core, reduction._system, start_of(asked),
-        **{key: asked[key] for key in ("window", "orbits", "through", "isochrones", "arrows", "field", "axes", "nullclines",
-                                       "colour", "style", "size", "title")},
-    )
+    return _core.Portrait(reduction._core, reduction._system, asked)
 
 
 class PlanarOrbit:

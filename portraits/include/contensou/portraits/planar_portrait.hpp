@@ -12,7 +12,6 @@
 
 #include "contensou/portraits/figure.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
-#include "contensou/portraits/phase_portrait_figure.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 
 namespace contensou::portraits {
@@ -73,16 +72,10 @@ struct PlanarPortrait : Portrait {
 PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::string name,
                                const PortraitRequest& request = {});
 
-/// Returns the portrait as JSON.
-///
-/// Members: schema, system, kind, centre [u, v], window [[u, u], [v, v]], rays [{angle, attracts, to_centre}], orbits
-/// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members and switching_member; on request
-/// highlight and through (orbits). Without a scaling centre is null, and there are also form, separatrices (orbits with
-/// the member manifold), cycles (cycle_members), and lines [{u, v}]: invariant, the curves V = 0; equilibria_lines,
-/// curves of equilibria; u_nullclines and v_nullclines. With View::disc there are also view, degree, radius
-/// (reduction::PoincareDisc) and at_infinity [{angle, kind, eigenvalues, index}]; u and v near infinity are cut at a
-/// thousand million times the radius.
+/// Return the portrait as JSON or CSV; `contensou help fields` describes members and columns. With
+/// View::disc, u and v near infinity are cut at a thousand million times the radius.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
+std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// Returns the members kind, eigenvalues [[re, im], [re, im]] and index of an equilibrium.
 /// @tparam Json  nlohmann::ordered_json
@@ -126,10 +119,6 @@ Json cycle_members(const reduction::LimitCycle& cycle) {
           {"multiplier", std::isnan(cycle.multiplier) ? Json() : Json(cycle.multiplier)},
           {"stable", cycle.stable}};
 }
-
-/// Returns the portrait as CSV with the columns kind,index,u,v,tau. kind is orbit, highlight, through, separatrix or
-/// isochrone; tau is the time left.
-std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
 /// Returns the member switching [{motion, u [...], v [...]}]; motion is "slides", "rests" or "leaves".
 /// @tparam Json  nlohmann::ordered_json
