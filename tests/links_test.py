@@ -1,4 +1,4 @@
-"""Links between the documents lead to a file, and #parts to a heading in it.
+"""Links between the documents lead to a file, and #parts to a heading in it. Paths in the text name a file, too.
 
     links_test.py TOP [DOCUMENTS]
 
@@ -38,6 +38,9 @@ for document in documents:
             target /= "README.md"
         if not target.exists() or part and part not in parts(target):
             faults.append(f"{document.relative_to(TOP)}: {link}")
+    for path in re.findall(r"(?<![\w/.])(?:src|tests|reduction|portraits|\.ci)/[\w/.-]+\.\w+", document.read_text(encoding="utf-8")):
+        if "NAME" not in path and not (TOP / path).exists() and (TOP / "src").exists():
+            faults.append(f"{document.relative_to(TOP)}: {path}")
 assert len(documents) >= LEAST and count >= 5 * LEAST, (len(documents), count)
 print(f"{count} links of {len(documents)} documents")
 sys.exit("\n".join(faults) or 0)
