@@ -354,6 +354,15 @@ void require(const PortraitRequest& request, const Window& window, View view) {
   require(request, window);
 }
 
+/// Adds the regularised times to an orbit of a flow.
+void add_betas(const Flow& flow, PortraitOrbit& motion) {
+  if (!is_one_orbit(flow, motion)) return;
+  const Orbit orbit = flow.orbit({motion.u[0], motion.v[0]});
+  motion.beta = motion.tau_left.unaryExpr(
+      [&](double left) { return orbit.at_time_left(std::min(left, orbit.stop_time())).beta; });
+  motion.beta[0] = 0;
+}
+
 PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, bool linear,
                           const PortraitRequest& request, const IsochroneTimes& times) {
   const reduction::PhasePlane plane = reduction::phase_plane(flow);
@@ -384,6 +393,10 @@ PhasePortrait portrait_in(const Flow& flow, View view, const Window& window, boo
       if (!request.uncoupled || orbit.u[0] == 0 || orbit.v[0] == 0) continue;
       portrait.uncoupled.push_back(uncoupled_orbit(flow, {orbit.u[0], orbit.v[0]}));
     }
+  }
+  for (auto* orbits : {&portrait.orbits, &portrait.highlight, &portrait.through}) {
+    if (view != View::regularised || request.drawn_only) continue;
+    for (PortraitOrbit& orbit : *orbits) add_betas(flow, orbit);
   }
   return portrait;
 }

@@ -1,7 +1,6 @@
 // The data of portraits as JSON and as CSV.
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +9,6 @@
 
 #include "contensou/portraits/json.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
-#include "data/tracing.hpp"
 
 namespace contensou::portraits {
 
@@ -20,64 +18,56 @@ using Json = nlohmann::ordered_json;
 
 std::vector<double> list(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
-// `of` is the portrait of system (2.6), whose curves have ln_v and k; it is null for another system.
-
-/// Returns true if beta is an axis of the view. The data then contain it for each state of an orbit.
-bool has_beta(const PhasePortrait* of) { return of != nullptr && of->view == View::regularised; }
-
-Eigen::ArrayXd betas_of(const PortraitOrbit& orbit, const PhasePortrait* of) {
-  return has_beta(of) ? regularised_times(of->flow, orbit) : Eigen::ArrayXd();
-}
-
-Json json_of(const PortraitOrbit& orbit, const PhasePortrait* of) {
+Json json_of(const PortraitOrbit& orbit) {
   Json json{{"u", list(orbit.u)}, {"v", list(orbit.v)}};
-  if (of) {
+  if (orbit.ln_v.size() > 0) {
     json["ln_v"] = list(orbit.ln_v);
     // The logarithm does not underflow, but Eigen's exp does not return numbers below 5.6e-309.
     json["k"] = list(orbit.ln_k.unaryExpr([](double ln_k) { return std::exp(ln_k); }));
   }
-  if (const Eigen::ArrayXd betas = betas_of(orbit, of); betas.size() > 0) json["beta"] = list(betas);
+  if (orbit.beta.size() > 0) json["beta"] = list(orbit.beta);
   json["tau_left"] = list(orbit.tau_left);
   return json;
 }
 
-Json json_of(const Isochrone& isochrone, const PhasePortrait* /*of*/) {
+Json json_of(const Isochrone& isochrone) {
   return {{"tau_stop", isochrone.tau_stop}, {"u", list(isochrone.u)}, {"v", list(isochrone.v)}};
 }
 
 template <class Curve>
-Json json_of(const std::vector<Curve>& curves, const PhasePortrait* of) {
+Json json_of(const std::vector<Curve>& curves) {
   Json json = Json::array();
-  for (const Curve& curve : curves) json.push_back(json_of(curve, of));
+  for (const Curve& curve : curves) json.push_back(json_of(curve));
   return json;
 }
 
 /// Adds the curves that the portraits of all systems have.
-void add_curves(Json& json, const Portrait& portrait, const PhasePortrait* of) {
-  json["orbits"] = json_of(portrait.orbits, of);
-  json["isochrones"] = json_of(portrait.isochrones, of);
+void add_curves(Json& json, const Portrait& portrait) {
+  json["orbits"] = json_of(portrait.orbits);
+  json["isochrones"] = json_of(portrait.isochrones);
+  // The motion of (2.6) is one orbit; that of another system has parts in the window.
   const auto& highlight = portrait.highlight;
-  if (!highlight.empty()) json["highlight"] = of ? json_of(highlight[0], of) : json_of(highlight, of);
-  if (!portrait.through.empty()) json["through"] = json_of(portrait.through, of);
-  if (!portrait.uncoupled.empty()) json["uncoupled"] = json_of(portrait.uncoupled, of);
+  if (!highlight.empty()) json["highlight"] = highlight[0].ln_v.size() > 0 ? json_of(highlight[0]) : json_of(highlight);
+  if (!portrait.through.empty()) json["through"] = json_of(portrait.through);
+  if (!portrait.uncoupled.empty()) json["uncoupled"] = json_of(portrait.uncoupled);
 }
 
 /// The curves of a portrait as rows of CSV.
 struct Table {
-  const PhasePortrait* of = nullptr;
-  double seconds_per_tau = 0;  ///< if > 0, the table has a column t in seconds
-  std::string lead = {};       ///< first cells of each row
+  const PhasePortrait* of = nullptr;  ///< portrait of (2.6), whose rows have ln_v and k; null for another system
+  double seconds_per_tau = 0;         ///< if > 0, the table has a column t in seconds
+  std::string lead = {};              ///< first cells of each row
+  bool has_beta = of != nullptr && of->view == View::regularised;
   std::string rows = {};
 
   std::string heading() const {
-    return fmt::format("kind,index,u,v,tau{}{}{}\n", of ? ",ln_v,k" : "", has_beta(of) ? ",beta" : "",
+    return fmt::format("kind,index,u,v,tau{}{}{}\n", of ? ",ln_v,k" : "", has_beta ? ",beta" : "",
                        seconds_per_tau > 0 ? ",t" : "");
   }
   void add(std::string_view kind, const std::vector<PortraitOrbit>& orbits) {
     for (std::size_t i = 0; i < orbits.size(); ++i) {
-      const Eigen::ArrayXd betas = betas_of(orbits[i], of);
       for (Eigen::Index j = 0; j < orbits[i].rows(); ++j) {
-        add(kind, i, orbits[i].at(j), betas.size() > 0 ? std::optional(betas[j]) : std::nullopt);
+        add(kind, i, orbits[i].at(j), orbits[i].beta.size() > 0 ? fmt::format("{}", orbits[i].beta[j]) : "");
       }
     }
   }
@@ -86,14 +76,14 @@ struct Table {
       const auto& [tau, u, v] = isochrones[i];
       for (Eigen::Index j = 0; j < u.size(); ++j) {
         const double ln_k = of ? std::log(v[j] / (of->system().mu() * std::abs(u[j]))) : 0;
-        add(kind, i, {u[j], v[j], std::log(v[j]), ln_k, tau}, {});
+        add(kind, i, {u[j], v[j], std::log(v[j]), ln_k, tau}, "");
       }
     }
   }
-  void add(std::string_view kind, std::size_t index, const PortraitOrbit::Instant& at, std::optional<double> beta) {
+  void add(std::string_view kind, std::size_t index, const PortraitOrbit::Instant& at, std::string_view beta) {
     fmt::format_to(std::back_inserter(rows), "{}{},{},{},{},{}", lead, kind, index, at.u, at.v, at.tau_left);
     if (of) fmt::format_to(std::back_inserter(rows), ",{},{}", at.ln_v, std::exp(at.ln_k));
-    if (has_beta(of)) rows += beta ? fmt::format(",{}", *beta) : ",";
+    if (has_beta) fmt::format_to(std::back_inserter(rows), ",{}", beta);
     rows += seconds_per_tau > 0 ? fmt::format(",{}\n", seconds_per_tau * at.tau_left) : "\n";
   }
 };
@@ -143,11 +133,11 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
 /// Returns all members except the schema.
 Json members_of(const PhasePortrait& portrait, const PortraitSource& source) {
   Json json = origin_of(portrait, source);
-  add_curves(json, portrait, &portrait);
+  add_curves(json, portrait);
   for (const PhasePortrait& other : portrait.comparisons) {
     json["against"] = {{"law", other.system().law().name()},
-                       {"orbits", json_of(other.orbits, &other)},
-                       {"isochrones", json_of(other.isochrones, &other)}};
+                       {"orbits", json_of(other.orbits)},
+                       {"isochrones", json_of(other.isochrones)}};
   }
   return json;
 }
@@ -174,9 +164,9 @@ std::string to_json(const std::vector<PhasePortrait>& portraits, const PortraitS
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source) {
   Json json{{"schema", 1}};
   json.update(origin_of(portrait, source));
-  add_curves(json, portrait, nullptr);
+  add_curves(json, portrait);
   for (const Separatrix& each : portrait.separatrices) {
-    json["separatrices"].push_back(json_of(each, nullptr));
+    json["separatrices"].push_back(json_of(each));
     json["separatrices"].back()["manifold"] = each.manifold;
   }
   const auto add_lines = [&](const char* name, const std::vector<PortraitOrbit>& lines) {

@@ -306,6 +306,29 @@ Eigen::Matrix2d FormulaField::jacobian(const Eigen::Vector2d& x) const {
   return all;
 }
 
+std::vector<Eigen::MatrixXd> FormulaField::polynomials() const {
+  const auto typed = formulas.expressions();
+  if (!typed) return {};
+  std::array<Expression, 2> sides = *typed;
+  if (equations == Equations::first) sides = {1, (*typed)[0]};
+  if (equations == Equations::second) sides = {Expression::variable(1), (*typed)[0]};
+  std::vector<Eigen::MatrixXd> both;
+  for (const Expression& side : sides) {
+    const auto by_u = coefficients(side, 0);
+    if (!by_u) return {};
+    Eigen::MatrixXd& all = both.emplace_back(Eigen::MatrixXd::Zero(std::ssize(*by_u), 1));
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      const auto by_v = coefficients((*by_u)[static_cast<std::size_t>(i)], 1);
+      if (!by_v) return {};
+      if (all.cols() < std::ssize(*by_v)) {
+        all.conservativeResizeLike(Eigen::MatrixXd::Zero(all.rows(), std::ssize(*by_v)));
+      }
+      for (std::size_t j = 0; j < by_v->size(); ++j) all(i, static_cast<Eigen::Index>(j)) = (*by_v)[j]({});
+    }
+  }
+  return both;
+}
+
 FormulaField::operator reduction::SmoothField() const {
   reduction::SmoothField field([*this](const Eigen::Vector2d& x) { return (*this)(x); },
                                [*this](const Eigen::Vector2d& x) { return jacobian(x); });
@@ -315,6 +338,7 @@ FormulaField::operator reduction::SmoothField() const {
       return Eigen::RowVector3d(value, by_u, by_v);
     };
   }
+  field.polynomials = polynomials();
   if (formulas.switches({0, 0}).rows() > 0) {
     field.switches = [formulas = formulas](const Eigen::Vector2d& x) { return formulas.switches({x[0], x[1]}); };
     field.branch = [*this](const Eigen::Vector2d& x) -> reduction::SmoothField {

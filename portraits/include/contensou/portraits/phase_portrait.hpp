@@ -71,6 +71,9 @@ struct PortraitOrbit {
   Eigen::ArrayXd ln_v = {};      ///< only for (2.6)
   Eigen::ArrayXd ln_k = {};      ///< only for (2.6)
   Eigen::ArrayXd tau_left = {};  ///< time until the stop; for another system, until the centre or infinity, or infinite
+  /// Regularised time beta (reduction::ReducedSystem) since the first state, in the inverse of the unit of speed. Only
+  /// in the view regularised, for a motion that is one orbit.
+  Eigen::ArrayXd beta = {};
 
   /// One state of the orbit or of a scaled copy of the orbit.
   struct Instant {

@@ -428,6 +428,34 @@ struct SeparatrixPoint {
 std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, const Eigen::Vector2d& centre,
                                                      const Eigen::Vector2d& sides);
 
+/// A polynomial field of degree d on the Poincaré disc. The disc |X| < 1 shows the whole plane by x = r X/(1 - |X|^2),
+/// and the circle |X| = 1 shows infinity: each of its points is a direction. There the field is tangential, README
+/// (R70).
+struct PoincareDisc {
+  int degree;         ///< d, the larger degree of the two components
+  double radius;      ///< r; the points with |x| = r lie at |X| = 0.618
+  SmoothField field;  ///< dX/ds with ds = (1 - |X|^2)^(1 - d) dt, smooth also on the circle and beyond it
+  SmoothField plain;  ///< (1 - |X|^2)^d f: the components vanish where those of f vanish
+
+  /// The equilibria in the finite plane, as points X. Eigenvalues and `slopes` belong to dX/dt; so the eigenvalues are
+  /// those of the plane. `on_curve` can be a point of the circle, which can consist of equilibria. Unless there is such
+  /// a curve, `complete` is true if the theorem of Poincaré and Hopf holds: twice the sum of the indices here plus
+  /// their sum in `at_infinity` is 2.
+  Equilibria equilibria;
+  /// The equilibria on the circle. Eigenvalues and slopes belong to dX/ds.
+  std::vector<Equilibrium> at_infinity;
+
+  /// Returns the point X of a point x of the plane.
+  Eigen::Vector2d onto(const Eigen::Vector2d& x) const;
+  /// Returns the point x of the plane that is shown at X, |X| < 1.
+  Eigen::Vector2d from(const Eigen::Vector2d& X) const;
+};
+
+/// Makes the disc of a field.
+/// @param radius  distance from the origin that is shown well
+/// @throws std::domain_error  unless the field has polynomials other than 0, and the radius is positive and finite
+PoincareDisc poincare_disc(const SmoothField& field, double radius);
+
 /// Returns true if the motion from a start, by steps, nears a stable limit cycle: within 100 periods it comes to 1e-3
 /// of the size of the cycle, and returns after one period to 1e-6 of this size.
 bool nears(const SmoothField& field, const LimitCycle& cycle, const Eigen::Vector2d& start);

@@ -46,6 +46,8 @@ struct SmoothField {
   std::function<Eigen::RowVector3d(const Eigen::Vector2d& x)> denominator = {};
   /// If the basis is not empty, V is sought only among sums of these functions.
   Basis basis = {};
+  /// The coefficients of u' and v', if f is a polynomial: that of u^i v^j stands in row i and column j. Else empty.
+  std::vector<Eigen::MatrixXd> polynomials = {};
   /// The switching functions with their derivatives, one row each: value, d/du, d/dv. Between their zeros f is smooth.
   /// Their number is the same at every point. A value is NaN where the function has none. Where a switching function
   /// changes its sign or touches 0, f may jump, have a kink or end. If empty, the places are found by comparing sides.
