@@ -210,7 +210,7 @@ constexpr Field<Report> report_fields[]{
 constexpr const char* explanation =
     "slip, spin   s until 1e-3 of what they were at the start is left (roll: 'rolls after' --rolling-below 1 mm/s)\n"
     "slid, turns  m that the contact slides, and turns about the vertical, until they have ended\n"
-    "cone         limit of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1; box F <= F0, M <= M0: each has\n"
+    "cone         bound of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1; box F <= F0, M <= M0: each has\n"
     "             its own limit; pyramid F/F0 + M/M0 <= 1: a large force leaves no moment; points: friction at each of\n"
     "             a few contact points, averaged over a turn\n";
 
