@@ -340,8 +340,11 @@ Polyline ScaledTracer::spiral(double q, double p, double integral, bool from_her
 /// Traces orbits forwards and backwards in time.
 class TimedTracer final : public PlanarTracer {
  public:
-  TimedTracer(const PlanarReduction& plane, const Window& window, const std::vector<reduction::LimitCycle>& cycles)
+  /// @param in_disc  true: motions stay in the disc |x| < 1
+  TimedTracer(const PlanarReduction& plane, const Window& window, const std::vector<reduction::LimitCycle>& cycles,
+              bool in_disc = false)
       : PlanarTracer(plane, window),
+        in_disc_(in_disc),
         forth_{plane, reduction::by_steps(plane.field()), {}},
         back_{plane.reversed(), forth_.by_steps.reversed(), {}},
         beside_cycle_(raster * raster),
@@ -364,6 +367,12 @@ class TimedTracer final : public PlanarTracer {
     }
   }
 
+  /// Returns true if a point beside an equilibrium on the circle lies on the circle, too.
+  bool is_on_circle(const Vector2d& x, const Vector2d& equilibrium) const {
+    constexpr double flat = 1e-3;
+    return in_disc_ && 1 - x.norm() < flat * (x - equilibrium).norm();
+  }
+
   /// Returns the motion from a point on, or the motion before it from the point backwards.
   Polyline branch(const Vector2d& x, bool back) const { return follow(back ? back_ : forth_, x); }
 
@@ -379,6 +388,7 @@ class TimedTracer final : public PlanarTracer {
   }
 
   std::optional<std::size_t> sector(const Vector2d& x) const override {
+    if (in_disc_ && x.norm() >= 1) return std::nullopt;
     return rate_of(plane_.field(), x) ? std::optional<std::size_t>(0) : std::nullopt;
   }
 
@@ -430,6 +440,7 @@ class TimedTracer final : public PlanarTracer {
     if (place) for_cells_about(*place, around, [&](std::size_t cell) { beside_cycle_[cell] = true; });
   }
 
+  bool in_disc_;
   Way forth_, back_;
   std::vector<bool> beside_cycle_;    ///< coarse cells about limit cycles, which all orbits come near
   mutable std::vector<bool> passed_;  ///< coarse cells of ordinary orbits
@@ -516,6 +527,7 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
       step = 1e-3 * near / speed;
       continue;
     }
+    if (in_disc_ && there.norm() >= 1) break;  // rounding has carried the motion across the circle
     const Vector2d outside = (there - window_.low).cwiseMin(0) + (there - window_.high).cwiseMax(0);
     const double beyond = outside.cwiseQuotient(sides).norm();
     const double moved = (there - here).cwiseQuotient(sides).norm(), allowed = near * (1 + 10 * beyond);
@@ -579,7 +591,7 @@ std::vector<SaddleBranch> branches_of(const TimedTracer& tracer, const reduction
   for (std::size_t i = 0; i < equilibria.points.size(); ++i) {
     const reduction::Equilibrium& saddle = equilibria.points[i];
     const auto follow = [&](const Vector2d& x, bool stable) {
-      if (!tracer.sector(x)) return;
+      if (!tracer.sector(x) || tracer.is_on_circle(x, saddle.x)) return;
       SaddleBranch branch{i, stable, {{saddle.x[0], saddle.x[1]}}};
       std::ranges::copy(tracer.branch(x, stable), std::back_inserter(branch.line));
       all.push_back(std::move(branch));
@@ -845,13 +857,23 @@ PlanarView view_of(const PlanarReduction& plane, const PortraitRequest& request)
 
 }  // namespace
 
-PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
-  PlanarView view = view_of(plane, request);
+namespace {
+
+/// Computes the portrait in a view.
+/// @param disc  the Poincaré disc, if the field is that of the disc; else null
+PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::string name,
+                           const PortraitRequest& request, const reduction::PoincareDisc* disc = nullptr) {
   const Window& window = view.window;
+  const auto equilibria_beside = [&](const Vector2d& beside) {
+    if (disc == nullptr) return reduction::find_equilibria(plane.field(), window.low - beside, window.high + beside);
+    reduction::Equilibria all = disc->equilibria;
+    all.points.insert(all.points.end(), disc->at_infinity.begin(), disc->at_infinity.end());
+    return all;
+  };
   PlanarPortrait portrait{{window, {}, {}, 0, {}, {}, request.through}, std::move(name), plane};
   portrait.cycles = std::move(view.cycles);
-  portrait.equilibria = reduction::find_equilibria(plane.field(), window.low, window.high);
-  compare_kinds(portrait.equilibria, plane);
+  portrait.equilibria = equilibria_beside(Vector2d::Zero());
+  if (disc == nullptr) compare_kinds(portrait.equilibria, plane);
   portrait.switching = switching_parts(plane.field(), window.low, window.high);
   leave_out_rests(portrait.equilibria, portrait.switching);
   std::unique_ptr<const PlanarTracer> traced;
@@ -859,15 +881,13 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   if (plane.scaling() != nullptr) {
     traced = std::make_unique<const ScaledTracer>(portrait.plane, window);
   } else {
-    auto timed = std::make_unique<const TimedTracer>(portrait.plane, window, portrait.cycles);
+    auto timed = std::make_unique<const TimedTracer>(portrait.plane, window, portrait.cycles, disc != nullptr);
     for (const reduction::LimitCycle& cycle : portrait.cycles) {
       Polyline& line = drawn.emplace_back();
       for (const Vector2d& x : cycle.line) line.push_back({x[0], x[1]});
     }
     // Separatrices of equilibria beside the window cross the window, too.
-    const Vector2d beside = window.sides() / 2;
-    const reduction::Equilibria around =
-        reduction::find_equilibria(plane.field(), window.low - beside, window.high + beside);
+    const reduction::Equilibria around = equilibria_beside(window.sides() / 2);
     std::vector<SaddleBranch> branches = branches_of(*timed, plane.field(), around, window);
     join_branches(branches, around, window);
     for (SaddleBranch& branch : branches) {
@@ -879,7 +899,14 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
       }
       drawn.push_back(std::move(branch.line));
     }
-    if (portrait.equilibria.on_curve) portrait.lines_of_equilibria = curves_of_equilibria(plane.field(), window);
+    if (portrait.equilibria.on_curve) {
+      const auto inside = [&](const Vector2d& x) -> Vector2d {
+        constexpr double circle = 0.999;
+        const bool holds = disc == nullptr || x.norm() < circle;
+        return holds ? plane.field()(x) : Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+      };
+      portrait.lines_of_equilibria = curves_of_equilibria(reduction::SmoothField(inside), window);
+    }
     for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
       for (const Polyline& line : zero_lines(piece, window.sides())) {
         portrait.invariant.push_back(columns(line, infinity));
@@ -898,7 +925,8 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
   if (request.nullclines) {
     for (int i : {0, 1}) {
       portrait.nullclines[static_cast<std::size_t>(i)] =
-          zero_curves(plane.field(), i, window, [](const Vector2d&) { return true; });
+          zero_curves(disc ? disc->plain : plane.field(), i, window,
+                      [&](const Vector2d& x) { return disc == nullptr || x.norm() < 1; });
     }
   }
   const std::vector<double> times = tracer.times_at_border();
@@ -910,6 +938,80 @@ PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, c
     portrait.isochrone_step = step;
   }
   return portrait;
+}
+
+/// Returns the portrait of the whole plane on the Poincaré disc.
+PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, PortraitRequest request) {
+  request.view.reset();
+  const PlanarView flat = view_of(plane, request);
+  // The radius is a round number, and what the usual window shows lies well inside the circle.
+  const Window& window = flat.window;
+  const double half = 0.7 * window.low.cwiseAbs().cwiseMax(window.high.cwiseAbs()).maxCoeff();
+  double radius = std::pow(10, std::floor(std::log10(half)));
+  for (const double factor : {2, 5, 10}) {
+    if (radius < half) radius = factor * std::pow(10, std::floor(std::log10(half)));
+  }
+  reduction::PoincareDisc disc = reduction::poincare_disc(plane.field(), radius);
+  // The proofs that a point is a center need the plane.
+  const auto onto = [&](const Vector2d& x) { return disc.onto(x); };
+  const auto from = [&](const Vector2d& X) {
+    constexpr double highest = 1 - 1e-9;  // about a thousand million times the radius
+    return disc.from(X.norm() > highest ? X * (highest / X.norm()) : X);
+  };
+  for (reduction::Equilibrium& each : disc.equilibria.points) each.x = from(each.x);
+  disc.equilibria.low = window.low;
+  disc.equilibria.high = window.high;
+  compare_kinds(disc.equilibria, plane);
+  for (reduction::Equilibrium& each : disc.equilibria.points) each.x = onto(each.x);
+
+  PortraitRequest on_disc = request;
+  const auto move = [&](State& x) {
+    const Vector2d X = onto(vector_of(x));
+    x = {X[0], X[1]};
+  };
+  if (on_disc.highlight) move(*on_disc.highlight);
+  std::ranges::for_each(on_disc.through, move);
+  PlanarView round{{Vector2d(-1, -1), Vector2d(1, 1)}, flat.cycles};
+  for (reduction::LimitCycle& cycle : round.cycles) std::ranges::transform(cycle.line, cycle.line.begin(), onto);
+  PlanarPortrait portrait =
+      portrait_in(std::move(round), reduction::by_steps(disc.field), std::move(name), on_disc, &disc);
+
+  const auto unrolled = [&](std::vector<PortraitOrbit>& lines) {
+    for (PortraitOrbit& line : lines) {
+      for (Eigen::Index i = 0; i < line.rows(); ++i) {
+        const Vector2d x = from({line.u[i], line.v[i]});
+        line.u[i] = x[0];
+        line.v[i] = x[1];
+      }
+    }
+  };
+  for (std::vector<PortraitOrbit>* lines :
+       {&portrait.orbits, &portrait.highlight, &portrait.through, &portrait.lines_of_equilibria,
+        &portrait.nullclines[0], &portrait.nullclines[1]}) {
+    unrolled(*lines);
+  }
+  for (Separatrix& each : portrait.separatrices) {
+    std::vector<PortraitOrbit> line{std::move(each)};
+    unrolled(line);
+    static_cast<PortraitOrbit&>(each) = std::move(line.front());
+  }
+  portrait.window = window;
+  portrait.points = request.through;
+  portrait.cycles = flat.cycles;
+  portrait.plane = plane;
+  for (reduction::Equilibrium& each : disc.equilibria.points) each.x = from(each.x);
+  disc.equilibria.low = Vector2d::Constant(-infinity);
+  disc.equilibria.high = Vector2d::Constant(infinity);
+  portrait.equilibria = disc.equilibria;
+  portrait.disc = std::move(disc);
+  return portrait;
+}
+
+}  // namespace
+
+PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
+  if (request.view == View::disc) return portrait_on_disc(plane, std::move(name), request);
+  return portrait_in(view_of(plane, request), plane, std::move(name), request);
 }
 
 }  // namespace contensou::portraits

@@ -127,6 +127,14 @@ Json origin_of(const PlanarPortrait& portrait, const PortraitSource& source) {
   if (!plane.scaling()) json["form"] = plane.form().empty() ? Json() : Json(plane.form());
   json.update(equilibria_members<Json>(portrait.equilibria));
   json["switching"] = switching_member<Json>(portrait.switching);
+  if (portrait.disc) {
+    json.update({{"view", name(View::disc)}, {"degree", portrait.disc->degree}, {"radius", portrait.disc->radius}});
+    json["at_infinity"] = Json::array();
+    for (const reduction::Equilibrium& each : portrait.disc->at_infinity) {
+      json["at_infinity"].push_back({{"angle", std::atan2(each.x[1], each.x[0])}});
+      json["at_infinity"].back().update(members_of_kind<Json>(each));
+    }
+  }
   return origin_of(std::move(json), source);
 }
 

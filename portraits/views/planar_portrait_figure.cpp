@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -156,12 +157,60 @@ Marks::Shape shape_of(std::string_view kind) {
   return kind.starts_with("stable") || kind == "center" ? Marks::Shape::dot : Marks::Shape::circle;
 }
 
+/// Returns the place of a point on the axes.
+Point shown(const PlanarPortrait& portrait, const Vector2d& x) {
+  const Vector2d place = portrait.disc ? portrait.disc->onto(x) : x;
+  return {place[0], place[1]};
+}
+
+Polyline circle(double radius) {
+  Polyline line;
+  constexpr int pieces = 360;
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = 2 * std::numbers::pi * i / pieces;
+    line.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return line;
+}
+
+/// Adds the circle at infinity with its motion, the circle of the radius, and the letters of the axes.
+void add_infinity(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
+  const reduction::PoincareDisc& disc = *portrait.disc;
+  std::vector<double> angles;
+  for (const reduction::Equilibrium& each : disc.at_infinity) angles.push_back(std::atan2(each.x[1], each.x[0]));
+  if (angles.empty()) angles = {-2.4, -0.8, 0.8, 2.4};
+  Arrows arrows{{}, palette.invariant};
+  double fastest = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * std::numbers::pi;
+    const double middle = (angles[i] + next) / 2;
+    const Vector2d X(std::cos(middle), std::sin(middle)), rate = disc.field(X);
+    fastest = std::max(fastest, rate.norm());
+    arrows.arrows.push_back({{X[0], X[1]}, {rate[0], rate[1]}});
+  }
+  constexpr double still = 1e-9;
+  const double size = disc.plain(Vector2d(1, 0)).norm() + disc.plain(Vector2d(0, 1)).norm();
+  const bool rests = !(fastest > still * size);
+  if (!rests) layers.panel().arrows.push_back(std::move(arrows));
+  layers.panel().lines.push_back(
+      {{circle(1)}, {palette.invariant, rests ? 4 : 1.6, false, rests}, rests ? "equilibria at infinity" : ""});
+  const double golden = disc.onto({disc.radius, 0})[0];
+  layers.panel().lines.push_back(
+      {{circle(golden)}, {palette.theme.faint, 1.2, false, true}, "radius " + math(fmt::format("r = {:g}", disc.radius))});
+  constexpr double beyond = 1.08;
+  for (const int axis : {0, 1}) {
+    const auto i = static_cast<std::size_t>(axis);
+    layers.panel().labels.push_back({axis == 0 ? Point{beyond, 0} : Point{0, beyond}, variable(portrait.variables[i]),
+                                     palette.theme.ink, Label::Align::centre});
+  }
+}
+
 /// Adds the limit cycles, each with its period and multiplier in the legend.
 void add_cycles(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
   for (const reduction::LimitCycle& cycle : portrait.cycles) {
     constexpr double wide = 4;
     Lines line{{{}}, {palette.comparison, wide, !cycle.stable}, ""};
-    for (const Vector2d& x : cycle.line) line.lines.front().push_back({x[0], x[1]});
+    for (const Vector2d& x : cycle.line) line.lines.front().push_back(shown(portrait, x));
     if (clipped(layers.panel(), line.lines.front()).empty()) continue;
     line.legend = Text(cycle.stable ? "stable limit cycle, " : "unstable limit cycle, ") + math("T") +
                   fmt::format(" = {:.5g}", cycle.period);
@@ -256,14 +305,16 @@ std::vector<Polyline> gaps_of(const std::function<bool(Point)>& holds) {
 }  // namespace
 
 Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
-  const Vector2d sides = portrait.window.sides();
+  constexpr double half = 1.16;  // of the axes about the disc
+  const Window window = portrait.disc ? Window{Vector2d(-half, -half), Vector2d(half, half)} : portrait.window;
+  const Vector2d sides = window.sides();
   const double shape = sides[1] / sides[0];
   // Very long or high windows are not drawn to scale.
   constexpr double highest = 1.4, longest = 3, width = 150;
   const bool to_scale = shape < highest && shape > 1 / longest;
   const double height = to_scale ? std::min(shape, 1.05) : shape < 1 ? 0.66 : 0.9;
   const PaperSize size = fitted({width, std::max(width * height, 90.0)}, 1, style.size);
-  const reduction::Generator* scaling = portrait.plane.scaling();
+  const reduction::Generator* scaling = portrait.disc ? nullptr : portrait.plane.scaling();
   PortraitCaption caption;
   caption.highlight = "orbit of the start";
   caption.time_symbol = scaling && scaling->time < 0 ? Text("to infinity") : math("t*");
@@ -272,23 +323,28 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   const bool even = !isochrones.empty() && portrait.isochrone_step > 0;
   const double most = even ? isochrones.back().tau_stop + portrait.isochrone_step : infinity;
   look.bands = bands_of({&portrait}, 1, look.palette, most);
-  Panel axes = panel_of(portrait.window);
+  Panel axes = panel_of(window);
+  axes.bare = portrait.disc.has_value();
   axes.x.name = variable(portrait.variables[0]);
   axes.y.name = variable(portrait.variables[1]);
   axes.to_scale = to_scale;
-  const auto rate_at = [&](Point at) { return rate_of(portrait.plane.field(), {at.x, at.y}); };
+  const reduction::SmoothField& field = portrait.disc ? portrait.disc->field : portrait.plane.field();
+  const auto rate_at = [&](Point at) { return rate_of(field, {at.x, at.y}); };
   for (Polyline& part : gaps_of([&](Point place) { return rate_at(from_paper(axes, place)).has_value(); })) {
     for (Point& point : part) point = from_paper(axes, point);
     axes.regions.push_back({std::move(part), grey_of(look.palette)});
   }
   const bool has_gaps = !axes.regions.empty();
-  const auto place = [](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) { return Point{at.u, at.v}; };
+  const auto place = [&](const PortraitOrbit::Instant& at, const PortraitOrbit::Instant&) {
+    return shown(portrait, {at.u, at.v});
+  };
   PanelLayers layers(look, std::move(axes), {place});
 
   const bool coloured = layers.add_orbits(layers.lines_of(portrait.orbits), style.colour_by_time, "orbits");
   layers.add_isochrones(-1);
   if (style.field != PortraitStyle::Field::none) {
     const auto drift = [&](Point at) -> std::optional<Drift> {
+      if (portrait.disc && std::hypot(at.x, at.y) >= 1) return std::nullopt;
       const std::optional<Vector2d> rate = rate_at(at);
       const double speed = rate ? rate->cwiseQuotient(sides).norm() : 0;
       if (!(speed > 0) || !std::isfinite(speed)) return std::nullopt;
@@ -322,6 +378,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     layers.panel().lines.push_back(std::move(lines));
   }
   add_switching(layers, portrait.switching, look.palette);
+  if (portrait.disc) add_infinity(layers, portrait, look.palette);
   layers.add_highlights();
   if (scaling) {
     // No other equilibrium is isolated.
@@ -336,13 +393,17 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
                                     is_equilibrium ? std::string(portrait.plane.kind()) : "centre of the symmetry"});
   } else {
     std::map<std::string_view, Marks> of_kind;
-    for (const reduction::Equilibrium& each : portrait.equilibria.points) {
+    const auto add = [&](const reduction::Equilibrium& each, Point place_) {
       Marks& marks =
           of_kind
               .try_emplace(each.kind,
                            Marks{{}, look.palette.invariant, 1.2, shape_of(each.kind), std::string(each.kind)})
               .first->second;
-      marks.points.push_back({each.x[0], each.x[1]});
+      marks.points.push_back(place_);
+    };
+    for (const reduction::Equilibrium& each : portrait.equilibria.points) add(each, shown(portrait, each.x));
+    if (portrait.disc) {
+      for (const reduction::Equilibrium& each : portrait.disc->at_infinity) add(each, {each.x[0], each.x[1]});
     }
     for (auto& [kind, marks] : of_kind) layers.panel().marks.push_back(std::move(marks));
   }
@@ -356,8 +417,9 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     if (form.ends_with(i == 0 ? " u" : " v")) form.replace(form.size() - 1, 1, portrait.variables[i]);
   }
   const char* of_form = form == "affine" ? "generator of the orbits" : "inverse integrating factor";
-  figure.subtitle = !scaling ? (form.empty() ? std::string("no exact solution found: orbits by time steps")
-                                             : fmt::format("orbits by quadrature; {}: {}", of_form, form))
+  figure.subtitle = portrait.disc ? "the Poincaré disc: the whole plane, with infinity as its circle"
+                    : !scaling    ? (form.empty() ? std::string("no exact solution found: orbits by time steps")
+                                                  : fmt::format("orbits by quadrature; {}: {}", of_form, form))
                     : portrait.plane.star()
                         ? kind
                         : fmt::format("{}: {} are one curve, moved by the symmetry", kind,

@@ -61,8 +61,7 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     } else {
       states_.push_back({0, {start[0], start[1]}, std::make_shared<const Region>(field_, start, f)});
     }
-    constexpr double first = 1e-3;
-    step_ = first * (f.stableNorm() > 0 ? size_ / f.stableNorm() : 1);
+    step_ = first_step(start, f);
   }
 
   /// Looks whether the orbit comes to rest. Only motions that meet jumps do, and no motion that returns to a jump.
@@ -99,6 +98,18 @@ class SteppedMotion final : public PlanarOrbit::Motion {
     Pair x;
     std::shared_ptr<const Region> region;  ///< region that the orbit enters here; null if no single motion leaves x
   };
+
+  /// Returns a step that is short enough even where the field grows much along the motion, as beside an equilibrium. An
+  /// error that overflows would pass the comparison of the controlled stepper. Source: E. Hairer, S. P. Norsett, G.
+  /// Wanner, Solving ordinary differential equations I, section II.4.
+  double first_step(const Vector2d& start, const Vector2d& f) const {
+    constexpr double part = 1e-3, order = 5;
+    const double speed = f.stableNorm(), first = part * (speed > 0 ? size_ / speed : 1);
+    const auto there = value_of(field_.value, start + first * f);
+    if (!there) return first;
+    const double change = std::max(speed, (*there - f).stableNorm() / first) / (tolerance_ * size_);
+    return std::min(first, std::pow(part / change, 1 / order));
+  }
 
   static Vector2d vector_of(const Pair& x) { return {x[0], x[1]}; }
 

@@ -122,11 +122,22 @@ SmoothField field_of(const Polynomials& polynomials) {
                      });
 }
 
+/// Returns the coefficients of f in another unit of length.
+Polynomials in_units(Polynomials f, double length) {
+  for (MatrixXd& each : f) {
+    for (Eigen::Index i = 0; i < each.rows(); ++i) {
+      for (Eigen::Index j = 0; j < each.cols(); ++j) each(i, j) *= std::pow(length, i + j - 1);
+    }
+  }
+  return f;
+}
+
 /// Returns the equilibria on the circle in the order of their angles.
-std::vector<Equilibrium> on_circle(const Polynomials& f, int degree) {
+/// @param length  unit of length in the charts; the terms of low degree are seen well in one unit, and not in another
+std::vector<Equilibrium> on_circle(const Polynomials& f, int degree, double length) {
   std::vector<Equilibrium> all;
   for (const double sign : {1., -1.}) {
-    Polynomials turned = f;  // the field as seen in the coordinates -x
+    Polynomials turned = in_units(f, length);  // the field as seen in the coordinates -x
     for (MatrixXd& each : turned) {
       for (Eigen::Index i = 0; i < each.rows(); ++i) {
         for (Eigen::Index j = 0; j < each.cols(); ++j) each(i, j) *= (i + j) % 2 == 0 ? sign : 1;
@@ -137,16 +148,16 @@ std::vector<Equilibrium> on_circle(const Polynomials& f, int degree) {
         std::swap(turned[0], turned[1]);
         for (MatrixXd& each : turned) each = each.transpose().eval();
       }
-      constexpr double widest = 1.05, high = 0.2, same = 1e-9;
+      constexpr double widest = 1.05, high = 1.05, same = 1e-9;
       for (Equilibrium& each :
            find_equilibria(field_of(chart_of(turned, degree)), {-widest, -high}, {widest, high}).points) {
         const double u = each.x[0];
         if (std::abs(each.x[1]) > same || std::abs(u) > (exchanged ? 1 - same : 1 + same)) continue;
         const Vector2d n = sign / std::hypot(1, u) * (exchanged ? Vector2d(u, 1) : Vector2d(1, u));
-        const double c = 1 / std::hypot(1, u), rate = std::pow(c, degree - 1);
+        const double c = 1 / std::hypot(1, u), rate = std::pow(c / length, degree - 1);
         Matrix2d onto;
         onto.col(0) = c * c * (exchanged ? -1 : 1) * Vector2d(-n[1], n[0]);
-        onto.col(1) = -c / 2 * n;
+        onto.col(1) = -c / (2 * length) * n;
         each.x = n;
         each.slopes = rate * onto * each.slopes * onto.inverse();
         if (each.eigenvalues) {
@@ -190,11 +201,7 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
   if (std::ranges::all_of(g.coefficients, [](const MatrixXd& each) { return each.isZero(0); })) {
     throw std::domain_error("the Poincaré disc needs a field that is not 0");
   }
-  for (MatrixXd& each : g.coefficients) {
-    for (Eigen::Index i = 0; i < each.rows(); ++i) {
-      for (Eigen::Index j = 0; j < each.cols(); ++j) each(i, j) *= std::pow(radius, i + j - 1);
-    }
-  }
+  g.coefficients = in_units(g.coefficients, radius);
   const auto value = [g](const Vector2d& X) -> Vector2d {
     const Vector2d at = g(X).g;
     return at - 2 * X.dot(at) / (1 + X.squaredNorm()) * X;
@@ -228,9 +235,15 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
     }
     disc.equilibria.points.push_back(each);
   }
-  disc.at_infinity = on_circle(g.coefficients, g.degree);
-  for (const Equilibrium& each : disc.at_infinity) count(each, 1);
-  disc.equilibria.complete = sum == 2 || disc.equilibria.on_curve;
+  const std::optional<int> finite = sum;
+  for (const double length : {1., 1. / 8, 8.}) {
+    std::vector<Equilibrium> found = on_circle(g.coefficients, g.degree, length);
+    sum = finite;
+    for (const Equilibrium& each : found) count(each, 1);
+    disc.equilibria.complete = sum == 2 || disc.equilibria.on_curve;
+    if (disc.equilibria.complete || found.size() > disc.at_infinity.size()) disc.at_infinity = std::move(found);
+    if (disc.equilibria.complete) break;
+  }
   return disc;
 }
 

@@ -542,3 +542,60 @@ TEST_CASE("a high window is not drawn to scale", "[output]") {
   CHECK(high.size.height_mm < 1.1 * high.size.width_mm);
   CHECK(square.panels[0].to_scale);
 }
+
+TEST_CASE("on the Poincare disc orbits lead from sources at infinity to sinks at infinity", "[output]") {
+  // u' = u^2 + v^2 - 1, v' = 5 u v - 5: Perko, section 3.10. There is no equilibrium in the plane.
+  reduction::SmoothField field([](const Vector2d& x) { return Vector2d(x.squaredNorm() - 1, 5 * x[0] * x[1] - 5); });
+  field.polynomials.assign(2, Eigen::MatrixXd::Zero(3, 3));
+  field.polynomials[0](2, 0) = field.polynomials[0](0, 2) = 1;
+  field.polynomials[0](0, 0) = -1;
+  field.polynomials[1](1, 1) = 5;
+  field.polynomials[1](0, 0) = -5;
+  PortraitRequest request;
+  request.view = View::disc;
+  request.highlight = State{3, -40};
+  const PlanarPortrait portrait = planar_portrait(reduction::by_steps(field), "a system", request);
+  REQUIRE(portrait.disc);
+  REQUIRE(portrait.disc->at_infinity.size() == 6);
+  CHECK(portrait.equilibria.points.empty());
+
+  // Directions in which motions begin and end: v = 2 u and v = -2 u are sources on the left and sinks on the right.
+  int from_infinity = 0;
+  for (const PortraitOrbit& orbit : portrait.orbits) {
+    const auto last = orbit.rows() - 1;
+    const Vector2d first(orbit.u[0], orbit.v[0]), end(orbit.u[last], orbit.v[last]);
+    constexpr double far = 50;
+    CHECK(end.norm() > far);
+    CHECK(end[0] > 0);
+    CHECK(std::abs(end[1]) / end[0] == Approx(2).epsilon(0.1));
+    if (first.norm() < far) continue;
+    ++from_infinity;
+    CHECK(first[0] < 0);
+    for (Eigen::Index i = 1; i < orbit.rows(); ++i) {
+      const Vector2d here(orbit.u[i], orbit.v[i]), before(orbit.u[i - 1], orbit.v[i - 1]);
+      if (here.norm() < 5) CHECK((here - before).dot(field((here + before) / 2)) > 0);
+    }
+  }
+  CHECK(from_infinity >= 8);
+  REQUIRE(portrait.highlight.size() == 1);
+  CHECK(portrait.highlight[0].u[0] == Approx(3).epsilon(1e-12));
+  CHECK(portrait.highlight[0].v[0] == Approx(-40).epsilon(1e-12));
+  // Each saddle at infinity has a separatrix in the plane.
+  CHECK(portrait.separatrices.size() == 2);
+
+  const auto json = nlohmann::json::parse(to_json(portrait));
+  CHECK(json["view"] == "disc");
+  CHECK(json["degree"] == 2);
+  REQUIRE(json["at_infinity"].size() == 6);
+  CHECK(json["at_infinity"][3]["kind"] == "saddle");
+  CHECK(json["at_infinity"][3]["angle"] == 0);
+  CHECK(json["equilibria_within"][0][0].is_null());
+
+  const Panel& panel = draw(portrait).panels[0];
+  for (const Lines& lines : panel.lines) {
+    for (const Polyline& line : lines.lines) {
+      for (const Point& at : line) CHECK(std::hypot(at.x, at.y) < 1 + 1e-6);
+    }
+  }
+  CHECK_THROWS_WITH(planar_portrait(reduction::by_steps(pendulum), "a pendulum", request), Contains("polynomials"));
+}

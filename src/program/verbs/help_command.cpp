@@ -73,6 +73,9 @@ std::string views() {
       "Views of a portrait, for --view. u is the spin omega_z times the radius R of the body, v the sliding speed, mu "
       "the patch radius divided by R, and k = v/(mu |u|). 'contensou help theory' prints the equations (2.7).");
   for (portraits::View view : portraits::views()) text += help_entry(name(view), axes(view));
+  text += help_paragraph(
+      "--system has the plane of u and v and, for polynomials, the view disc: the whole plane in a disc with infinity as "
+      "its circle. Equilibria at infinity are marked with their kinds, and the dotted circle has a known radius.");
   return text;
 }
 

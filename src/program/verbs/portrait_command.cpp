@@ -125,6 +125,9 @@ std::vector<FieldText> system_portrait_fields() {
        "type of the solution as in reduce; absent for a scaling; null if the orbits are computed in time steps"},
       {"JSON `centre` [U, V]", "", "centre of the scaling symmetry; null if there is none"},
       {"JSON `window` [[U1, U2], [V1, V2]]", "", "part of the plane of u and v that is drawn"},
+      {"JSON `view`, `degree`, `radius`, `at_infinity` [{`angle`, `kind`, `eigenvalues`, `index`}]", "",
+       "with --view disc: name of the view, degree of the polynomials, radius of the dotted circle, and equilibria at "
+       "infinity with their directions"},
       {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "", "as in reduce: jumps that motions do not cross"},
       {"JSON `equilibria` [{`u`, `v`, `kind`, `eigenvalues`, `index`}], `equilibria_within`, `equilibria_complete`, "
        "`equilibria_curve`",
@@ -162,7 +165,7 @@ class PortraitCommand final : public Verb {
                "print a table instead of a picture: the limit of k at the stop, the singular points, and the "
                "directions in which orbits enter the origin");
     system_.argument().excludes(
-        {&law_.argument(), &against_.argument(), &route_.argument(), view_, scale_, &facts_},
+        {&law_.argument(), &against_.argument(), &route_.argument(), scale_, &facts_},
         "only (2.6) has these. The plane of u and v is drawn; 'contensou reduce --system' says which rays, kind and "
         "times there are");
     system_.argument().excludes(start_.of_body(), "its numbers are in the formulas, or --param");
@@ -225,6 +228,16 @@ class PortraitCommand final : public Verb {
     const TypedSystem typed = system_.read(law_.parameters());
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
+    }
+    if (request_.view && request_.view != View::disc) {
+      throw BadInput(
+          "--view {}: only (2.6) has this view. With --system the plane of u and v is drawn, or give --view disc",
+          name(*request_.view));
+    }
+    if (request_.view && reduction::SmoothField(typed.field).polynomials.empty()) {
+      throw BadInput(
+          "--view disc: the right sides are no polynomials, so that the field has no values at infinity. Leave --view out, "
+          "and choose a large --window");
     }
     // Sample the field about a point of the window, or, without a window, at the distance of the start from 0.
     Vector2d around = request_.window
@@ -292,7 +305,9 @@ class PortraitCommand final : public Verb {
       views.emplace_back(name(view), view);
     }
     app.option_defaults()->group("Picture");
-    add("--view", "VIEW", fmt::format("{} (default uv); 'contensou help views' explains them", fmt::join(names, ", ")),
+    add("--view", "VIEW",
+        fmt::format("{} (default uv); 'contensou help views' explains them. With --system, only disc",
+                    fmt::join(names, ", ")),
         into(request_.view, one_of(views, "view")));
     view_ = &looks_.back();
     add("--scale", "SCALE",

@@ -182,6 +182,22 @@ TEST_CASE("equilibria of random polynomial fields on the disc agree with the lea
   CHECK(infinite > 150);
 }
 
+TEST_CASE("motions that start beside the circle begin with short steps", "[planar]") {
+  // Backwards, the distance from the saddle at (1, 0) grows like exp(r s) at first. A first step in proportion to 1/|f|
+  // would be so long that the step overflows, and an error relative to infinity is none for the controlled stepper.
+  constexpr double radius = 2;
+  const PoincareDisc disc =
+      poincare_disc(field_of({{0, 1, 2, 0}, {0, 1, 0, 2}, {0, -1, 0, 0}, {1, 5, 1, 1}, {1, -5, 0, 0}}), radius);
+  for (const double away : {1e-5, 1e-6, 1e-7}) {
+    INFO(away);
+    const PlanarOrbit orbit = by_steps(disc.field).reversed().orbit({1 - away, 0});
+    for (const double s : {0.4, 1., 2.}) {
+      const double grown = away * std::exp(radius * s);
+      CHECK(1 - orbit.at(s)[0] == Approx(grown).epsilon(2 * grown + 1e-12 / away));
+    }
+  }
+}
+
 TEST_CASE("the disc needs a polynomial field and a radius", "[planar]") {
   CHECK_THROWS_WITH(poincare_disc(SmoothField([](const Vector2d& x) { return x; }), 1), Contains("polynomials"));
   CHECK_THROWS_WITH(poincare_disc(field_of({{0, 1, 1, 0}}), 0), Contains("positive and finite, got 0"));

@@ -46,6 +46,9 @@ struct PlanarPortrait : Portrait {
   std::map<std::string, double> parameters = {};      ///< values of letters in the name, for the subtitle
   reduction::Equilibria equilibria = {};              ///< equilibria in the window
   std::vector<SwitchingPart> switching = {};          ///< sliding, rest and ambiguity on switching curves
+  /// For View::disc: the whole plane on the Poincaré disc. Then orbits are computed by steps, and there are no
+  /// isochrones. `equilibria` contains those of the finite plane, and the curves are in u and v, too.
+  std::optional<reduction::PoincareDisc> disc = {};
   // Only for a system without a scaling:
   std::vector<reduction::LimitCycle> cycles = {};             ///< limit cycles, also outside the window
   std::vector<Separatrix> separatrices = {};                  ///< separatrices of the saddles
@@ -76,8 +79,23 @@ PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::str
 /// [{u, v, tau_left}], isochrones [{tau_stop, u, v}], and those of equilibria_members and switching_member; on request
 /// highlight and through (orbits). Without a scaling centre is null, and there are also form, separatrices (orbits with
 /// the member manifold), cycles (cycle_members), and lines [{u, v}]: invariant, the curves V = 0; equilibria_lines,
-/// curves of equilibria; u_nullclines and v_nullclines.
+/// curves of equilibria; u_nullclines and v_nullclines. With View::disc there are also view, degree, radius
+/// (reduction::PoincareDisc) and at_infinity [{angle, kind, eigenvalues, index}]; u and v near infinity are cut at a
+/// thousand million times the radius.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
+
+/// Returns the members kind, eigenvalues [[re, im], [re, im]] and index of an equilibrium.
+/// @tparam Json  nlohmann::ordered_json
+template <class Json>
+Json members_of_kind(const reduction::Equilibrium& each) {
+  Json json{{"kind", each.kind}, {"eigenvalues", nullptr}};
+  if (each.eigenvalues) {
+    const auto& [first, second] = *each.eigenvalues;
+    json["eigenvalues"] = {{first.real(), first.imag()}, {second.real(), second.imag()}};
+  }
+  json["index"] = each.index ? Json(*each.index) : Json();
+  return json;
+}
 
 /// Returns the members equilibria [{u, v, kind, eigenvalues [[re, im], [re, im]], index}], equilibria_within [[u, u],
 /// [v, v]], equilibria_complete and equilibria_curve [u, v], a point of a curve of equilibria or null. Eigenvalues that
@@ -87,13 +105,8 @@ template <class Json>
 Json equilibria_members(const reduction::Equilibria& equilibria) {
   Json list = Json::array();
   for (const reduction::Equilibrium& each : equilibria.points) {
-    Json& json = list.emplace_back(Json{{"u", each.x[0]}, {"v", each.x[1]}, {"kind", each.kind}});
-    json["eigenvalues"] = nullptr;
-    if (each.eigenvalues) {
-      const auto& [first, second] = *each.eigenvalues;
-      json["eigenvalues"] = {{first.real(), first.imag()}, {second.real(), second.imag()}};
-    }
-    json["index"] = each.index ? Json(*each.index) : Json();
+    list.push_back(Json{{"u", each.x[0]}, {"v", each.x[1]}});
+    list.back().update(members_of_kind<Json>(each));
   }
   const auto &low = equilibria.low, &high = equilibria.high;
   return {
