@@ -80,7 +80,7 @@ inline Text one_curve(const PhasePortrait& portrait) {
                      : "between two rays all orbits are one curve, shifted";
 }
 /// Subtitle for an axis of v with a SpeedScale.
-constexpr std::string_view bent_shows = "slip falls first, at nearly constant spin; then the spin falls until the stop";
+constexpr std::string_view bent_shows = "slip falls first, at nearly constant spin; then the spin";
 
 /// All views, in the order of lists.
 inline const std::array view_layouts{

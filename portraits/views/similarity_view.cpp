@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "views/portrait_views.hpp"
 
@@ -55,11 +56,24 @@ MappedPanel translates(const Drawing& drawing, Panel axes, const std::function<d
     return std::vector<Polyline>{{{x, y.high}, {x, y.low}}};
   });
   layers.add_highlights();
-  // Draw the action of the symmetry.
+  // Draw the action of the symmetry: it moves an orbit to a copy.
   MappedPanel finished = std::move(layers).finished();
   Panel& panel = finished.panel;
   const double x = panel.x.low + 0.82 * (panel.x.high - panel.x.low);
-  const double low = middle - half_height + 0.12 * 2 * half_height, high = low + 2 * step;
+  std::vector<double> orbits;  // their p at this x
+  for (const Lines& lines : panel.lines) {
+    for (const Polyline& line : lines.lines) {
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        const Point a = line[i - 1], b = line[i];
+        if ((a.x - x) * (b.x - x) < 0) orbits.push_back(a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y));
+      }
+    }
+  }
+  const auto nearest = [&](double p) {
+    const auto found = std::ranges::min_element(orbits, {}, [&](double orbit) { return std::abs(orbit - p); });
+    return found == orbits.end() ? p : *found;
+  };
+  const double low = nearest(middle - 0.76 * half_height), high = nearest(low + 2 * step);
   panel.lines.push_back({{{{x, low}, {x, high}}},
                          {drawing.palette.highlight, 2, false},
                          "symmetry " + math("p → p") + " + ln " + math("c")});
