@@ -1,11 +1,13 @@
-# Checks the equations (R1), (R2), ... of reduction/README.md and reduction/numerics.md. Each number must occur there
+# Checks the equations (R1), (R2), ... of the documents reduction/*.md. Each number must occur there
 # once, none may be missing, and a citation in any file of the project must name an existing number.
 #   cmake -D ROOT=<top of the tree> -P citations_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
-file(READ ${ROOT}/reduction/README.md text)
-file(READ ${ROOT}/reduction/numerics.md numerics)
-string(APPEND text "${numerics}")
+set(text "")
+foreach(document IN ITEMS theory numerics planar)
+  file(READ ${ROOT}/reduction/${document}.md part)
+  string(APPEND text "${part}")
+endforeach()
 string(REGEX MATCHALL "\\\\tag{R[0-9]+}" tags "${text}")
 set(faults "")
 set(numbers "")

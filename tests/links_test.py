@@ -1,6 +1,8 @@
-"""Links between the documents lead to a file, and #parts to a heading in it.
+"""Links between the documents lead to a file, and #parts to a heading in it. Paths in the text name a file, too.
 
-    links_test.py TOP
+    links_test.py TOP [DOCUMENTS]
+
+DOCUMENTS  least number of documents below TOP, default 20
 """
 
 import pathlib
@@ -8,6 +10,7 @@ import re
 import sys
 
 TOP = pathlib.Path(sys.argv[1]).resolve()
+LEAST = int(sys.argv[2]) if len(sys.argv) > 2 else 20
 LEFT_OUT = {"build", "node_modules"}
 
 
@@ -35,6 +38,9 @@ for document in documents:
             target /= "README.md"
         if not target.exists() or part and part not in parts(target):
             faults.append(f"{document.relative_to(TOP)}: {link}")
-assert len(documents) >= 20 and count >= 100, (len(documents), count)
+    for path in re.findall(r"(?<![\w/.])(?:src|tests|reduction|portraits|\.ci)/[\w/.-]+\.\w+", document.read_text(encoding="utf-8")):
+        if "NAME" not in path and not (TOP / path).exists() and (TOP / "src").exists():
+            faults.append(f"{document.relative_to(TOP)}: {path}")
+assert len(documents) >= LEAST and count >= 5 * LEAST, (len(documents), count)
 print(f"{count} links of {len(documents)} documents")
 sys.exit("\n".join(faults) or 0)

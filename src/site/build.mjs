@@ -127,18 +127,18 @@ const readers = [
   { path: "compute.html", title: "Compute", gallery: "roll.svg", parts: ["#compute", "#accuracy-and-speed"],
     links: [["src/program/README.md", "A command for each purpose"], ["src/javascript/README.md", "In JavaScript"]] },
   { path: "check.html", title: "Check", gallery: "reduction.svg", parts: ["#check"],
-    links: [["src/program/README.md#check", "Commands for checks"], ["reduction/README.md#errata-of-the-paper", "Errors of the paper"], ["tests/README.md", "The tests"]] },
+    links: [["src/program/README.md#check", "Commands for checks"], ["reduction/theory.md#errata-of-the-paper", "Errors of the paper"], ["tests/README.md", "The tests"]] },
   { path: "python.html", title: "Python", words: "The Python module works with NumPy's arrays. matplotlib draws this plane of a puck.", picture: "src/python/notebook/plane.png",
     command: 'import contensou as ct\nct.portrait(body="disc").plot()', language: "python", alt: "The plane of a puck", parts: ["In Python,"],
     links: [["src/python/README.md", "The tour"], ["src/python/notebook/README.md", "Why a spinning ball slides farther: a lesson as a notebook"]] },
-  { path: "engines.html", title: "Engines", words: "The first command prints the numbers to type into an engine; there are fourteen engines. The curves show force against moment. An engine uses the ellipse, the chord, or a separate limit for each.",
+  { path: "engines.html", title: "Engines", words: "The first command prints the numbers to type into an engine; there are eighteen engines. The curves show force against moment. An engine uses the ellipse, the chord, or a separate limit for each.",
     command: "contensou engine mujoco --ball pool\ncontensou law --surface -o surface.svg", picture: "portraits/gallery/surface.svg", alt: "Limit surfaces", parts: [],
     links: [["src/si/README.md#torsional-friction-in-an-engine", "Torsional friction in an engine"], ["src/si/README.md#the-wrench-in-c", "The wrench in C"], ["src/site/cases/README.md", "Ten motions as data for the tests of an engine"]] },
   { path: "film.html", title: "Film", words: "The command finds friction and patch radius from a film, with intervals. The picture shows a real slide beside the exact motion and the uncoupled model.",
     command: "contensou fit hit10.csv --fps 360 --ball cylinder.toml --law uniform -o film.png", picture: "src/fit/film.png", alt: "A cylinder that slides and turns: measured, exact, textbook", parts: [],
     links: [["src/fit/README.md#how-to-film-it", "How to film it"], ["src/fit/README.md#real-films", "Two real slides"], ["src/fit/README.md#the-estimate", "The estimate"]] },
   { path: "mathematics.html", title: "Mathematics", gallery: "similarity.svg", parts: [],
-    links: ["theory", "the-plane-at-the-origin-and-at-infinity", "a-constant-drive", "any-planar-field", "symbols", "errata-of-the-paper"].map((id) => [`reduction/README.md#${id}`]).concat(["proofs", "laws", "numerics"].map((id) => [`reduction/numerics.md#${id}`])) },
+    links: ["theory.md", "theory.md#the-plane-at-the-origin-and-at-infinity", "theory.md#a-constant-drive", "theory.md#errata-of-the-paper", "planar.md", "numerics.md#proofs", "numerics.md#laws", "numerics.md#numerics", "glossary.md"].map((id) => [`reduction/${id}`]) },
 ];
 
 // Of README: the section of "#id"; or the paragraph that begins so, with the block of code below it.
@@ -159,7 +159,7 @@ function reader({ path, title, gallery, parts, links, language = "bash", ...give
     const [file, part] = to.split("#");
     const heading = part && texts.get(file).headings.find(({ id }) => id === part);
     if (part && !heading) throw new Error(`${path} leads to ${to}, which is not there`);
-    return `<li><a href="${texts.has(file) ? pageOf(file) : file}${part ? `#${part}` : ""}">${escape(text ?? heading.title)}</a></li>`;
+    return `<li><a href="${texts.has(file) ? pageOf(file) : file}${part ? `#${part}` : ""}">${escape(text ?? (heading ?? texts.get(file)).title)}</a></li>`;
   });
   page(path, title, `<h1>${escape(title)}</h1>
 <pre tabindex="0"><code>${highlight(command, language)}</code></pre>

@@ -23,7 +23,7 @@ let browser;
 before(async () => (browser = await chromium.launch({ executablePath: process.env.CONTENSOU_CHROMIUM, args: ["--no-sandbox"], timeout: patience })));
 after(() => browser?.close());
 
-for (const path of ["index.html", "start.html", "film.html", "mathematics.html", "gallery.html", "README.html", "reduction/README.html", "src/README.html", "reference/classcontensou_1_1reduction_1_1Flow.html",
+for (const path of ["index.html", "start.html", "film.html", "mathematics.html", "gallery.html", "README.html", "reduction/theory.html", "src/README.html", "reference/classcontensou_1_1reduction_1_1Flow.html",
   "reference/flow_8hpp_source.html"]) {
   test(`${path} is accessible, fits its window and asks the network for nothing`, async () => {
     for (const viewport of [{ width: 1440, height: 900 }, { width: 390, height: 844 }]) {

@@ -151,8 +151,9 @@ TEST_CASE("help theory is one screen, whose equations are those of the program",
   }
 }
 
-TEST_CASE("reduction/README.md says what each row of check measures", "[cli]") {
-  const std::string chapter = read_file(CONTENSOU_THEORY);
+TEST_CASE("the cookbook says what each row of check measures", "[cli]") {
+  const std::string chapter =
+      read_file(std::filesystem::path(CONTENSOU_README).parent_path() / "src/program/README.md");
   const auto checks = json_of("check --format json")["checks"];
   REQUIRE(checks.size() > 20);
   for (const auto& check : checks) {

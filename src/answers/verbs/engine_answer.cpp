@@ -210,9 +210,9 @@ constexpr Field<Report> report_fields[]{
 constexpr const char* explanation =
     "slip, spin   s until 1e-3 of what they were at the start is left (roll: 'rolls after' --rolling-below 1 mm/s)\n"
     "slid, turns  m that the contact slides, and turns about the vertical, until they have ended\n"
-    "cone         of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1; box F <= F0, M <= M0, as if neither\n"
-    "             knew of the other; pyramid F/F0 + M/M0 <= 1, where either slip or spin is braked; points: friction\n"
-    "             at each of a few contact points, averaged over a turn\n";
+    "cone         bound of force F and moment M: elliptic (F/F0)^2 + (M/M0)^2 <= 1; box F <= F0, M <= M0: each has\n"
+    "             its own limit; pyramid F/F0 + M/M0 <= 1: a large force leaves no moment; points: friction at each of\n"
+    "             a few contact points, averaged over a turn\n";
 
 const char* not_read(const Report& report) {
   return report.experiment.ball.body.lies_flat() ? "has no body that lies flat, or was not read for it"
@@ -330,7 +330,7 @@ std::string text_of(const EngineWithBall& of, const Report& report, const Digits
   add(ball);
   for (const Contact& setting : of.settings) add(setting);
   return fmt::format(
-      "{}\n{}\n{}times        this moment over that of the law\n\n{}{}", text, table.text(), explanation,
+      "{}\n{}\n{}times        moment divided by the moment of the law\n\n{}{}", text, table.text(), explanation,
       block("beware", {engine.remarks.begin(), engine.remarks.end()}),
       known ? block("source", {engine.sources.begin(), engine.sources.end()}) : block("known", known_engines()));
 }

@@ -65,7 +65,7 @@ void BodyOptions::add_drive(CLI::App& app) {
   drive_.add(app, "--drive", "RHO", "constant force along the slip divided by f N, 0 <= RHO < 1",
              [](const std::string& typed) {
                const double drive = parse_number(typed);
-               if (drive >= 1) throw NotAllowed("friction is at most 1 in this unit: from 1 on it would never stop");
+               if (drive >= 1) throw NotAllowed("a drive of 1 is as strong as friction, so the body never stops");
                if (drive < 0)
                  throw NotAllowed("a drive against the slip turns it round, which is no orbit: 0 or more is needed");
                if (drive > 0 && drive < reduction::ReducedSystem::least_drive)

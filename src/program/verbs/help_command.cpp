@@ -196,9 +196,9 @@ Stop time, at which u and v vanish together:
     m(k) = (5/k) Int(0, k) W(x)/W(k) (8 + 3 pi x)/(A + B x) dx
     W(x) = x^a (A + B x)^(e - a)
 
-Theorem for any law of friction and any body: chapter "Theory" of theory.md.
-Proofs and numerics: numerics.md. Both files are in share/doc/contensou of the
-installation; in the sources they are reduction/README.md and numerics.md.
+Theorem for any law of friction and any body: theory.md. Proofs and numerics:
+numerics.md. Any two equations: planar.md. These files are in the folder
+reduction of the sources, and in share/doc/contensou/reduction if installed.
 )";
 
 /// Words in the headings of `help theory`, which are topics, too.

@@ -144,7 +144,7 @@ _DERIVATIVES = ("u", "v", "mu", "chi", "gamma", "drive")
 
 @dataclass(frozen=True, init=False)
 class Flow:
-    """All motions of one system. It is solved once (1 ms), then returns stop times and states from any start.
+    """All motions of one system. It is solved once, then returns stop times and states from any start.
 
     mu:     patch radius divided by R; 0 < mu <= 1 for a ball; disc and ring rest on their whole face, mu = 1
     law:    a name, a Law or a function; by default that of the body, for a ball exact
@@ -287,9 +287,28 @@ def stop_time(
 def stop_time(
     *, u: Any, v: Any, mu: Any = None, law: Optional[LawLike] = None, body: Body = "ball", drive: float = 0, out: Any = None,
     threads: int = 1, gradient: bool = False, where: Any = True) -> Any:
-    """Returns Flow(mu, law, body, drive).stop_time; the last flows are cached. mu may be an array, too. Up to 31 of its
-    values cost a flow each (0.4 ms). From 32 values on, all of them share some cached flows, and the error may
-    be 8 eps/(1 - drive) larger. The time is NaN where mu is NaN or masked."""
+    """Returns the time tau until slip and spin end, u = v = 0, to a few eps of a double (2e-15 relative).
+
+    u:         spin as a speed, R omega with the radius R of the body; any sign
+    v:         slip, the sliding speed of the contact point; 0 or more, in the unit of u
+    mu:        patch radius divided by R, 0 < mu <= 1; a body "disc" or "ring" has 1. An array of 32 values or more is
+               interpolated; the error may then be 8 eps/(1 - drive) larger
+    law:       name, Law, or function of two speeds (law); default "exact", for a body "disc" "uniform"
+    body:      "ball", "hollow-ball", "disc", "ring", or its numbers of inertia (chi, gamma)
+    drive:     constant force along the slip, divided by f times the load, 0 <= drive < 1; f is the coefficient of friction
+    out:       array of the broadcast shape for the result, float64 or, for float32, float32; may be u or v itself
+    threads:   number of threads for a large array; other threads of Python continue meanwhile
+    gradient:  True to return tau and a dict of its partial derivatives by u, v, mu, chi, gamma and drive, each with the
+               other arguments fixed; NaN at rest
+    where:     True for each entry to compute; the others keep the value of out, or are NaN without it
+
+    u, v, mu and where are numbers, or arrays of shapes that broadcast. The unit of tau is that of u and v: tau is
+    (3 pi/2) f g t with the gravity g and the time t, so t = tau/((3 pi/2) f g) is in seconds if u and v are in m/s.
+    Invalid or masked entries of an array become NaN; an invalid number raises ValueError. The last flows are cached.
+
+    >>> stop_time(u=1, v=1, mu=0.1)
+    33.1683790934...
+    """
     if mu is None or isinstance(mu, (float, int)):
         flow: Any = _flow(mu, law, body, drive)
         return flow.stop_time(u=u, v=v, out=out, threads=threads, gradient=gradient, where=where)
