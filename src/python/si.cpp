@@ -325,10 +325,11 @@ void bind_si(py::module_& module) {
           "flow",
           [](const si::Experiment& experiment, const Law& law) { return Flow(si::reduced_system(experiment, law)); },
           Released())
-      .def(
-          "undriven_flow",
-          [](const si::Experiment& experiment, const Law& law) { return Flow(si::undriven_system(experiment, law)); },
-          Released())
+      .def("patch_and_body",
+           [](const si::Experiment& experiment, const Law& law) {
+             const reduction::ReducedSystem system = si::undriven_system(experiment, law);
+             return std::pair(system.mu(), std::pair(system.inertia().chi, system.inertia().gamma));
+           })
       .def_property_readonly("gravity", [](const si::Experiment& experiment) { return experiment.environment.gravity; })
       .def_property_readonly("law", [](const si::Experiment& experiment) { return si::law_of(experiment); })
       .def_property_readonly("slip", &si::slip_at_start)
