@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._display import picture, table, with_picture
-from ._law import Law, LawLike, body_of, kept_flow, law as law_of
+from ._law import Law, LawLike, body_of, kept, kept_flow, law as law_of
 from ._numbers import needs, number, numbers, target, text, thread_count, whole
 
 if TYPE_CHECKING:
@@ -426,7 +426,7 @@ class Roll:
             core = _core.Motion.uncoupled(experiment, self.law._core, load, self.rolling_below)
         else:
             mu, body = experiment.patch_and_body(self.law._core)
-            core = _core.Motion.reduced(experiment, kept_flow(mu, self.law, body, 0), load)
+            core = _core.Motion.reduced(experiment, kept(kept_flow, mu, self.law, body, 0), load)
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -132,3 +132,13 @@ def core_flow(mu: Optional[float], of: Optional[LawLike], body: Body, drive: flo
 
 
 kept_flow = lru_cache(maxsize=64)(core_flow)
+
+
+def kept(make: Any, *given: Any) -> Any:
+    """Returns what a cached function returns; arguments without a hash are not cached."""
+    try:
+        return make(*given)
+    except TypeError as error:
+        if "unhashable" not in str(error):
+            raise
+    return make.__wrapped__(*given)
