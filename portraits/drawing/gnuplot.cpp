@@ -68,7 +68,7 @@ Terminal terminal_of(PictureFormat format, double dpi) {
     case PictureFormat::png:
       return {"pngcairo", "sans", dpi / 25.4, 4.0 / 3, 1, 6.5, 0.55};
     case PictureFormat::gif:
-      return {"gif animate delay 4 loop 0 optimize", "sans", 4, 4.0 / 3, 1, 6.4, 0};
+      return {"gif animate delay 8 loop 0 optimize", "sans", 4, 4.0 / 3, 1, 6.4, 0};
     default:
       return {"svg dynamic", "sans-serif", 5, 1, 1, 0, 0};
   }
@@ -479,7 +479,8 @@ std::string script_of(const Figure& figure, PictureFormat format) {
 std::string drawn(const std::string& commands, PictureFormat format) {
   ProgramRun run;
   try {
-    run = run_program({"gnuplot", "-d"}, commands, time_limit);  // -d: gnuplot ignores ~/.gnuplot
+    // -d: gnuplot ignores ~/.gnuplot. It reads standard input in single bytes, unless that is named as a file.
+    run = run_program({"gnuplot", "-d", standard_input}, commands, time_limit);
   } catch (const std::system_error& error) {
     throw GnuplotError(fmt::format("what gnuplot reads and writes does not fit: {}", error.code().message()));
   }

@@ -17,6 +17,9 @@ struct ProgramRun {
   bool succeeded() const { return end == End::exited && number == 0; }
 };
 
+/// Name of a file that is the standard input of a program.
+extern const char* const standard_input;
+
 /// Runs a program found on PATH, in the locale C.UTF-8. The program ends if its caller ends. No shell or disk is used.
 /// @param command  name and arguments
 /// @param input    standard input of the program

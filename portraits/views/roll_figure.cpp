@@ -272,7 +272,7 @@ Panel ball_from_above(const RollCurve& curve, const Eigen::Matrix3d& turned, Eig
 }  // namespace
 
 FilmPace film_pace(double end, std::optional<Eigen::Index> asked) {
-  constexpr double longest = 10, rate = 25;
+  constexpr double longest = 10, rate = 12.5;
   if (asked) return {Eigen::ArrayXd::LinSpaced(*asked, 0, end), static_cast<double>(*asked - 1) / (rate * end)};
   const double most = longest / end, digit = std::pow(10, std::floor(std::log10(most)));
   const double slow = most >= 1 ? digit * std::floor(most / digit) : round_down(most);
@@ -293,7 +293,7 @@ std::vector<Figure> roll_film(const RollPicture& picture) {
                            : slow > 1 ? fmt::format("slowed {:.3g} times", slow)
                                       : fmt::format("{:.3g} times faster", 1 / slow);
   const bool moves = whole.panels.size() == 2;
-  const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(25 * slow))));  // so that each frame differs
+  const int digits = std::max(2, static_cast<int>(std::ceil(std::log10(12.5 * slow))));  // so that each frame differs
   whole.max_columns = moves ? 2 : 3;
   std::vector<Figure> frames;
   Eigen::Matrix3d turned[]{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};

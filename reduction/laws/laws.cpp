@@ -5,7 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -153,7 +156,7 @@ std::vector<std::string_view> names_of_laws() {
 const std::vector<Law>& named_laws() {
   static const std::vector<Law> laws = [] {
     std::vector<Law> list;
-    for (const NamedLaw& named : laws_with_meaning) list.push_back(named.law());
+    for (const NamedLaw& each : laws_with_meaning) list.push_back(*find_law(each.name));
     return list;
   }();
   return laws;
@@ -179,12 +182,19 @@ const std::vector<LawFamily>& law_families() {
 }
 
 std::optional<Law> find_law(std::string_view name) {
+  static std::mutex guard;
+  static std::map<std::string, Law, std::less<>> kept;  // the tables of a law take up to 1 ms
+  constexpr std::size_t most = 64;
+  const std::scoped_lock lock(guard);
+  if (const auto found = kept.find(name); found != kept.end()) return found->second;
   const std::string_view before = name.substr(0, name.find(':'));
   const auto family = std::ranges::find(law_families(), before, &LawFamily::name);
-  if (before != name && family != law_families().end()) return member(*family, name.substr(before.size() + 1));
-  const NamedLaw* found = named(name);
-  if (found == nullptr) return std::nullopt;
-  return found->law();
+  const bool is_member = before != name && family != law_families().end();
+  const NamedLaw* const found = named(name);
+  if (!is_member && found == nullptr) return std::nullopt;
+  const Law law = is_member ? member(*family, name.substr(before.size() + 1)) : found->law();
+  if (kept.size() == most) kept.clear();
+  return kept.emplace(name, law).first->second;
 }
 
 }  // namespace contensou::reduction

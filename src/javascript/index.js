@@ -26,7 +26,7 @@ const bodyCalled = (name) => {
 
 const isColumn = (given) => typeof given === "object" && given !== null;
 const texts = ["law", "body", "title", "sources", "patchBy"];
-const vectors = { velocity: 2, angularVelocity: 3, youngs_modulus: 2, poisson_ratio: 2 };
+const vectors = { motion: 3, velocity: 2, angularVelocity: 3, youngs_modulus: 2, poisson_ratio: 2 };
 
 /** Throws if a value has another type than its name needs. JavaScript would convert true, [1] and "1" to the number 1. */
 const need = (call, name, value, several = false) => {
@@ -49,7 +49,7 @@ const need = (call, name, value, several = false) => {
       throw new TypeError(`${call}: ${name}: its memory was given away (the array is detached): copy it before`);
     }
   }
-  for (let i = 0; i < value.length; ++i) {
+  for (let i = 0, end = ArrayBuffer.isView(value) ? Math.min(1, value.length) : value.length; i < end; ++i) {
     if (!isNumber(value[i])) check(false, "a number", `${name}[${i}]`, value[i]);
   }
 };
@@ -68,8 +68,8 @@ const only = (call, options, names, more = []) => {
 
 const ofSystem = ["mu", "law", "body", "chi", "gamma", "drive"];
 
-/** Gives a plane its system. */
-const choose = (plane, { mu, law, body = "ball", chi, gamma, drive = 0 }) => {
+/** Returns law, mu, chi, gamma and drive of a system. */
+const systemOf = ({ mu, law, body = "ball", chi, gamma, drive = 0 }) => {
   const known = bodyCalled(body);
   const patch = mu ?? known.mu;
   if (patch === undefined) throw new Error("mu is missing: the radius of the contact patch divided by that of the body");
@@ -78,7 +78,7 @@ const choose = (plane, { mu, law, body = "ball", chi, gamma, drive = 0 }) => {
   const another = chi !== undefined || gamma !== undefined;
   const complaint = !another ? library.complaint(body, patch) : patch > 0 ? "" : "mu > 0 is required";
   if (complaint) throw new Error(`mu = ${patch}: ${complaint.replace("--mu", "mu")}`);
-  return plane.choose(law ?? lawOfBody[body] ?? "exact", patch, ...inertia, drive);
+  return [law ?? lawOfBody[body] ?? "exact", patch, ...inertia, drive];
 };
 
 /** Returns the start of a motion. */
@@ -88,24 +88,37 @@ const startOf = (call, start) => {
   return { u, v };
 };
 
-/** Returns numbers and arrays as functions of the index, and their number. */
+/** Returns numbers and arrays as arrays of one length. */
 const columnsOf = (given) => {
   const lengths = Object.entries(given).filter(([, each]) => isColumn(each)).map(([name, { length }]) => [name, length]);
   const count = lengths[0]?.[1] ?? 1;
   if (lengths.some(([, length]) => length !== count)) {
     throw new Error(`arrays of one length are needed; got ${lengths.map(([name, length]) => `${name} of ${length}`).join(", ")}`);
   }
-  const at = Object.fromEntries(Object.entries(given).map(([name, each]) => [name, isColumn(each) ? (i) => each[i] : () => each]));
-  return { count, at };
+  return Object.values(given).map((each) => isColumn(each) ? each : new Float64Array(count).fill(each));
 };
 
-const stopOr = (plane, u, v) => Number.isFinite(u) && Number.isFinite(v) && v >= 0 ? plane.stop(u, v) : NaN;
+const shared = new library.Plane();
+let solved = "";
+
+/** Returns a plane of a system; the last one is kept. */
+const planeOf = (system) => {
+  const of = systemOf(system), key = of.join(" ");
+  if (key !== solved) {
+    solved = "";
+    shared.choose(...of);
+    solved = key;
+  }
+  return shared;
+};
 
 export class Flow {
   #plane = new library.Plane();
+  #system;
 
   constructor(system) {
-    const of = choose(this.#plane, only("Flow", system, ofSystem));
+    this.#system = systemOf(only("Flow", system, ofSystem));
+    const of = this.#plane.choose(...this.#system);
     this.terminalRatio = of.terminalRatio;
     this.meaning = of.meaning;
   }
@@ -116,9 +129,7 @@ export class Flow {
   }
 
   stopTimes(starts) {
-    const { u, v } = startOf("stopTimes", starts);
-    const { count, at } = columnsOf({ u, v });
-    return Float64Array.from({ length: count }, (_, i) => stopOr(this.#plane, at.u(i), at.v(i)));
+    return library.stopTimes(...this.#system, ...columnsOf(startOf("stopTimes", starts)));
   }
 
   motion(start) {
@@ -135,31 +146,40 @@ export class Flow {
 
   check(start) {
     const { u, v } = startOf("check", start);
-    return this.#plane.checks(u, v);
+    return library.checks(...this.#system, u, v);
   }
 }
 
 export const stopTime = (given) => {
   const { u, v, ...system } = only("stopTime", given, [...ofStart, ...ofSystem]);
-  return new Flow(system).stopTime({ u, v });
+  startOf("stopTime", { u, v });
+  return planeOf(system).stop(u, v);
 };
 
 export const stopTimes = (given) => {
   const { u, v, mu, ...system } = only("stopTimes", given, [...ofStart, ...ofSystem]);
-  if (!isColumn(mu)) return new Flow({ mu, ...system }).stopTimes({ u, v });
-  startOf("stopTimes", { u, v });
-  const { count, at } = columnsOf({ mu, u, v });
-  const taus = new Float64Array(count).fill(NaN);
-  const plane = new library.Plane();
-  let last = NaN;
-  // Starts with one mu, one after the other: a plane is solved once for them.
-  const order = [...taus.keys()].filter((i) => !Number.isNaN(at.mu(i))).sort((i, j) => at.mu(i) - at.mu(j));
-  for (const i of order) {
-    if (at.mu(i) !== last) choose(plane, { mu: last = at.mu(i), ...system });
-    taus[i] = stopOr(plane, at.u(i), at.v(i));
+  const start = startOf("stopTimes", { u, v });
+  if (!isColumn(mu)) return library.stopTimes(...systemOf({ mu, ...system }), ...columnsOf(start));
+  const [mus, ...starts] = columnsOf({ mu, ...start });
+  let least = Infinity, largest = -Infinity;
+  for (let i = 0; i < mu.length; ++i) {
+    if (mu[i] < least) least = mu[i];
+    if (mu[i] > largest) largest = mu[i];
   }
-  plane.delete();
-  return taus;
+  if (least > largest) return new Float64Array(mu.length).fill(NaN);
+  systemOf({ mu: least, ...system });
+  const [law, , ...numbers] = systemOf({ mu: largest, ...system });
+  return library.stopTimesOfMu(law, mus, ...numbers, ...starts);
+};
+
+const ofStep = ["law", "motion", "load", "friction", "radius", "byForce", "byMoment", "dt"];
+
+export const step = (given) => {
+  only("step", given, ofStep);
+  for (const name of ofStep.slice(1)) if (given[name] === undefined) need("step", name);
+  const [law, motion, ...numbers] = ofStep.map((name) => given[name]);
+  const [vx, vy, omega, fx, fy, moment] = library.step(law ?? "exact", ...motion, ...numbers);
+  return { motion: [vx, vy, omega], force: [fx, fy], moment };
 };
 
 const ofBall = ["body", "law", "radius", "mass", "friction", "gravity", "patch_radius", "spin_deceleration", "youngs_modulus",

@@ -29,7 +29,6 @@
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/reduction/verification.hpp"
 #include "contensou/si/bounce.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/cue_strike.hpp"
@@ -295,13 +294,6 @@ class Plane {
     return list(drawn_.maps, lines);
   }
 
-  /// Returns the table of checks of one start. Only the package for npm uses it.
-  val checks(double u, double v) const {
-    return list(reduction::verify(flow(), State{.u = u, .v = v}), [](const reduction::Check& check) {
-      return object("name", check.name, "measured", check.measured, "allowed", check.allowed, "passed", check.passed());
-    });
-  }
-
  private:
   using Instant = portraits::PortraitOrbit::Instant;
 
@@ -388,12 +380,6 @@ val laws() {
   return all;
 }
 
-/// Returns the end of a message about an unknown name: the most similar name of the array, or nothing. Only the package
-/// for npm uses it.
-std::string suggestion_of(const std::string& typed, const val& names) {
-  return suggestion(typed, emscripten::vecFromJSArray<std::string>(names));
-}
-
 /// Returns the name of a law in the library.
 std::string law_name(const std::string& called) { return law_of(called).name(); }
 
@@ -449,11 +435,6 @@ val bodies() {
     if (body.patch_ratio) value.set("mu", *body.patch_ratio);
     return value;
   });
-}
-
-/// Returns the reason why a body cannot have this mu; empty if the body can. Only the package for npm uses it.
-std::string complaint(const std::string& body, double mu) {
-  return std::ranges::find(si::bodies(), body, &si::Body::name)->complaint(mu);
 }
 
 /// Returns for each view of the page {name, layered: true if it has isochrones and a field}. The other views are the
@@ -535,12 +516,10 @@ EMSCRIPTEN_BINDINGS(contensou) {
       .function("at", answering<&Plane::at>)
       .function("slide", answering<&Plane::slide>)
       .function("ride", answering<&Plane::ride>)
-      .function("isochrone", answering<&Plane::isochrone>)
-      .function("checks", answering<&Plane::checks>);
+      .function("isochrone", answering<&Plane::isochrone>);
   function("laws", &laws);
   function("lawName", answering<law_name>);
   function("bodies", &bodies);
-  function("complaint", answering<complaint>);
   function("views", &views);
   function("catalogue", &catalogue);
   function("contact", answering<contact>);
@@ -549,7 +528,6 @@ EMSCRIPTEN_BINDINGS(contensou) {
   function("typedPortrait", answering<typed_portrait>);
   function("layOut", answering<layout_value>);
   function("rowsOf", &rows_of);
-  function("suggestion", &suggestion_of);
   emscripten::constant("rollingSlip", contensou::si::rolling_slip);
   emscripten::constant("cueMass", contensou::si::standard_cue_mass);
   emscripten::constant("largestTipOffset", contensou::si::largest_tip_offset);

@@ -159,8 +159,8 @@ ExitStatus run(const std::vector<std::string>& arguments, std::string& verb) {
   if (known) verb = arguments.front();
   if (known && verb != "help") {
     all.complete(verb);
-  } else {
-    all.complete_all();
+  } else if (std::ranges::any_of(arguments, [&](const std::string& word) { return all.has(word); })) {
+    all.complete_all();  // help, or a verb behind another word
   }
   try {
     reject_what_means_nothing(known ? *app.get_subcommand(verb) : app, arguments);

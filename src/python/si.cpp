@@ -91,11 +91,10 @@ void for_contacts(const Numbers& motions, const std::array<Numbers, size>& given
 
 /// Writes the friction of contacts to `values`, and its slopes to `slopes`, if that has entries.
 /// @param given  loads, then friction, radius and creep of the patches
-void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 4>& given, py::array_t<double>& values,
-              py::array_t<double>& slopes) {
+void wrenches(const si::PatchFriction& friction, const Numbers& motions, const std::array<Numbers, 4>& given,
+              py::array_t<double>& values, py::array_t<double>& slopes) {
   std::vector<Result> results{{values.mutable_data(), 3}};
   if (slopes.size() > 0) results.push_back({slopes.mutable_data(), 9});
-  const si::PatchFriction friction(law);
   for_contacts(motions, given, results, [&](py::ssize_t i, const Eigen::Vector3d& motion, const auto& at) {
     si::Wrench wrench;
     const char* const fault = friction.evaluate(motion, at[0], {at[1], at[2], at[3]}, wrench);
@@ -108,10 +107,9 @@ void wrenches(const Law& law, const Numbers& motions, const std::array<Numbers, 
 
 /// Writes slip and spin of contacts after a time step to `motions_after`, and their mean friction to `values`.
 /// @param given  loads, friction and radius of the patches, changes of slip and spin by units of impulse, time steps
-void steps(const Law& law, const Numbers& motions, const std::array<Numbers, 6>& given,
+void steps(const si::PatchFriction& friction, const Numbers& motions, const std::array<Numbers, 6>& given,
            py::array_t<double>& motions_after, py::array_t<double>& values) {
   const std::vector<Result> results{{motions_after.mutable_data(), 3}, {values.mutable_data(), 3}};
-  const si::PatchFriction friction(law);
   for_contacts(motions, given, results, [&](py::ssize_t i, const Eigen::Vector3d& motion, const auto& at) {
     kernel::Step<double> after;
     const char* const fault = friction.step(motion, {at[3], at[4]}, at[0], {at[1], at[2], 0}, at[5], after);
@@ -120,6 +118,43 @@ void steps(const Law& law, const Numbers& motions, const std::array<Numbers, 6>&
     return fault;
   });
 }
+
+/// Reads a float or an int; returns false for another type and for an int beyond doubles.
+bool read_number(PyObject* given, double& to) {
+  static const PyObject* const of_numpy = py::object(py::dtype::of<double>().attr("type")).release().ptr();
+  const bool known = PyFloat_CheckExact(given) || PyLong_CheckExact(given) ||
+                     reinterpret_cast<const PyObject*>(Py_TYPE(given)) == of_numpy;
+  if (!known) return false;
+  to = PyFloat_AsDouble(given);
+  if (PyErr_Occurred() == nullptr) return true;
+  PyErr_Clear();
+  return false;
+}
+
+/// Reads the numbers of one contact: a motion in a tuple, a list or an array of doubles, then single numbers.
+/// Returns nothing if they have other types. The functions for arrays compute these, and they report wrong numbers.
+template <std::size_t size>
+std::optional<Eigen::Array<double, size, 1>> one_contact(const py::args& given) {
+  Eigen::Array<double, size, 1> numbers;
+  const py::handle motion = given[0];
+  bool read = given.size() == size - 2;
+  if (PyTuple_CheckExact(motion.ptr()) || PyList_CheckExact(motion.ptr())) {
+    read = read && PySequence_Fast_GET_SIZE(motion.ptr()) == 3;
+    for (int i = 0; read && i < 3; ++i) read = read_number(PySequence_Fast_GET_ITEM(motion.ptr(), i), numbers[i]);
+  } else if (read && Py_TYPE(motion.ptr()) == py::detail::npy_api::get().PyArray_Type_ && Numbers::check_(motion)) {
+    const auto array = py::reinterpret_borrow<Numbers>(motion);
+    read = array.ndim() == 1 && array.size() == 3;
+    if (read) std::copy_n(array.data(), 3, numbers.data());
+  } else {
+    read = false;
+  }
+  for (std::size_t i = 1; read && i < given.size(); ++i) {
+    read = read_number(PyTuple_GET_ITEM(given.ptr(), i), numbers[static_cast<Eigen::Index>(i) + 2]);
+  }
+  return read ? std::optional(numbers) : std::nullopt;
+}
+
+py::array_t<double> array_of(const Eigen::Vector3d& vector) { return py::array_t<double>(3, vector.data()); }
 
 /// Calls `work` for each of `count` rows on several threads.
 /// @throws std::domain_error, std::runtime_error  with the number of the first row that fails; other exceptions
@@ -325,10 +360,11 @@ void bind_si(py::module_& module) {
           "flow",
           [](const si::Experiment& experiment, const Law& law) { return Flow(si::reduced_system(experiment, law)); },
           Released())
-      .def(
-          "undriven_flow",
-          [](const si::Experiment& experiment, const Law& law) { return Flow(si::undriven_system(experiment, law)); },
-          Released())
+      .def("patch_and_body",
+           [](const si::Experiment& experiment, const Law& law) {
+             const reduction::ReducedSystem system = si::undriven_system(experiment, law);
+             return std::pair(system.mu(), std::pair(system.inertia().chi, system.inertia().gamma));
+           })
       .def_property_readonly("gravity", [](const si::Experiment& experiment) { return experiment.environment.gravity; })
       .def_property_readonly("law", [](const si::Experiment& experiment) { return si::law_of(experiment); })
       .def_property_readonly("slip", &si::slip_at_start)
@@ -419,8 +455,28 @@ void bind_si(py::module_& module) {
     return fields_of(described_by(fields).under(described_by(changes)));
   });
   module.attr("quantities") = list_of(si::quantities(), &si::Quantity::name);
-  module.def("wrenches", &wrenches);
-  module.def("steps", &steps);
+  py::class_<si::PatchFriction>(module, "PatchFriction")
+      .def(py::init<const Law&>())
+      .def("wrenches", &wrenches)
+      .def("steps", &steps)
+      .def("wrench",
+           [](const si::PatchFriction& friction, bool slopes, const py::args& given) -> py::object {
+             const auto at = one_contact<7>(given);
+             si::Wrench found;
+             if (!at || friction.evaluate(at->head<3>(), (*at)[3], {(*at)[4], (*at)[5], (*at)[6]}, found) != nullptr)
+               return py::none();
+             if (!slopes) return array_of(found.value);
+             const Eigen::Matrix3d rows = found.jacobian.transpose();
+             return py::make_tuple(array_of(found.value), py::array_t<double>({3, 3}, rows.data()));
+           })
+      .def("step", [](const si::PatchFriction& friction, const py::args& given) -> py::object {
+        const auto at = one_contact<9>(given);
+        kernel::Step<double> after;
+        if (!at || friction.step(at->head<3>(), {(*at)[6], (*at)[7]}, (*at)[3], {(*at)[4], (*at)[5], 0}, (*at)[8],
+                                 after) != nullptr)
+          return py::none();
+        return py::make_tuple(array_of({after.vx, after.vy, after.w}), array_of({after.fx, after.fy, after.m}));
+      });
   module.def(
       "engines",
       [](const si::Experiment& experiment, const Law& law, const std::optional<std::string>& name) {

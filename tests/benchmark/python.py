@@ -60,6 +60,13 @@ rows = [
     ("scipy.integrate.solve_ivp, exact law, LSODA, 1e-10", lambda: by_solve_ivp(EXACT.law, u, v), 3, 1,
      abs(by_solve_ivp(EXACT.law, u, v) / exact[0] - 1)),
 ]
+PUCK = ct.Ball.puck()
+rows += [  # of one contact, and of one shot
+    ("ct.wrench of one contact, exact law", lambda: ct.wrench("exact", (1, 0, 100), 1.7, (0.2, 3e-3, 1e-4)), 10_000, 1, 0),
+    ("ct.wrench of one contact, law uniform", lambda: ct.wrench("uniform", (1, 0, 100), 1.7, (0.2, 3e-3, 1e-4)), 10_000, 1, 0),
+    ("ct.step of one contact, exact law", lambda: ct.step("exact", (1, 0, 100), 1.7, (0.2, 3e-3), 20, 2e4, 0.01), 10_000, 1, 0),
+    ("Ball.puck().roll, a shot of one ball", lambda: PUCK.roll(slip=0.5, spin=60), 1000, 1, 0),
+]
 best = [math.inf] * len(rows)
 for _ in range(9):  # in turn, the least of nine
     for i, (_, function, calls, starts, _) in enumerate(rows):

@@ -17,21 +17,41 @@ const refusal = (...words) => spawnSync(program, words.map(String), { encoding: 
 const close = (a, b) => assert.ok(Math.abs(a - b) <= 1e-11 * Math.abs(b), `${a} is not ${b}`);
 
 const numbers = `
-import { Ball, Flow, balls, stopTime, stopTimes } from "contensou";
+import { Ball, Flow, balls, step, stopTime, stopTimes } from "contensou";
 const tried = (call) => { try { return call(); } catch (error) { return error.message; } };
 const masse = new Ball("pool").roll({ velocity: [1, 0], angularVelocity: [40, 35, -50] }, { rollingFriction: 0.01 });
 const start = { mu: 0.3, u: 1, v: 1 }, pool = new Ball("pool"), flow = new Flow({ mu: 0.3 });
+const contact = { motion: [1, -2, 300], load: 1.7, friction: 0.2, radius: 3e-3, byForce: 20, byMoment: 2e4, dt: 0.01 };
+const flat = ({ motion, force, moment }) => [...motion, ...force, moment];
+const many = Array.from({ length: 40000 }, (_, i) => 0.05 + (i * 0.618) % 0.9), own = many.slice(0, 400), grows = [];
+for (let i = 0; i < 2; ++i) {
+  const before = process.memoryUsage().external;
+  for (let j = 0; j < 3000; ++j) stopTime({ mu: 0.3, u: 1, v: 1 + j / 1e4, law: "elliptic" });
+  grows.push(process.memoryUsage().external - before);
+}
 const v = [0.5, 1, -1, 2], u = new Float64Array([1, 2, 3, NaN]), mu = [0.1, 0.3, 0.3, 0.1];
 console.log(JSON.stringify({
   many: [flow.stopTimes({ u, v }), stopTimes({ ...start, u, v }), stopTimes({ u: 1, v, mu }), stopTimes({ u: 1, v, body: "disc" })].map((each) => [...each]),
   each: [v.map((v, i) => tried(() => flow.stopTime({ u: u[i], v }))), v.map((v, i) => tried(() => stopTime({ u: 1, v, mu: mu[i] }))),
     v.map((v) => tried(() => stopTime({ u: 1, v, body: "disc" })))],
   one: [[...stopTimes(start)], [...stopTimes({ ...start, mu: [NaN, 0.3] })], [...flow.stopTimes({ u: [], v: 1 })], stopTimes(start) instanceof Float64Array],
+  grows,
+  tables: [[flow.stopTimes({ u: many, v: 1 }), many, (u) => flow.stopTime({ u, v: 1 })], [stopTimes({ mu: own, u: 1, v: own, law: "ring", drive: 0.1 }), own, (mu) => stopTime({ mu, u: 1, v: mu, law: "ring", drive: 0.1 })],
+    [stopTimes({ mu: new Float32Array(own), u: -1, v: 2, body: "hollow-ball" }), [...new Float32Array(own)], (mu) => stopTime({ mu, u: -1, v: 2, body: "hollow-ball" })]]
+    .map(([taus, each, one]) => Math.max(...each.slice(0, 400).map((value, i) => Math.abs(taus[i] / one(value) - 1)))),
+  steps: ["exact", "uniform", "elliptic:0.6", "punch"].map((law) => flat(step({ ...contact, law }))),
+  stands: (() => {
+    const m = 0.17, dt = 1 / 60;
+    let motion = [1, 0, 100], t = 0;
+    for (; motion.some((each) => each !== 0); t += dt) ({ motion } = step({ ...contact, motion, load: m * 9.81, byForce: 3.5 / m, byMoment: 2.5 / (m * 0.0285 ** 2), dt }));
+    return t.toFixed(2);
+  })(),
   refused: Object.fromEntries(Object.entries({
     stopTime: () => stopTime({ ...start, drve: 1 }), stopTimes: () => stopTimes({ ...start, lwa: "pade" }), Flow: () => new Flow({ mu: 1, chii: 1 }),
     start: () => flow.stopTime({ u: 1, v: 1, mu: 0.1 }), at: () => flow.at({ u: 1, w: 1 }, 1), Ball: () => new Ball("pool", { fricton: 0.3 }),
     fields: () => new Ball({ raduis: 1 }), roll: () => pool.roll({ slip: 1, spn: 1 }), options: () => pool.roll({}, { rollingBelwo: 1 }),
     nothing: () => new Flow(), no: () => pool.roll({ quite: "another" }), lengths: () => flow.stopTimes({ u: [1, 2], v: [1, 2, 3] }),
+    step: () => step({ ...contact, dt: -1 }), radius: () => step({ ...contact, raduis: 1 }), tables: () => stopTimes({ mu: [0.1, 2], u: 1, v: 1 }),
     inherited: () => new Ball("toString"), kept: () => new Ball({ ...balls.steel, slip: 2 }).law,
   }).map(([name, call]) => [name, tried(call)])),
   types: (() => {
@@ -45,6 +65,7 @@ console.log(JSON.stringify({
       [one.slice(0, -1), (mass) => new Ball("pool", { mass })], [one.slice(0, -1), (slip) => pool.roll({ slip })],
       [one.slice(0, -1), (rollingFriction) => pool.roll({}, { rollingFriction })], [one.slice(0, -1), (until) => pool.roll().motion(until)],
       [wrong, (u) => stopTimes({ ...start, u })], [wrong, (v) => flow.stopTimes({ u: 1, v })], [wrong, (mu) => stopTimes({ ...start, mu })],
+      [one, (load) => step({ ...contact, load })], [[1, [1], [1, 2, "3"], undefined], (motion) => step({ ...contact, motion })],
       [[5, true, null, ["exact"], {}], (law) => stopTime({ ...start, law })], [[5, null], (body) => new Flow({ mu: 0.3, body })],
       [[1, [1], "1,2", [1, "2"], [1, 2, 3]], (velocity) => pool.roll({ velocity })]];
     const told = (call) => { try { call(); } catch (error) { return error instanceof TypeError ? error.message : \`\${error}\`; } return "nothing"; };
@@ -75,7 +96,7 @@ try {
   assert.equal(run(process.execPath, "shown.js"), printed);
 
   write("numbers.js", numbers);
-  const { stops, disc, k, balls, rest, slides, wrong, many, each, one, refused, types, limits } = JSON.parse(run(process.execPath, "numbers.js"));
+  const { stops, disc, k, balls, rest, slides, wrong, many, each, one, refused, types, limits, grows, tables, steps, stands } = JSON.parse(run(process.execPath, "numbers.js"));
   for (const [law, mu, tau] of stops) close(tau, ofProgram("stop", "--law", law, "--mu", mu, "--u0", 1, "--v0", 1).tau_stop);
   close(disc, ofProgram("stop", "--body", "disc", "--u0", 1, "--v0", 2).tau_stop);
   close(k, ofProgram("terminal", "--body", "disc").k_star);
@@ -103,6 +124,17 @@ try {
   assert.equal(one[0].length, 1);
   assert.deepEqual(one, [one[0], [null, one[0][0]], [], true]);
 
+  assert.ok(Math.max(...tables) <= 1e-14, `${tables}`);
+  assert.ok(grows[1] < 2 ** 20, `${grows} bytes`);
+
+  // The values are those of contensou_patch_step in C, and the time at which the ball stands that of the README of src/si.
+  [[0.9701230256446876, -1.940246051289375, 299.98285586498486, -0.14938487177656198, 0.29876974355312397, -8.572067507579758e-05],
+    [0.9702584129531101, -1.9405168259062202, 299.97852603080787, -0.14870793523444947, 0.29741587046889895, -0.00010736984596055445],
+    [0.9704892426048275, -1.940978485209655, 299.9704462150139, -0.14755378697586247, 0.29510757395172493, -0.00014776892493053282],
+    [0.9704850878036759, -1.9409701756073519, 299.9712867406571, -0.14757456098162014, 0.2951491219632403, -0.00014356629671444165],
+  ].forEach((row, i) => row.forEach((number, j) => close(steps[i][j], number)));
+  assert.ok(readFileSync(join(here, "../../src/si/README.md"), "utf8").includes(`at rest after ${stands} s`), stands);
+
   const told = {
     stopTime: "stopTime: unknown option 'drve' (did you mean 'drive'?); options: u, v, mu, law, body, chi, gamma, drive",
     stopTimes: "stopTimes: unknown option 'lwa' (did you mean 'law'?)", Flow: "Flow: unknown option 'chii' (did you mean 'chi'?)",
@@ -110,6 +142,7 @@ try {
     fields: "Ball: unknown option 'raduis' (did you mean 'radius'?)", roll: "roll: unknown option 'spn' (did you mean 'spin'?)",
     options: "roll: unknown option 'rollingBelwo' (did you mean 'rollingBelow'?)", nothing: "Flow: options are needed, {mu, law, body, chi, gamma, drive}; got undefined",
     no: "roll: unknown option 'quite'; options: slip, spin, velocity, angularVelocity", lengths: "arrays of one length are needed; got u of 2, v of 3",
+    step: "step: the time step must be >= 0", radius: "step: unknown option 'raduis' (did you mean 'radius'?)", tables: "mu = 2: 0 < mu <= 1 is required",
     inherited: "no such ball 'toString'; balls: pool", kept: "exact",
   };
   for (const [name, words] of Object.entries(told)) assert.ok(refused[name].startsWith(words), `${refused[name]} is not ${words}`);
@@ -135,8 +168,9 @@ try {
 
   const compiler = join(here, "../page/node_modules/typescript/bin/tsc");
   if (existsSync(compiler)) {
-    write("typed.ts", 'import { Ball, Flow, stopTime, stopTimes } from "contensou";\nconst tau: number = stopTime({ mu: 0.1, u: 1, v: 1 });\n'
+    write("typed.ts", 'import { Ball, Flow, step, stopTime, stopTimes } from "contensou";\nconst tau: number = stopTime({ mu: 0.1, u: 1, v: 1 });\n'
       + 'const taus: Float64Array = stopTimes({ mu: [0.1], u: new Float32Array(1), v: 1 });\nnew Flow({ mu: tau }).stopTimes({ u: taus, v: [1] });\n'
+      + 'const vx: number = step({ motion: [1, 0, tau], load: 1, friction: 0.2, radius: 3e-3, byForce: 20, byMoment: 2e4, dt: 0.01 }).motion[0];\nexport { vx };\n'
       + 'const x: Float64Array = new Ball("pool", { slip: tau }).roll().motion(1).x;\nexport { x };\n');
     run(process.execPath, compiler, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "typed.ts");
   }

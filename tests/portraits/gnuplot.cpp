@@ -123,9 +123,9 @@ TEST_CASE("A film has all its frames, and a mark is as wide on paper in every fo
   for (const int i : {1, 2}) frames[i].panels[0].marks[0].points = {{0.3 * i, 0.8}};
   const std::string film = portraits::render_film(frames);
   CHECK_THAT(film, Catch::StartsWith("GIF89a"));
-  // Each frame begins with its delay of 4 hundredths of a second.
+  // Each frame begins with its delay of 8 hundredths of a second.
   int delays = 0;
-  for (std::size_t at = 0; (at = film.find("\x21\xF9\x04", at)) != std::string::npos; ++at) delays += film[at + 4] == 4;
+  for (std::size_t at = 0; (at = film.find("\x21\xF9\x04", at)) != std::string::npos; ++at) delays += film[at + 4] == 8;
   CHECK(delays == 3);
 
   // Read the radius of the circle from the SVG. The picture has 5 units for each millimetre.

@@ -440,3 +440,14 @@ def test_what_events_are_known_to():
         roll.uncoupled.gradient()
     with pytest.raises(ValueError, match="coupled model"):
         roll.uncoupled.uncertainty(slip=0.1)
+
+
+def test_shots_of_one_ball_share_one_solution():
+    from contensou._law import kept_flow
+
+    kept_flow.cache_clear()
+    for slip in (0.3, 0.4, 0.5):
+        roll = ct.Ball.puck().roll(slip=slip, spin=60)
+        assert roll(0.1) == ct.Ball.puck().roll(slip=[slip], spin=60)(0.1)[0]
+    assert ct.Ball.puck(friction=0.3).roll(slip=1).stop_time < ct.Ball.puck(friction=0.1).roll(slip=1).stop_time
+    assert kept_flow.cache_info().misses == 1

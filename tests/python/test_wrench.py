@@ -58,3 +58,19 @@ def test_an_entry_that_is_not_a_number():
 def test_what_is_refused(motion, load, patch, slopes, error, words):
     with pytest.raises(error, match=words):
         ct.wrench("exact", motion, load, patch, slopes=slopes)
+
+
+@pytest.mark.parametrize("law", ["exact", "uniform", "soft:3", half])
+def test_one_contact_of_any_type_is_that_of_an_array(law):
+    for motion in ((1, 0.5, -100), [1.0, np.float64(0.5), -100], np.array([1, 0.5, -100]), np.array([1, 7, 0.5, 7, -100])[::2], np.array([1, 0.5, -100])[::-1][::-1]):
+        for load in (2, 1.7, np.float64(1.7), 0, -1.0):
+            one, many = (ct.wrench(law, each, load, PATCH, slopes=True) for each in (motion, [motion]))
+            assert all(a.shape == b.shape[1:] and a.dtype == b.dtype and np.array_equal(a, b[0]) for a, b in zip(one, many, strict=True))
+            assert np.array_equal(ct.wrench(law, motion, load, list(PATCH)), one[0])
+            step, steps = (ct.step(law, each, load, PATCH[:2], 20, 2e4, 0.01) for each in (motion, [motion]))
+            assert all(np.array_equal(a, b[0]) for a, b in zip(step, steps, strict=True))
+    assert ct.wrench(law, np.float32([1, 0.5, -100]), 1, PATCH).dtype == np.float32
+    assert np.isnan(ct.wrench(law, (1, np.nan, 3), 1, PATCH)).all() and np.isnan(ct.step(law, (1, 2, 3), np.nan, PATCH[:2], 1, 1, 1)).all()
+    for motion, load, words in (((1, 2, 3), 10**400, "load: numbers up to"), ((1, 2, 3, 4), 1, "motion: vx, vy, omega"), ((1, 2, np.inf), 1, "contact 0")):
+        with pytest.raises(ValueError, match=words):
+            ct.wrench(law, motion, load, PATCH)

@@ -105,6 +105,8 @@ int run(std::vector<const char*> command, const MemoryFile& input, const MemoryF
 
 }  // namespace
 
+const char* const standard_input = "/dev/stdin";
+
 ProgramRun run_program(std::vector<const char*> command, std::string_view input, unsigned seconds) {
   const MemoryFile in(input), out, messages;
   const int status = run(std::move(command), in, out, messages, seconds);

@@ -66,6 +66,8 @@ std::filesystem::path where_installed(const std::string& name) {
 
 }  // namespace
 
+const char* const standard_input = "-";
+
 ProgramRun run_program(std::vector<const char*> command, std::string_view input, unsigned seconds) {
   const MemoryFile in(input), out, messages;
   STARTUPINFOW startup{};

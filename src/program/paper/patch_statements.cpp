@@ -1,3 +1,5 @@
+#include <map>
+
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/minima.hpp>
 
@@ -39,8 +41,15 @@ const reduction::ContactPatch& patch() {
   return hertz;
 }
 
-double true_force(double k) { return k > 0 ? patch().over_disc(reduction::slip_of_ratio(k)).force : 0; }
-double true_moment(double k) { return patch().over_disc(reduction::slip_of_ratio(k)).moment; }
+/// Returns force and moment by the integral over the disc. Several statements need them at one k.
+const reduction::Resistance& over_disc(double k) {
+  static std::map<double, reduction::Resistance> known;
+  const auto found = known.find(k);
+  return found != known.end() ? found->second : known[k] = patch().over_disc(reduction::slip_of_ratio(k));
+}
+
+double true_force(double k) { return k > 0 ? over_disc(k).force : 0; }
+double true_moment(double k) { return over_disc(k).moment; }
 
 double last_angle(double k) { return k > 1 ? std::asin(1 / k) : pi; }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field, fields
-from functools import cached_property, lru_cache
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Union, overload
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._display import picture, table, with_picture
-from ._law import Law, LawLike, body_of, law as law_of
+from ._law import Law, LawLike, body_of, kept, kept_flow, law as law_of
 from ._numbers import needs, number, numbers, target, text, thread_count, whole
 
 if TYPE_CHECKING:
@@ -116,8 +116,7 @@ class Ball:
             derived |= {"slip", "spin"}
         if self.law == law_of(self._experiment.law):
             derived |= {"law"}
-        known = {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name not in derived}
-        return {name: value for name, value in known.items() if value is not None}
+        return {name: vars(self)[name] for name in _fields if name not in derived and vars(self)[name] is not None}
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Ball._of, (self._given(), {})
@@ -125,9 +124,8 @@ class Ball:
     @classmethod
     def _of(cls, known: dict[str, Any], changes: dict[str, Any]) -> Ball:
         law = {"law": changes.get("law", known.get("law"))}
-        allowed = [each.name for each in fields(cls) if each.init]
-        for key in changes.keys() - set(allowed):
-            raise TypeError(f"a Ball has no {key}; it has {', '.join(allowed)}")
+        for key in changes.keys() - _fields:
+            raise TypeError(f"a Ball has no {key}; it has {', '.join(_fields)}")
         return cls(**_core.changed(known, changes), **law)
 
     @_takes_fields(lambda: Ball)
@@ -204,7 +202,7 @@ class Ball:
 
     def mu(self, law: Optional[LawLike] = None) -> float:
         """Returns mu, the patch radius divided by the radius of the ball."""
-        return _solved(self, self._law(law)).mu
+        return self._experiment.patch_and_body(self._law(law)._core)[0]
 
     def _law(self, asked: Optional[LawLike]) -> Law:
         """Returns the given law, or by default the law of the ball."""
@@ -350,6 +348,9 @@ class Ball:
         return result
 
 
+_fields = {each.name: None for each in fields(Ball) if each.init}  # in their order
+
+
 def a_ball(given: Any) -> Ball:
     if not isinstance(given, Ball):
         raise TypeError(f"ball: a Ball is needed, as Ball.pool(); got {given!r:.60}")
@@ -398,11 +399,6 @@ def _count(start: dict[str, NDArray[np.float64]]) -> Optional[int]:
     return next(iter(counts.values()), None)
 
 
-@lru_cache(maxsize=64)
-def _solved(ball: Ball, law: Law) -> _core.Flow:
-    return ball._experiment.undriven_flow(law._core)
-
-
 _Undisturbed = tuple[_core.Experiment, _core.Law, float]  # not a member, because _core is a field of the classes below
 
 
@@ -422,12 +418,15 @@ class Roll:
     _core: _core.Motion = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        experiment = self.ball.but(velocity=self.velocity, angular_velocity=self.angular_velocity)._experiment
+        experiment = self.ball._experiment
+        if experiment.start != (self.velocity, self.angular_velocity):
+            experiment = self.ball.but(velocity=self.velocity, angular_velocity=self.angular_velocity)._experiment
         load = None if self.load is None else _core.LoadHistory(list(self.load[0]), list(self.load[1]))
         if self.textbook:
             core = _core.Motion.uncoupled(experiment, self.law._core, load, self.rolling_below)
         else:
-            core = _core.Motion.reduced(experiment, _solved(self.ball.but(slip=0, spin=0), self.law), load)
+            mu, body = experiment.patch_and_body(self.law._core)
+            core = _core.Motion.reduced(experiment, kept(kept_flow, mu, self.law, body, 0), load)
         object.__setattr__(self, "_core", core)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import ArrayFunction
 from ._display import table
-from ._law import Body, Law, LawLike, body_of, core_flow, law as law_of
+from ._law import Body, Law, LawLike, body_of, core_flow, kept, law as law_of
 from ._numbers import number, numbers, thread_count, whole
 from ._reduce import Reduction
 
@@ -242,18 +242,8 @@ _kept_tables = lru_cache(maxsize=8)(_tables_of)
 
 
 def _flow(mu: Optional[float], law: Optional[LawLike], body: Body, drive: float) -> Flow:
-    flow: Flow = _kept(_kept_flow, mu, law, body, drive)
+    flow: Flow = kept(_kept_flow, mu, law, body, drive)
     return flow
-
-
-def _kept(make: Any, *given: Any) -> Any:
-    """Returns what a cached function returns; arguments without a hash are not cached."""
-    try:
-        return make(*given)
-    except TypeError as error:
-        if "unhashable" not in str(error):
-            raise
-    return make.__wrapped__(*given)
 
 
 @overload
@@ -341,7 +331,7 @@ def _write_stop_times_of_mus(law: Optional[LawLike], body: Body, drive: float, t
     if len(values) >= 32:
         for value in (values[0], values[-1]):
             _core.StopTimesOfMu.require(float(value), body_of(body))
-        _write_stop_times(_kept(_kept_tables, law, body, drive), (u, v, mu), results)
+        _write_stop_times(kept(_kept_tables, law, body, drive), (u, v, mu), results)
         return
     for i, value in enumerate(values):
         rows = group == i

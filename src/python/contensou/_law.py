@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Union, overload
 
 import numpy as np
@@ -128,3 +129,16 @@ def body_of(given: Body) -> Body:
 def core_flow(mu: Optional[float], of: Optional[LawLike], body: Body, drive: float) -> _core.Flow:
     return _core.Flow(None if of is None else law(of)._core, None if mu is None else number("mu", mu), body_of(body),
                       number("drive", drive))
+
+
+kept_flow = lru_cache(maxsize=64)(core_flow)
+
+
+def kept(make: Any, *given: Any) -> Any:
+    """Returns what a cached function returns; arguments without a hash are not cached."""
+    try:
+        return make(*given)
+    except TypeError as error:
+        if "unhashable" not in str(error):
+            raise
+    return make.__wrapped__(*given)

@@ -34,10 +34,10 @@ TEST_CASE("a moving picture, in real time or a stated pace", "[cli][gnuplot]") {
   const std::string film = read_file(scratch.file("shot.gif"));
   CHECK_THAT(film, StartsWith("GIF89a"));
   CHECK(film.size() < 500'000);
-  // A frame has a graphic control extension, and its delay is 1/25 s.
+  // A frame has a graphic control extension, and its delay is 2/25 s.
   int frames = 0;
   for (auto at = film.find("\x21\xf9\x04"); at != std::string::npos; at = film.find("\x21\xf9\x04", at + 1)) {
-    CHECK(film.substr(at + 4, 2) == std::string("\x04\0", 2));
+    CHECK(film.substr(at + 4, 2) == std::string("\x08\0", 2));
     ++frames;
   }
   CHECK(frames == 30);

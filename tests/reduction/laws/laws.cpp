@@ -295,6 +295,10 @@ TEST_CASE("a law is found by the exponent of its pressure", "[laws]") {
     CHECK(found->as<PressureLaw>()->p() == p);
   }
   CHECK(find_law("pressure:+5e-1")->as<PressureLaw>()->p() == 0.5);
+  for (const char* name : {"uniform", "pressure:0.5"})
+    CHECK(find_law(name)->as<PressureLaw>() == find_law(name)->as<PressureLaw>());
+  for (int i = 0; i < 200; ++i)
+    CHECK(find_law(fmt::format("elliptic:0.{}", 100 + i))->pivoting_moment() == (100 + i) / 1000.0);
   for (const std::string exponent : {"", "x", "0.5abc", "0.5 ", "+-1", "nan", "inf", "1e999", "0,5"}) {
     CHECK_THROWS_WITH(find_law("pressure:" + exponent), Contains("'" + exponent + "'") && Contains("pressure:0.5"));
   }

@@ -47,7 +47,7 @@ std::string render(const Figure& figure, PictureFormat format);
 std::string substitute_of(const std::string& font);
 
 /// Returns a moving picture as a GIF that repeats for ever, with 4 pixels per millimetre. Throws as render.
-/// @param frames  figures of one size, 25 for each second
+/// @param frames  figures of one size, 25 for each 2 seconds
 std::string render_film(const std::vector<Figure>& frames);
 
 /// Returns the figure as a LaTeX document for pdflatex, with its data inside.

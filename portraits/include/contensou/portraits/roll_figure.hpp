@@ -48,7 +48,7 @@ struct FilmPace {
   Eigen::ArrayXd t;
   double slow;
 };
-/// Returns the pace of a film of a motion up to the time `end` in s, with 25 frames a second. The film runs in real
+/// Returns the pace of a film of a motion up to the time `end` in s, with 12.5 frames a second. The film runs in real
 /// time, or a round number of times slower or faster, so that it lasts 4 to 10 s.
 /// @param asked  number of frames; it replaces this rule
 FilmPace film_pace(double end, std::optional<Eigen::Index> asked = {});

@@ -173,7 +173,8 @@ struct LawFamily {
 };
 const std::vector<LawFamily>& law_families();
 
-/// Returns the law with that name, or with that family and number; empty if there is no such law.
+/// Returns the law with that name, or with that family and number; empty if there is no such law. The last 64 laws and
+/// their tables are kept, and shared by all threads.
 /// @throws std::domain_error  if the text after a family's colon is no number or a number outside the family's range;
 ///                            the message does not contain the law's name, because the caller adds it
 std::optional<Law> find_law(std::string_view name);
