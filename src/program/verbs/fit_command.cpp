@@ -98,8 +98,8 @@ class FitCommand final : public Verb {
         "law of friction, or several laws to compare (default exact); 'contensou help laws' lists all laws");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES",
-              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has, "
-              "except the patch of a disc or ring)",
+              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has; the "
+              "patch of a disc or ring only if the film shows a smaller one)",
               parse_free);
     robust_.add(app, "--robust", "give outliers less weight, by Huber's loss");
     plan_.add(app, "--plan", "predict the standard errors that a film with --fps and --noise would give; without FILE");
