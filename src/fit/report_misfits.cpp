@@ -81,8 +81,8 @@ void Reporter::set_misfits() {
           "the angle is off by {:.2g} rad on the average, so that its whole turns are not known", noise.sd));
       continue;
     }
-    // Errors of a camera are up to half a per cent of the way that it shows, or a degree.
-    constexpr double share = 0.005;
+    // Errors of a camera are up to a hundredth of the way that it shows, or a degree.
+    constexpr double share = 0.01;
     const double least = observable == Observable::angle ? std::numbers::pi / 180 : 0;
     const bool of_camera = rest_[place] <= std::max(share * range_of(place), least);
     if (neighbours_depend(observable) && (!of_camera || varies_too_much)) {
