@@ -75,8 +75,9 @@ void require_limits(const Search& search, bool planned) {
 }  // namespace
 
 Free usually_free(const si::Experiment& ball) {
-  return {.patch_radius = !std::holds_alternative<si::WholeFace>(ball.contact.patch),
-          .rolling_friction = ball.contact.rolling_friction > 0};
+  const bool whole_face = std::holds_alternative<si::WholeFace>(ball.contact.patch);
+  return {
+      .patch_radius = !whole_face, .rolling_friction = ball.contact.rolling_friction > 0, .patch_if_seen = whole_face};
 }
 
 const ParameterKind& kind_of(Parameter parameter) {
@@ -150,6 +151,18 @@ Fit fit(const FitRequest& asked) {
       continue;
     }
     report.fit.turns = turns;
+    const bool turning = std::ranges::any_of(request.tracks, [](const Track& track) {
+      return series_of(track, Observable::spin) != nullptr || series_of(track, Observable::angle) != nullptr;
+    });
+    if (report.fit.patch_seen && request.free.patch_if_seen && turning) {
+      FitRequest with_patch = asked;
+      with_patch.free.patch_radius = true;
+      Fit other = fit(with_patch);
+      if (other.estimates[1].standard_error < unknown * other.estimates[1].value) {
+        other.patch_seen = report.fit.patch_seen;
+        return other;
+      }
+    }
     return std::move(report.fit);
   }
 }

@@ -50,7 +50,7 @@ Report Reporter::report() {
   if (fit_.fits()) set_spreads();
   const bool flat = request_.ball.ball.body.lies_flat();
   if (!planned_ && !search_.resisted && !flat) set_rolling_friction_seen();
-  if (!fit_.fits() && flat && !request_.free.patch_radius) set_patch_seen();
+  if ((!fit_.fits() || fit_.widened) && flat && !planned_ && !request_.free.patch_radius) set_patch_seen();
   require_numbers();
   return {std::move(fit_), std::move(better_)};
 }

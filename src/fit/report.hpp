@@ -55,6 +55,17 @@ class Reporter {
   void set_covariance(const Eigen::MatrixXd& covariance);
   /// Estimates the dependence of errors of unknown size on each other, and increases the covariance accordingly.
   void set_dependence();
+  /// Estimates the dependence of the residuals of an observable.
+  /// @param rows_of_A  rows s a_i as in dependence.hpp, for all residuals
+  Dependence dependence_of(std::size_t place, const Eigen::VectorXd& residuals, const Eigen::MatrixXd& rows_of_A) const;
+  /// Returns the correlation of neighbouring residuals that chance exceeds in one film of ten thousand.
+  static double by_chance(double values);
+  /// Returns true if neighbouring residuals of an observable are more alike than chance makes them.
+  bool neighbours_depend(Observable observable) const;
+  /// Widens the errors for friction that varies along the path and for dependent errors of the camera.
+  void set_widened(const Eigen::VectorXd& residuals);
+  /// Returns the largest range of the values of an observable, or of the other axis beside it.
+  double range_of(std::size_t place) const;
   /// Returns the variance of a number divided by the variance that independent errors would give.
   double growth_of(const Coordinate& number) const;
   void set_estimates();
@@ -111,6 +122,7 @@ class Reporter {
   Eigen::MatrixXd covariance_;  ///< covariance of the free parameters
   Eigen::VectorXd deviation_;   ///< standard errors of the free parameters
   Dependence dependence_[7];    ///< dependence of the errors of each observable whose standard deviation is not given
+  double rest_[7] = {};         ///< standard deviation of the residuals that varying friction leaves, in SI units
   double variance_ = 1;         ///< factor of all variances in a robust fit, else 1
   double quantile_ = normal_quantile;
   Fit fit_;

@@ -88,6 +88,7 @@ void Reporter::set_covariance(const MatrixXd& covariance) {
 /// observable is g J^T J with the growth g of the variance of means: n values are worth n/g independent values.
 void Reporter::set_dependence() {
   const MatrixXd rows_of_A = derivatives_ * inverse_.root;
+  const VectorXd sizes = residuals_.unaryExpr([this](double each) { return bounded(each); });
   VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1 for each row
   double worth = static_cast<double>(search_.values);
   for (std::size_t place = 0; place < std::size(dependence_); ++place) {
@@ -96,26 +97,12 @@ void Reporter::set_dependence() {
     const auto n = static_cast<double>(rows.size());
     double squares = 0, fitted = 0;
     for (Index row : rows) {
-      squares += std::pow(bounded(residuals_[row]), 2);
+      squares += sizes[row] * sizes[row];
       fitted += rows_of_A.row(row).squaredNorm();
     }
     const double variance = squares / std::max(1.0, n - fitted);
-    double range = 0;
-    for (const std::size_t axis : {place, other_axis(place)}) {
-      const VectorXd values = search_.data(search_.rows_of[axis]);
-      if (values.size() > 0) range = std::max(range, values.maxCoeff() - values.minCoeff());
-    }
-    if (std::sqrt(variance) < sharpest_film * range * search_.weight[rows.front()]) continue;
-    std::vector<MatrixXd> runs(request_.tracks.size());
-    std::vector<std::vector<Index>> rows_of(runs.size());
-    for (Index row : rows) rows_of[place_of(row).track].push_back(row);
-    for (std::size_t track = 0; track < runs.size(); ++track) {
-      const std::vector<Index>& of = rows_of[track];
-      runs[track].resize(static_cast<Index>(of.size()), rows_of_A.cols() + 1);
-      runs[track] << residuals_(of).unaryExpr([this](double each) { return bounded(each); }),
-          std::sqrt(variance) * rows_of_A(of, Eigen::all);
-    }
-    dependence_[place] = dependence_of(runs);
+    if (std::sqrt(variance) < sharpest_film * range_of(place) * search_.weight[rows.front()]) continue;
+    dependence_[place] = dependence_of(place, sizes, std::sqrt(variance) * rows_of_A);
     // A growth below 1 is due to chance.
     const double growth = std::max(1.0, dependence_[place].growth);
     for (Index row : rows) more[row] = growth - 1;
@@ -126,6 +113,29 @@ void Reporter::set_dependence() {
                                    (derivatives_.transpose() * more.asDiagonal() * derivatives_) * inverse_.covariance);
   const auto found = static_cast<double>(search_.free.size());
   quantile_ = student_quantile(std::max(1.0, std::floor(worth - found)));
+  if (std::ranges::any_of(observable_kinds(), [&](const auto& kind) { return neighbours_depend(kind.observable); }))
+    set_widened(sizes);
+}
+
+double Reporter::range_of(std::size_t place) const {
+  double range = 0;
+  for (const std::size_t axis : {place, other_axis(place)}) {
+    const VectorXd values = search_.data(search_.rows_of[axis]);
+    if (values.size() > 0) range = std::max(range, values.maxCoeff() - values.minCoeff());
+  }
+  return range;
+}
+
+Dependence Reporter::dependence_of(std::size_t place, const VectorXd& residuals, const MatrixXd& rows_of_A) const {
+  std::vector<MatrixXd> runs(request_.tracks.size());
+  std::vector<std::vector<Index>> rows_of(runs.size());
+  for (Index row : search_.rows_of[place]) rows_of[place_of(row).track].push_back(row);
+  for (std::size_t track = 0; track < runs.size(); ++track) {
+    const std::vector<Index>& of = rows_of[track];
+    runs[track].resize(static_cast<Index>(of.size()), rows_of_A.cols() + 1);
+    runs[track] << residuals(of), rows_of_A(of, Eigen::all);
+  }
+  return fit::dependence_of(runs);
 }
 
 double Reporter::growth_of(const Coordinate& number) const {

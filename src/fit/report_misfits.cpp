@@ -30,6 +30,21 @@ double Reporter::held_back(std::size_t free) const {
   return -outward / 2 * inverse_.covariance(at, at) / deviation_[at];
 }
 
+double Reporter::by_chance(double values) {
+  // Among few values any correlation may be due to chance. A correlation of 0.9 means that the common error of
+  // neighbours is four times their independent error.
+  constexpr double surely = 0.9;
+  return std::min(surely, too_rare / std::sqrt(values));
+}
+
+bool Reporter::neighbours_depend(Observable observable) const {
+  const auto place = static_cast<std::size_t>(observable);
+  const std::vector<Index>& rows = search_.rows_of[place];
+  // The errors of rounded values are correlated with the errors of their neighbours.
+  return search_.estimated[place] && !rows.empty() && 1 / search_.weight[rows.front()] > search_.rounding[place] &&
+         dependence_[place].neighbours > by_chance(static_cast<double>(rows.size()));
+}
+
 void Reporter::set_misfits() {
   for (std::size_t i = 0; i < search_.free.size(); ++i) {
     if (held_back(i) < too_rare) continue;
@@ -54,25 +69,33 @@ void Reporter::set_misfits() {
           "vx - R wy of a ball that spins faster than it rolls",
           slip.value));
   }
+  // A real table varies by some per cent. Beyond that the law of the motion is another one.
+  constexpr double most_varying = 0.1;
+  const bool varies_too_much = fit_.widened && fit_.widened->friction_varies > most_varying;
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
     const auto place = static_cast<std::size_t>(observable);
-    // The errors of rounded values are correlated with the errors of their neighbours.
-    const double correlation = noise.sd > search_.rounding[place] ? dependence_[place].neighbours : 0;
-    // Among few values any correlation may be due to chance. A correlation of 0.9 means that the common error of
-    // neighbours is four times their independent error.
-    constexpr double surely = 0.9, blurred = 0.5;
-    const double by_chance = std::min(surely, too_rare / std::sqrt(static_cast<double>(noise.values)));
+    constexpr double blurred = 0.5;
     if (observable == Observable::angle && noise.estimated && noise.sd > blurred) {
       fit_.misfits.push_back(fmt::format(
           "the angle is off by {:.2g} rad on the average, so that its whole turns are not known", noise.sd));
-    } else if (noise.estimated && correlation > by_chance) {
+      continue;
+    }
+    // Errors of a camera are up to a hundredth of the way that it shows, or a degree.
+    constexpr double share = 0.01;
+    const double least = observable == Observable::angle ? std::numbers::pi / 180 : 0;
+    const bool of_camera = rest_[place] <= std::max(share * range_of(place), least);
+    if (neighbours_depend(observable) && (!of_camera || varies_too_much)) {
       fit_.misfits.push_back(fmt::format(
           "{} is off by {:.2g} {} on the average, and neighbours are off alike: their correlation is {:.2f}, "
           "by chance up to {:.2f}",
-          name, noise.sd, unit, correlation, by_chance));
+          name, noise.sd, unit, dependence_[place].neighbours, by_chance(static_cast<double>(noise.values))));
     }
   }
+  if (varies_too_much)
+    fit_.misfits.push_back(
+        fmt::format("friction would have to vary by {:.2g} % along the path; up to {:.0f} % are allowed",
+                    100 * fit_.widened->friction_varies, 100 * most_varying));
   if (std::ranges::all_of(fit_.noise, &Noise::estimated) && !fit_.noise.empty()) return;
   // Approximation of Wilson and Hilferty: the cube root of chi^2 has a normal distribution.
   constexpr double too_much = 2;

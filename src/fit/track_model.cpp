@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace contensou::fit {
@@ -250,6 +251,68 @@ Eigen::MatrixXd TrackModel::derivatives(const VectorXd& free, const std::vector<
       result(first, column) = (by - (parameter == Parameter::friction ? orbit.stop() : 0)) / rate;
     }
     ++first;
+  }
+  return result;
+}
+
+/// All accelerations are proportional to f. If f varies, the speeds are therefore those of the even motion at T = g
+/// times the integral of f over t, and a small change of T changes them by their derivatives by T.
+Eigen::MatrixXd TrackModel::by_uneven_friction(const VectorXd& free, Index modes) const {
+  const VectorXd parameters = limited(free);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows_, modes * static_cast<Index>(tracks_.size()));
+  Index first = 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Track& track = tracks_[i];
+    const Index count = track.t.size(), rows = count * static_cast<Index>(track.series.size());
+    const FilmOrbit& orbit = orbit_of(i, parameters);
+    const double rate = std::exp(parameters[0]) * gravity_, mu = std::exp(parameters[1]) / radius_;
+    const Motion motion{parameters, i, radius_};
+    constexpr Index steps = 512;
+    const double seen = count > 0 ? track.t[count - 1] - track.start : 0;
+    const double dt = (track.stop_time ? orbit.stop() / rate : seen) / steps;
+    std::vector<Speeds> by_T;
+    std::vector<double> path{0};
+    double before = 0;
+    for (Index k = 0; k <= steps; ++k) {
+      const double T = rate * dt * static_cast<double>(k);
+      const Speeds now = orbit.speeds_at(T);
+      const double speed = std::abs(now.v) + mu * std::abs(now.u);
+      if (k > 0) path.push_back(path.back() + (before + speed) / 2);
+      before = speed;
+      by_T.push_back(orbit.by_T(T));
+    }
+    if (path.back() == 0) path.back() = 1;
+    for (Index mode = 1; mode <= modes; ++mode) {
+      const Index column = modes * static_cast<Index>(i) + mode - 1;
+      std::vector<Speeds> changes;
+      double more = 1, later = 0;  // c cos(pi j s)/c, and the change of T
+      for (std::size_t k = 0; k < path.size(); ++k) {
+        const double now = std::cos(std::numbers::pi * static_cast<double>(mode) * path[k] / path.back());
+        if (k > 0) later += rate * dt * (more + now) / 2;
+        more = now;
+        Speeds change{later * by_T[k].v, later * by_T[k].u, 0, 0, later * by_T[k].centre, 0};
+        if (k > 0) {
+          const Speeds& last = changes.back();
+          change.slid = last.slid + dt * (last.v + change.v) / 2;
+          change.turned = last.turned + dt * (last.u + change.u) / 2;
+          change.way = last.way + dt * (last.centre + change.centre) / 2;
+        }
+        changes.push_back(change);
+      }
+      for (Index row = 0; row < count; ++row) {
+        const double at = dt > 0 ? std::min((track.t[row] - track.start) / dt, static_cast<double>(steps)) : 0;
+        const auto k = std::min(static_cast<std::size_t>(at), path.size() - 2);
+        const double part = at - static_cast<double>(k);
+        const Speeds change = (1 - part) * changes[k] + part * changes[k + 1];
+        Index place = first + row;
+        for (const Series& series : track.series) {
+          result(place, column) = motion.of_orbit(series.observable, change);
+          place += count;
+        }
+      }
+      if (track.stop_time) result(first + rows, column) = -later / rate;
+    }
+    first += rows + (track.stop_time ? 1 : 0);
   }
   return result;
 }

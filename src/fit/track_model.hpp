@@ -51,6 +51,11 @@ class TrackModel {
   /// Returns the derivatives of the values by the wanted parameters, one column for each.
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& free, const std::vector<Eigen::Index>& wanted) const;
 
+  /// Returns the changes of the values if the friction of a track varies along its path, f (1 + c cos(pi j s)): the
+  /// derivatives by c, for each track one column for each j from 1 to `modes`. The part s of the path that is behind
+  /// the body is measured on the rim of the patch: ds ~ (v + eps |omega|) dt.
+  Eigen::MatrixXd by_uneven_friction(const Eigen::VectorXd& free, Eigen::Index modes) const;
+
   /// Limits of a parameter. eps is at most R, and so small that a ball has no invariant ray. Slip and R |spin| are at
   /// most max_speed.
   struct Range {

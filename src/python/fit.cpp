@@ -60,6 +60,11 @@ py::dict found_of(const fit::Fit& found) {
   } else {
     result["rolling_friction_seen"] = py::none();
   }
+  if (const auto& widened = found.widened) {
+    result["widened"] = py::make_tuple(widened->friction_varies, widened->least, widened->most);
+  } else {
+    result["widened"] = py::none();
+  }
   if (const auto& only = found.only) {
     result["only"] = py::make_tuple(only->name(), only->value, only->value * only->relative_error, only->interval.low,
                                     only->interval.high);

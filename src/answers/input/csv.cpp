@@ -134,17 +134,18 @@ void CsvReader::read_header(Separator separator) {
                     fmt::format("the text is in UTF-16, UTF-8 is needed: iconv -f {} -t UTF-8 converts it", encoding));
   }
   if (buffer_.starts_with(byte_order_mark)) buffer_.erase(0, byte_order_mark.size());
-  if (separator == Separator::comma_or_tab) find_tabs();
+  if (separator == Separator::any) find_separator();
   CsvBlock first;
   if (!next(first)) throw complaint(1, "empty input: a header line with the names of the columns is needed");
   for (std::size_t i = 0; i < first[0].size(); ++i) names_.emplace_back(first[0][i]);
   header_line_ = first[0].line();
   first.records_.erase(first.records_.begin());
+  if (separator == Separator::any) take_units(first);
   first_ = std::move(first);
 }
 
 /// Tracker programs write the name of the body in a separate line above the names of the columns.
-void CsvReader::find_tabs() {
+void CsvReader::find_separator() {
   constexpr std::size_t most = 4;  // number of lines searched
   std::size_t begin = 0;
   for (std::size_t line = 0; line < most; ++line) {
@@ -152,15 +153,40 @@ void CsvReader::find_tabs() {
     const std::size_t end = buffer_.find_first_of("\r\n", begin);
     const std::string_view text = std::string_view(buffer_).substr(begin, end - begin);
     if (text.find(',') != std::string_view::npos) return;
-    const std::size_t tab = without_spaces(text).find('\t');
-    if (tab != std::string_view::npos) {
-      parser_.separate_by('\t');
+    const std::size_t found = text.starts_with('#') ? text.npos : without_spaces(text).find_first_of("\t;");
+    if (found != std::string_view::npos) {
+      parser_.separate_by(without_spaces(text)[found]);
+      decimal_commas_ = without_spaces(text)[found] == ';';
       if (begin > 0) buffer_.insert(0, "#");
       return;
     }
     if (end == std::string::npos) return;
     begin = end + 1;
   }
+}
+
+void CsvReader::take_units(CsvBlock& block) {
+  if (block.size() == 0 || block[0].size() != names_.size() || names_.size() < 2) return;
+  std::vector<std::string> units;
+  bool any = false;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    std::string_view unit = without_spaces(block[0][i]);
+    if (is_number(decimal(unit)) || unit == "nan" || unit == "NaN" || unit == "NA") return;
+    if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
+    units.emplace_back(unit == "-" ? "" : unit);
+    any = any || !units.back().empty();
+  }
+  if (!any) return;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!units[i].empty()) names_[i] += fmt::format(" [{}]", units[i]);
+  }
+  block.records_.erase(block.records_.begin());
+}
+
+std::string CsvReader::decimal(std::string_view field) const {
+  std::string number(field);
+  if (decimal_commas_) std::ranges::replace(number, ',', '.');
+  return number;
 }
 
 void CsvReader::read_some() {
@@ -225,7 +251,7 @@ void CsvReader::require_complete(const CsvRow& row) const {
 
 double CsvReader::number(const CsvRow& row, const CsvColumn& column, Infinity infinity) const {
   try {
-    return parse_number(row[column.place], infinity);
+    return parse_number(decimal(row[column.place]), infinity);
   } catch (const BadInput& error) {
     throw complaint(row.line(), fmt::format("{}: {}", column.name, error.what()));
   }

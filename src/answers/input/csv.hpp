@@ -120,11 +120,12 @@ struct CsvColumn {
 class CsvReader {
  public:
   /// The letters that may separate fields.
-  enum class Separator { comma, comma_or_tab };
+  enum class Separator { comma, any };
 
   /// Reads the file up to the end of the header.
   /// @param path       a file, or "-" for standard input
-  /// @param separator  comma_or_tab: tabs separate if the header contains tabs and no comma; a title may precede it
+  /// @param separator  any: tabs or semicolons separate if the header contains them and no comma. A title may precede
+  ///                   the header, and a row of units may follow it. With semicolons a decimal may take a comma
   /// @throws std::system_error  if the file cannot be read
   /// @throws BadLine            if the header is missing or is not CSV; for a file in UTF-16, with advice
   explicit CsvReader(const std::string& path, Separator separator = Separator::comma);
@@ -172,8 +173,15 @@ class CsvReader {
  private:
   void read_header(Separator separator);
 
-  /// Sets tabs as separators if the first line with tabs or commas contains tabs only. Text above it is a comment.
-  void find_tabs();
+  /// Sets tabs or semicolons as separators if the first line with a separator contains no comma. Text above it is a
+  /// comment.
+  void find_separator();
+
+  /// Moves the units in a row below the header into the names, as in "x [mm]". No field of such a row is a number.
+  void take_units(CsvBlock& block);
+
+  /// Returns a number with a point in place of its decimal comma.
+  std::string decimal(std::string_view field) const;
 
   /// Reads once from the file and appends the result to the buffer.
   void read_some();
@@ -184,6 +192,7 @@ class CsvReader {
   double bytes_ = std::numeric_limits<double>::quiet_NaN();  ///< size of the file, if known
   double bytes_read_ = 0;
   bool at_end_ = false;
+  bool decimal_commas_ = false;
   std::optional<BadLine> fault_;  ///< error of a later record, thrown when all records before that record were returned
   CsvBlock first_;                ///< records read together with the header
   std::vector<std::string> names_;

@@ -11,7 +11,7 @@
 namespace contensou::answers {
 
 si::LoadHistory read_load_history(const std::string& path) {
-  CsvReader table(path);
+  CsvReader table(path, CsvReader::Separator::any);
   const SiColumn time = require_column(table, "t", "s"), load = require_column(table, "load", "N");
   std::vector<double> t, newtons;
   std::vector<long> lines;

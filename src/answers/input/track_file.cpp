@@ -137,14 +137,11 @@ fit::Track read_track(CsvReader& table, const std::string& track_name, const Tra
     }
     std::vector<std::string> found;
     for (const std::string& name : table.names()) found.push_back(quotation(name));
-    const bool separator = table.names().size() == 1 && table.names().front().find(';') != std::string::npos;
-    if (separator) hints.clear();
     fail(
         fmt::format("a track has a column t and one or more of {}, each with NAME{} where its errors are known; "
-                    "no {} here, but {}{}{}",
+                    "no {} here, but {}{}",
                     fmt::join(observable_names(), ", "), deviation, time ? "other column of these is" : "t is",
-                    fmt::join(found, ", "), hints,
-                    separator ? "; a comma or a tab must separate columns: sed 's/,/./g; s/;/,/g' converts them" : ""));
+                    fmt::join(found, ", "), hints));
   }
   const bool in_pixels = std::ranges::any_of(columns, [](const auto& each) { return is_in_pixels(each.value); });
   if (unused != nullptr && in_pixels) unused->pixel = false;

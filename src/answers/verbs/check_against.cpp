@@ -301,7 +301,7 @@ const ModelBeside* MotionsBeside::nearest() const { return best().worst() <= nea
 
 MotionsBeside compare_with_motions(const std::string& path, const si::Experiment& ball, const si::Description& values,
                                    const reduction::Law& law, double tolerance) {
-  CsvReader table(path, CsvReader::Separator::comma_or_tab);
+  CsvReader table(path, CsvReader::Separator::any);
   const MotionColumns columns(table, ball.ball);
   const std::vector<LoggedRow> rows = read_rows(table, columns);
   const auto with = [&](const Reading& reading, std::size_t step) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "answers/input/parse.hpp"
 #include "answers/table/text_table.hpp"
@@ -56,6 +58,30 @@ std::string places_of(const std::vector<fit::Outlier>& outliers, const std::vect
   return text + (outliers.size() > most ? ", ... s" : " s");
 }
 
+/// Returns the last time until which a body has not moved; NaN if it moves from the first pictures on. Up to 2 % of the
+/// way is noise.
+double stands_until(const fit::Track& track) {
+  using enum fit::Observable;
+  Eigen::Index first = track.t.size();  // row that has moved
+  double range = 0;
+  const auto of_place = [](const fit::Series& each) { return each.observable == x || each.observable == y; };
+  const auto range_of = [](const fit::Series& each) {
+    return each.value.maxCoeff<Eigen::PropagateNumbers>() - each.value.minCoeff<Eigen::PropagateNumbers>();
+  };
+  for (const fit::Series& each : track.series) {
+    if (of_place(each)) range = std::max(range, range_of(each));
+  }
+  for (const fit::Series& each : track.series) {
+    const double small = 0.02 * (of_place(each) ? range : range_of(each));
+    const bool speed = !of_place(each) && each.observable != angle;
+    for (Eigen::Index i = 0; i < first; ++i) {
+      if (std::abs(each.value[i] - (speed ? 0 : each.value[0])) > small) first = i;
+    }
+  }
+  constexpr Eigen::Index least = 5, share = 20;
+  return first >= std::max(least, track.t.size() / share) ? track.t[first - 1] : NAN;
+}
+
 /// Returns the remarks on a fit, one sentence each. Examples: outliers, or turns of a mark that were found by trial.
 std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::Track>& tracks, bool planned) {
   std::vector<std::string> remarks;
@@ -72,6 +98,12 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
       remarks.push_back(fmt::format("{}: {:.2g} % of the values are far from where most values are; {}", name,
                                     100 * noise.far_from_most, robust));
     }
+  }
+  for (const fit::Track& track : tracks) {
+    const double still = fit.fits() || planned ? NAN : stands_until(track);
+    if (!std::isnan(still))
+      remarks.push_back(fmt::format("{}nothing moves before {:.4g} s; --from {:.4g} begins the fit there",
+                                    tracks.size() > 1 ? escaped(track.name) + ": " : "", still, still));
   }
   if (const Estimate& friction = fit.estimates[0]; friction.free && friction.determined() && !planned) {
     constexpr double least = 0.002, most = 1.5;  // ice to rubber
@@ -113,7 +145,12 @@ std::vector<std::string> remarks_on(const fit::Fit& fit, const std::vector<fit::
         "intervals contain both, and a column of what is not seen, spin, angle or slip, tells which",
         of, other.friction, other.slip, other.spin, other.chi2_more));
   }
-  if (const auto& seen = fit.patch_seen) {
+  if (const auto& seen = fit.patch_seen; seen && fit.estimates[1].free) {
+    remarks.push_back(fmt::format(
+        "the patch is smaller than the whole face: it was searched, and AIC is less by {:.0f}; --patch-radius R gives "
+        "it",
+        seen->aic_less));
+  } else if (seen) {
     remarks.push_back(fmt::format(
         "a patch with a radius of about {:.3g} mm, smaller than the whole face, fits far better: AIC less by {:.0f}, "
         "friction then about {:.3g}; --free friction,patch,slip,spin lets the fit search it",
@@ -197,6 +234,27 @@ std::string noise_of(const fit::Fit& fit, bool planned) {
   return text + table.text();
 }
 
+/// Returns how well a motion that fits describes the film, to follow the first line.
+std::string goodness_of(const fit::Fit& fit) {
+  if (!fit.widened) return fit.degrees_of_freedom > 0 ? ": fits within the noise" : "";
+  double place = 0;
+  std::vector<std::string> sizes;
+  for (const fit::Noise& noise : fit.noise) {
+    if (noise.observable == fit::Observable::x || noise.observable == fit::Observable::y)
+      place = std::max(place, noise.rms);
+    else if (noise.observable == fit::Observable::angle)
+      sizes.push_back(fmt::format("{:.2g} degrees", noise.rms * 180 / std::numbers::pi));
+    else
+      sizes.push_back(fmt::format("{:.2g} {}", noise.rms, fit::kind_of(noise.observable).unit));
+  }
+  if (place > 0) sizes.insert(sizes.begin(), fmt::format("{:.2g} mm", 1e3 * place));
+  const auto& [varies, least, most] = *fit.widened;
+  return fmt::format(
+      "\nfits within {}; neighbouring residuals depend on each other, and the errors are {:.2g} to {:.2g} times as wide "
+      "as without this (friction that varies by {:.2g} % along the path, errors of the camera)",
+      fmt::join(sizes, " and "), least, most, 100 * varies);
+}
+
 std::string ranking_of(const std::vector<fit::Fit>& fits) {
   const fit::Fit& best = fits.front();
   TextTable table({TextTable::left(14), TextTable::right(12), TextTable::right(12), TextTable::right(16)});
@@ -246,6 +304,16 @@ constexpr Field<FitReport> answer_fields[]{
      [](const FitReport& r) -> Json { return r.best.profiled; }, ""},
     {"fits", "", "true if this motion can explain the data", [](const FitReport& r) -> Json { return r.best.fits(); },
      ""},
+    {"widened", "",
+     "null if the motion fits within the noise. Else neighbouring residuals depend on each other, and errors are widened: "
+     "standard deviation of the friction along the path, divided by the friction; smallest and largest factor",
+     [](const FitReport& r) -> Json {
+       if (!r.best.widened) return {};
+       return {{"friction_varies", r.best.widened->friction_varies},
+               {"least", r.best.widened->least},
+               {"most", r.best.widened->most}};
+     },
+     "", 0, " {`friction_varies`, `least`, `most`}"},
     {"misfits", "", "reasons why this motion cannot explain the data; exit status 1",
      [](const FitReport& r) -> Json { return r.best.misfits; }, ""},
     {"remarks", "", "further remarks, such as outliers",
@@ -343,8 +411,9 @@ std::string report_on(const std::vector<fit::Fit>& fits, const std::vector<fit::
   for (const fit::Track& track : tracks) {
     if (track.t.size() > 1) lasts += fmt::format("{}{:.4g} s", lasts.empty() ? " in " : ", ", length_of(track));
   }
-  std::string text = fmt::format("{}{}: {} {}value{}{}, law {}\n", best.ball.ball.name, planned ? " as planned" : "",
-                                 best.values, planned ? "" : "measured ", best.values == 1 ? "" : "s", lasts, best.law);
+  std::string text = fmt::format("{}{}: {} {}value{}{}, law {}{}\n", best.ball.ball.name, planned ? " as planned" : "",
+                                 best.values, planned ? "" : "measured ", best.values == 1 ? "" : "s", lasts, best.law,
+                                 best.fits() && !planned ? goodness_of(best) : "");
   if (!best.fits()) {
     text += "\nTHIS DOES NOT FIT: these errors and intervals do not count.\n";
     for (const std::string& misfit : best.misfits) text += fmt::format("- {}\n", misfit);

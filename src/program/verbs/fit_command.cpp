@@ -14,6 +14,7 @@
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/run_file.hpp"
+#include "contensou/si/scaling.hpp"
 #include "options/bulk_options.hpp"
 #include "options/figure_options.hpp"
 #include "options/law_option.hpp"
@@ -27,13 +28,14 @@ namespace {
 using fit::Fit;
 
 constexpr const char* stop = "stop";
+constexpr const char* slide = "distance";
 constexpr const si::Quantity* of_patch[]{&si::patch_radius, &si::spin_deceleration, &si::youngs_modulus};
 
 /// Reads "NAME=SD, ...", where SD may have a unit.
 NoiseByName parse_noise(const std::string& typed) {
   NoiseByName noise;
   std::vector<std::string> names = observable_names();
-  names.emplace_back(stop);
+  names.insert(names.end(), {stop, slide});
   for (const std::string& each : split(typed, ',')) {
     const std::size_t sign = each.find('=');
     if (sign == std::string::npos) throw NotAllowed("NAME=SD,... is needed, as in slip=0.01,spin=1");
@@ -43,7 +45,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) throw NotAllowed(no_such("observable", name, names, false));
     const auto place = static_cast<std::size_t>(found - names.begin());
-    const std::string_view unit = name == stop ? "s" : fit::observable_kinds()[place].unit;
+    const std::string_view unit = name == stop ? "s" : name == slide ? "m" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);
     // An angle without a unit is in radians here, in contrast to angles of other options.
     const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
@@ -72,7 +74,7 @@ class FitCommand final : public Verb {
     files_
         .add(
             app, "FILE", "",
-            "table measured on a film, as CSV or text with tabs; - is standard input. Columns: t, or frame with --fps; "
+            "table measured on a film, as CSV or text with tabs or semicolons; - is standard input. Columns: t, or frame with --fps; "
             "and any of slip, spin (or wz), x, y, vx, vy, angle (or theta), in SI units or as 'spin [rpm]'. A column "
             "NAME_sd contains the standard deviation of NAME. Several files are films of one ball",
             [](const std::string& typed) { return typed; }, true)
@@ -89,6 +91,11 @@ class FitCommand final : public Verb {
     stop_time_.add(app, "--stop-time", "TIME",
                    "measured end of slip and spin, in seconds after the start; needs --noise stop=SD",
                    checked(quantity("s"), is_positive, "a time > 0 is needed, in s"));
+    distance_.add(
+        app, "--distance", "LENGTH",
+        "measured distance from the start to the place where slip and spin end; gives the friction, without "
+        "FILE; the spin is 0 unless --spin is given. Its standard deviation is --noise distance=SD (default: 1 % of it)",
+        checked(quantity("m"), is_positive, "a length > 0 is needed, in m"));
     pixel_.add(app, "--pixel", "LENGTH", "length that one pixel shows, for columns such as 'x [px]'",
                checked(quantity("m"), is_positive, "a length > 0 is needed, in m"));
     start_.take_radius_for_ball();
@@ -98,8 +105,8 @@ class FitCommand final : public Verb {
         "law of friction, or several laws to compare (default exact); 'contensou help laws' lists all laws");
     app.option_defaults()->group("Estimate");
     free_.add(app, "--free", "NAMES",
-              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has, "
-              "except the patch of a disc or ring)",
+              "numbers to find: any of friction,patch,rolling_friction,slip,spin (default: all that the body has; the "
+              "patch of a disc or ring only if the film shows a smaller one)",
               parse_free);
     robust_.add(app, "--robust", "give outliers less weight, by Huber's loss");
     plan_.add(app, "--plan", "predict the standard errors that a film with --fps and --noise would give; without FILE");
@@ -107,6 +114,8 @@ class FitCommand final : public Verb {
              checked(number, is_positive, "pictures in a second > 0 are needed"));
     plan_.excludes({&files_, &from_, &pixel_},
                    "a planned film has no table yet, begins with the motion, and has its noise in SI units");
+    distance_.excludes({&files_, &stop_time_, &plan_, &from_, &until_, &fps_, &pixel_},
+                       "a distance alone gives the friction");
     output_.add(app);
   }
 
@@ -127,11 +136,17 @@ class FitCommand final : public Verb {
           "fit needs a level plane, and this one has a slope of {} degrees; --slope 0 "
           "leaves it out",
           slope);
+    // The spin of a built-in ball is an example, and no part of a measured distance.
+    if (distance_.given() && start_.given_values().find(si::spin) == nullptr)
+      request.ball.start = si::SlipAndSpin{si::slip_at_start(request.ball), 0};
     request.robust = robust_;
-    request.tracks = plan_ ? planned_tracks(request) : read_tracks();
+    request.tracks = plan_               ? planned_tracks(request)
+                     : distance_.given() ? std::vector{slide_of(request)}
+                                         : read_tracks();
     const bool only_stop = request.tracks.size() == 1 && request.tracks[0].series.empty();
     fit::Free usual = fit::usually_free(request.ball);
     if (only_stop) usual.slip = usual.spin = false;
+    if (distance_.given()) usual.patch_radius = false;
     request.free = free_.value_or(usual);
     Progress progress("searches", progress_if_watched(output.path));
     request.each_search = [&progress, searches = 0.0]() mutable { progress.show(++searches, NAN); };
@@ -196,7 +211,7 @@ class FitCommand final : public Verb {
     if (files_.given()) {
       const auto note = [](const std::string& text) { fmt::print(stderr, "contensou: {}\n", text); };
       for (const std::string& file : files_.all()) {
-        CsvReader table(file, CsvReader::Separator::comma_or_tab);
+        CsvReader table(file, CsvReader::Separator::any);
         tracks.push_back(read_track(table, file,
                                     {noise(), from_.optional(), until_.optional(), fps_.optional(), pixel_.optional()},
                                     note, &unused));
@@ -217,6 +232,26 @@ class FitCommand final : public Verb {
       tracks.front().stop_time = stop_time();
     }
     return tracks;
+  }
+
+  /// Returns the stop time that belongs to the measured distance. Friction changes only the scale of time, and of
+  /// lengths by the same factor, so that distance and stop time stay proportional.
+  fit::Track slide_of(const fit::FitRequest& request) const {
+    if (request.ball.contact.rolling_friction > 0)
+      distance_.reject("with rolling friction a distance does not give the friction; add --rolling-friction 0");
+    const si::Motion motion = si::Motion::reduced(request.ball, request.law);
+    const double time = motion.stop_time(), length = motion.at(time).position.norm();
+    if (!(length > 0)) distance_.reject("the body slides at the start: add --slip V");
+    NoiseByName given = noise();
+    constexpr double usual = 0.01;
+    const auto sd = given.extract(slide);
+    if (!given.empty()) noise_.reject("only distance=SD goes with --distance");
+    if (sd.empty())
+      fmt::print(stderr, "contensou: the distance is taken as known to 1 %; --noise distance=SD changes this\n");
+    const double in_time = time / length;
+    return {
+        .name = "--distance",
+        .stop_time = fit::Measured{*distance_ * in_time, in_time * (sd.empty() ? usual * *distance_ : sd.mapped())}};
   }
 
   /// Returns tracks with the times and the standard deviations of a planned film of the ball.
@@ -247,7 +282,7 @@ class FitCommand final : public Verb {
   }
 
   ArgumentOf<std::string> files_;
-  ArgumentOf<double> from_, until_, stop_time_, fps_, pixel_;
+  ArgumentOf<double> from_, until_, stop_time_, distance_, fps_, pixel_;
   ArgumentOf<NoiseByName> noise_;
   ArgumentOf<fit::Free> free_;
   Flag robust_, plan_;

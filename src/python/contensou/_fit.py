@@ -40,6 +40,16 @@ class RollingFrictionSeen(NamedTuple):
     chi2_less: float
 
 
+class Widened(NamedTuple):
+    """Neighbouring residuals depend on each other, and errors are widened for this: standard deviation of the friction
+    along the path, divided by the friction; smallest and largest factor of an error of friction, patch_radius, slip or
+    spin."""
+
+    friction_varies: float
+    least: float
+    most: float
+
+
 class Combination(NamedTuple):
     """The only combination of friction and patch_radius that a film determines, in SI units."""
 
@@ -68,6 +78,7 @@ class Fit:
     noise:         standard deviation of each observable, given or estimated
     reduced_chi2:  nan or inf if there are no more values than free numbers
     profiled:      True if the intervals are by profile likelihood
+    widened:       None if the motion fits within the noise; else by how much errors are widened
     misfits:       reasons, in words, why the film does not show this motion; empty if it may
     other_spins:   spins at the start that fit the film equally well, by other whole turns between two pictures or by
                    another motion
@@ -88,6 +99,7 @@ class Fit:
     reduced_chi2: float
     aic: float
     profiled: bool
+    widened: Optional[Widened]
     misfits: list[str]
     other_spins: list[float]
     only: Optional[Combination]
@@ -216,8 +228,8 @@ def fit(
     measured. src/fit/README.md says how to film.
 
     ball:    radius, gravity, the values of numbers that are not free, and the default law
-    free:    names among friction, patch_radius, rolling_friction, slip and spin; by default all, except the patch of a
-             body that rests on its whole face, and rolling friction of a ball without it
+    free:    names among friction, patch_radius, rolling_friction, slip and spin; by default all, except
+             rolling friction of a ball without it; the patch of a disc or ring only if the film determines a smaller one
     sd:      standard deviations by observable, numbers or arrays; others are estimated, from 10 values or more
     robust:  True for Huber's loss, under which outliers count less
     """
@@ -265,9 +277,10 @@ def _report(known_law: Law, found: dict[str, Any], t: NDArray[np.float64], seen:
     estimates = {name: Estimate(*each) for name, each in found.pop("estimates").items()}
     fitted = Ball._of(found.pop("ball"), {"law": known_law})
     only = found.pop("only")
+    widened = found.pop("widened")
     seen_rolling = found.pop("rolling_friction_seen")
     predicted = dict(zip(seen, found.pop("predicted")))
     return Fit(ball=fitted, law=known_law.name, estimates=estimates, predicted=predicted, t=t,
-               only=only and Combination(*only),
+               only=only and Combination(*only), widened=widened and Widened(*widened),
                rolling_friction_seen=seen_rolling and RollingFrictionSeen(*seen_rolling),
                observed={name: values for name, values in seen.items() if values is not None}, **found)

@@ -40,10 +40,11 @@ struct Free {
   bool slip = true;
   bool spin = true;
   bool rolling_friction = false;
+  bool patch_if_seen = false;  ///< true: the patch radius of a flat body becomes free if the film determines it
 };
 
-/// Returns the numbers that are free by default: all, except the patch radius of a body that rests on its whole face,
-/// and except rolling friction if the ball has none.
+/// Returns the numbers that are free by default: all, except rolling friction if the ball has none. The patch radius of
+/// a body that rests on its whole face is free if the film determines a smaller patch.
 Free usually_free(const si::Experiment& ball);
 
 /// The films, the model and the free numbers of a fit.
@@ -137,7 +138,13 @@ struct RollingFrictionSeen {
   double chi2_less;  ///< decrease of the sum of squares
 };
 
-/// A patch smaller than the face of a flat body that is not free but would make the fit far better.
+/// Neighbouring residuals depend on each other, and the errors of all numbers are widened for this.
+struct Widened {
+  double friction_varies;  ///< standard deviation of the friction along the path, divided by the friction
+  double least, most;      ///< smallest and largest factor of an error of friction, patch radius, slip or spin
+};
+
+/// A patch smaller than the face of a flat body that makes the fit far better.
 struct PatchSeen {
   double radius;    ///< m
   double friction;  ///< coefficient of friction in the fit with this patch
@@ -167,7 +174,8 @@ struct Fit {
   std::vector<Turns> turns = {};                ///< one for each track
   std::vector<OtherMotion> other_motions = {};  ///< minima other than the estimate; the intervals contain them
   std::optional<RollingFrictionSeen> rolling_friction_seen = {};
-  std::optional<PatchSeen> patch_seen = {};  ///< set only if the model with the whole face does not describe the data
+  std::optional<PatchSeen> patch_seen = {};  ///< set only if the whole face does not fit within the noise
+  std::optional<Widened> widened = {};       ///< set if neighbouring residuals depend on each other
 
   const Estimate& estimate(Parameter parameter, std::size_t track = 0) const;
   bool rolls_with_friction() const;  ///< true if rolling friction is among the estimates
