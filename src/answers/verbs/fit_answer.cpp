@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "answers/input/parse.hpp"
-#include "answers/table/text_table.hpp"
 
 namespace contensou::answers {
 
