@@ -20,6 +20,8 @@ namespace {
 
 using std::numbers::pi;
 
+double size(Rate rate) { return std::hypot(rate.u, rate.v); }
+
 // Allowed errors: of rounding, of difference quotients (symmetry.hpp), and of steppers.
 constexpr double rounding = 1e-13;
 constexpr double difference_quotient = 1e-9;
@@ -266,12 +268,6 @@ std::vector<Check> verify(const Flow& flow, const std::vector<State>& starts) {
 }
 
 std::vector<Check> verify(const Flow& flow, State start) { return verify(flow, std::vector{start}); }
-
-namespace {
-
-double size(Rate rate) { return std::hypot(rate.u, rate.v); }
-
-}  // namespace
 
 double generator_residual(const std::function<Rate(State)>& field, int degree, State state) {
   // Fourth-order central difference of F(exp(h) x) in h: truncation 1e-11, rounding 1e-13.

@@ -18,7 +18,7 @@ namespace contensou::program {
 
 namespace {
 
-constexpr long standard_digits = 6;
+constexpr long standard_digits = 6, max_threads = 1024;
 
 bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -222,12 +222,6 @@ portraits::Figure FigureOptions::apply(portraits::Figure figure, const std::stri
   figure.dpi = static_cast<double>(dpi_.value_or(static_cast<long>(figure.dpi)));
   return size().height_mm ? figure : portraits::trimmed(std::move(figure));
 }
-
-namespace {
-
-constexpr long max_threads = 1024;
-
-}  // namespace
 
 void BulkOptions::add(CLI::App& app) {
   app.option_defaults()->group(usual_group());
