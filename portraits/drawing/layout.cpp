@@ -1,9 +1,7 @@
 #include "contensou/portraits/layout.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 #include <utility>
 

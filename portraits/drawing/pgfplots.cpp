@@ -1,7 +1,6 @@
 #include "contensou/portraits/render.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>

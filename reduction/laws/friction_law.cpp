@@ -1,6 +1,5 @@
 #include "contensou/reduction/friction_law.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>

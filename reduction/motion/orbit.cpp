@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -19,7 +18,6 @@
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
-#include "contensou/reduction/reduced_system.hpp"
 #include "system/balance.hpp"
 
 namespace contensou::reduction {

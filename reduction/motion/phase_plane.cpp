@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/planar_kinds.hpp"

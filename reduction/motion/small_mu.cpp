@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/detail/infinity.hpp"
-#include "contensou/reduction/detail/quadrature_curve.hpp"
 #include "contensou/reduction/detail/root.hpp"
+#include "similarity/curves.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {

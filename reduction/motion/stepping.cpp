@@ -1,7 +1,6 @@
 #include "motion/stepping.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "contensou/reduction/detail/infinity.hpp"
-#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::reduction {
 

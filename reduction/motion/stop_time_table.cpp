@@ -8,12 +8,8 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <thread>
-#include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "motion/stop_time_loop.hpp"
 

@@ -6,19 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/tangent.hpp"
-#include "contensou/reduction/flow.hpp"
-#include "contensou/reduction/reduced_system.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/later.hpp"
 #include "similarity/regular_solution.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -8,6 +9,50 @@
 #include "contensou/reduction/symmetries.hpp"
 
 namespace contensou::reduction {
+
+/// A power series in s up to s^8.
+using Series = Eigen::Array<double, 9, 1>;
+
+/// A polynomial of degree 8 in two variables.
+struct TaylorPolynomial {
+  static constexpr int degree = 8, terms = (degree + 1) * (degree + 2) / 2;
+
+  /// Returns the place of the coefficient of z1^i z2^j.
+  static constexpr std::size_t place(int i, int j) { return static_cast<std::size_t>((i + j) * (i + j + 1) / 2 + j); }
+
+  double& operator()(int i, int j) { return coefficients[place(i, j)]; }
+  double operator()(int i, int j) const { return coefficients[place(i, j)]; }
+
+  /// Returns the series of the polynomial at z1 = first, z2 = second.
+  Series at(const Series& first, const Series& second) const;
+
+  /// Returns the derivative by z1 (variable 0) or z2 (variable 1).
+  TaylorPolynomial derivative(int variable) const;
+
+  /// Returns the polynomial in z - shift.
+  TaylorPolynomial shifted(const Eigen::Vector2d& shift) const;
+
+  /// Returns the largest absolute value of the coefficients of one degree.
+  double largest(int of_degree) const;
+
+  std::array<double, terms> coefficients{};
+};
+
+/// The polynomial that fits g(z) = f(x)/radii, x = centre + radii z, in the disc |z| <= 1 by least squares.
+struct Taylor {
+  std::array<TaylorPolynomial, 2> g;
+  double size = 0;    ///< largest |g| at the points of the fit
+  double misfit = 0;  ///< largest difference between g and the polynomial at the points of the fit
+
+  /// Returns a bound of the error of a coefficient. The error comes from the misfit and from rounding.
+  double error(int of_degree) const;
+};
+
+/// Fits the polynomial; empty if the field has no value at a point of the disc.
+std::optional<Taylor> taylor(const PlanarField& field, const Eigen::Vector2d& centre, const Eigen::Vector2d& radii);
+
+/// Returns a(s + shift).
+Series shifted(const Series& a, double shift);
 
 /// A multiple zero of a smooth field.
 struct DegeneratePoint {

@@ -18,9 +18,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <tuple>
 
 #include <Eigen/LU>
 

@@ -20,7 +20,6 @@
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "numerics/legendre_series.hpp"
-#include "numerics/linear_ode.hpp"
 #include "planar/region.hpp"
 #include "planar/reversal.hpp"
 

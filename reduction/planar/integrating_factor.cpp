@@ -1,7 +1,6 @@
 #include "contensou/reduction/planar_reduction.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <cmath>
 #include <limits>
@@ -150,6 +149,13 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
           "PlanarReduction: ({}, {}) is outside the box of V about ({}, {}), +-({}, {})", unit * x[0], unit * x[1],
           unit * start[0], unit * start[1], unit * fit.box().radii[0], unit * fit.box().radii[1]));
     }
+    if (const auto found = scaled(fit, cleared ? smooth.denominator(start)[0] : 1, x)) return *found;
+    throw std::domain_error(
+        fmt::format("PlanarReduction: the field has no value at ({}, {})", unit * x[0], unit * x[1]));
+  }
+
+  /// Returns a fitted V times `scale` at a point, and the field there; empty if the field has no value.
+  std::optional<std::pair<double, Vector2d>> scaled(const InverseFactor& fit, double scale, const Vector2d& x) const {
     const auto f = value_of(smooth.value, x);
     std::optional<Jet> of_form;
     if (fit.form() == FactorForm::basis) {
@@ -157,12 +163,9 @@ struct FactorSolution final : PlanarReduction::Solution, std::enable_shared_from
     } else if (const auto g = cleared ? value_of(fitted.value, x) : f) {
       of_form = {*g, Eigen::Matrix2d::Zero()};
     }
-    if (!f || !of_form) {
-      throw std::domain_error(
-          fmt::format("PlanarReduction: the field has no value at ({}, {})", unit * x[0], unit * x[1]));
-    }
-    const double value = fit(x, *of_form)[0];
-    return {cleared ? value * smooth.denominator(start)[0] / smooth.denominator(x)[0] : value, *f};
+    if (!f || !of_form) return std::nullopt;
+    const double value = scale * fit(x, *of_form)[0];
+    return std::pair(cleared ? value / smooth.denominator(x)[0] : value, *f);
   }
 
   /// Returns the integral of dH along the straight line between two points.
@@ -233,13 +236,8 @@ class FactorWalk {
 
  private:
   std::pair<double, Vector2d> value(const Vector2d& x) const {
-    const auto f = value_of(solution_.smooth.value, x);
-    const auto of_form = factor_.form() == FactorForm::basis ? jet_of(solution_.fitted, x)
-                         : f ? std::optional(Jet{solution_.fitted(x), Eigen::Matrix2d::Zero()})
-                             : std::nullopt;
-    if (!f || !of_form) throw std::domain_error("PlanarReduction: the field has no value on the way");
-    const double v = scale_ * factor_(x, *of_form)[0];
-    return {solution_.cleared ? v / solution_.smooth.denominator(x)[0] : v, *f};
+    if (const auto found = solution_.scaled(factor_, scale_, x)) return *found;
+    throw std::domain_error("PlanarReduction: the field has no value on the way");
   }
 
   void fit_anew() {

@@ -6,8 +6,6 @@
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "numerics/decomposition.hpp"

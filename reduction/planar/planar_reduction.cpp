@@ -1,12 +1,7 @@
 #include "contensou/reduction/planar_reduction.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 #include <fmt/format.h>
 

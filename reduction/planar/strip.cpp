@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
 #include "numerics/epsilon.hpp"
-#include "numerics/linear_ode.hpp"
 
 namespace contensou::reduction {
 

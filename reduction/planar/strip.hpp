@@ -1,14 +1,12 @@
 #pragma once
 
-#include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "numerics/legendre_series.hpp"
-#include "planar/approach.hpp"
+#include "planar/directions.hpp"
 #include "planar/section_field.hpp"
 
 namespace contensou::reduction {

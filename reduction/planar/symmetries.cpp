@@ -3,16 +3,13 @@
 #include "contensou/reduction/symmetries.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
 
-#include "contensou/reduction/detail/infinity.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
 #include "planar/differences.hpp"

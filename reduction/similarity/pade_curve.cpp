@@ -4,7 +4,7 @@
 // Notation (README (R8) to (R14)):
 //   A = 8 (2 - r), B = 3 pi (5 - r), a = r/(2 - r), e = r/(5 - r), b = a - e
 //   x = B k/(A + B k), y = 1 - x = A/(A + B k), z = ln(x/y) = ln k + ln(B/A)
-#include "contensou/reduction/detail/pade_curve.hpp"
+#include "similarity/curves.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Notation (README (R1) to (R7), (R26)): w = mu |u|, k = v/w, D = Phi - rho - r k Psi, ' = d/dxi, q = (ln k)'/D > 0;
 //   (ln w)' = r k Psi q
 //   c = k q/(1 + k)
-#include "contensou/reduction/detail/quadrature_curve.hpp"
+#include "similarity/curves.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -22,7 +21,6 @@
 
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/tangent.hpp"
-#include "numerics/linear_ode.hpp"
 #include "system/balance.hpp"
 
 namespace contensou::reduction {

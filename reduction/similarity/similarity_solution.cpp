@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "contensou/reduction/detail/infinity.hpp"
-#include "contensou/reduction/detail/pade_curve.hpp"
-#include "contensou/reduction/detail/quadrature_curve.hpp"
 #include "contensou/reduction/laws.hpp"
+#include "similarity/curves.hpp"
 #include "similarity/regular_solution.hpp"
 
 namespace contensou::reduction {

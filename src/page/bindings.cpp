@@ -15,9 +15,6 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "answers/asked/formula_law.hpp"
 #include "answers/asked/planar_system.hpp"
 #include "answers/asked/portrait_spec.hpp"
@@ -31,8 +28,8 @@
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/bounce.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/cue_strike.hpp"
 #include "contensou/si/description.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
 #include "javascript.hpp"

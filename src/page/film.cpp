@@ -1,6 +1,5 @@
 // The page reads a film (a table) of a reader and finds friction and patch of the ball, like `contensou fit`.
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <emscripten/bind.h>

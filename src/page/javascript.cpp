@@ -1,13 +1,9 @@
 #include "javascript.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
-
+#include "contensou/portraits/figure_members.hpp"
 #include "contensou/portraits/layout.hpp"
 
 namespace contensou::page {
@@ -19,50 +15,22 @@ using portraits::Colour;
 using portraits::Panel;
 using portraits::Polyline;
 
-std::string css(Colour colour) { return fmt::format("#{:06x}", colour.rgb); }
-
 val ticks_value(const std::vector<Axis::Tick>& ticks) {
   return list(ticks, [](const Axis::Tick& tick) { return object("at", tick.at, "text", tick.text); });
 }
 
-val axis_value(const Axis& axis) {
-  return object("name", axis.name, "low", axis.low, "high", axis.high, "ticks", ticks_value(axis.ticks));
-}
-
-val arrows_value(const portraits::Arrows& layer) {
-  std::vector<double> numbers;
-  for (const auto& [at, direction] : layer.arrows)
-    numbers.insert(numbers.end(), {at.x, at.y, direction.x, direction.y});
-  return object("arrows", numbers, "colour", css(layer.colour));
-}
-
-val marks_value(const portraits::Marks& layer) {
-  constexpr const char* shapes[] = {"dot", "circle", "square"};
-  return object("points", std::vector<Polyline>{layer.points}, "colour", css(layer.colour), "size", layer.size, "shape",
-                shapes[static_cast<int>(layer.shape)], "legend", layer.legend);
-}
-
-constexpr const char* alignments[] = {"left", "center", "right"};
-
-val label_value(const portraits::Label& label) {
-  return object("x", label.at.x, "y", label.at.y, "text", label.text, "colour", css(label.colour), "align",
-                alignments[static_cast<int>(label.align)]);
-}
-
-val region_value(const portraits::Region& region) {
-  return object("border", std::vector<Polyline>{region.border}, "colour", css(region.colour));
-}
-
-val panel_value(const Panel& panel) {
-  const auto lines_value = [&](const portraits::Lines& layer) {
-    return object("lines", portraits::visible(panel, layer.lines), "colour", css(layer.stroke.colour), "width",
-                  layer.stroke.width, "dashed", layer.stroke.dashed, "legend", layer.legend);
-  };
-  return object("title", panel.title, "x", axis_value(panel.x), "y", axis_value(panel.y), "lines",
-                list(panel.lines, lines_value), "arrows", list(panel.arrows, arrows_value), "marks",
-                list(panel.marks, marks_value), "labels", list(panel.labels, label_value), "regions",
-                list(panel.regions, region_value), "bare", panel.bare, "toScale", panel.to_scale);
-}
+/// Writer of a figure (portraits::members_of) for JavaScript. Columns are Float64Array, texts objects for each run.
+struct ToJavaScript {
+  static val text(const portraits::Text& text) { return text_value(text); }
+  static val tick(double at, const portraits::Text& text) { return object("at", at, "text", text); }
+  static val points(const Polyline& points) { return column(std::vector<Polyline>{points}); }
+  static val lines(const Panel& panel, const std::vector<Polyline>& lines) {
+    return column(portraits::visible(panel, lines));
+  }
+  static val list(const auto& range, const auto& value) { return page::list(range, value); }
+  static val optional(const auto& value, const auto& function) { return value ? function(*value) : val::undefined(); }
+  static val object(const auto&... keys_and_values) { return page::object(keys_and_values...); }
+};
 
 portraits::Text text_of(const val& text) {
   if (text.isString()) return text.as<std::string>();
@@ -94,14 +62,14 @@ portraits::Figure outline_of(const val& figure) {
   for (const val& panel : emscripten::vecFromJSArray<val>(figure["panels"])) {
     outline.panels.push_back({.title = text_of(panel["title"]), .x = axis_of(panel["x"]), .y = axis_of(panel["y"])});
     outline.panels.back().bare = panel["bare"].as<bool>();
-    outline.panels.back().to_scale = panel["toScale"].as<bool>();
+    outline.panels.back().to_scale = panel["to_scale"].as<bool>();
     for (const char* layers : {"lines", "marks"}) {
       for (const val& layer : emscripten::vecFromJSArray<val>(panel[layers])) {
         outline.panels.back().lines.push_back({.lines = {}, .stroke = {}, .legend = text_of(layer["legend"])});
       }
     }
   }
-  if (const val bar = figure["colourBar"]; !bar.isUndefined()) {
+  if (const val bar = figure["colour_bar"]; !bar.isUndefined()) {
     const auto count = bar["colours"]["length"].as<std::size_t>();
     outline.colour_bar = {text_of(bar["name"]), std::vector<Colour>(count), ticks_of(bar["ticks"])};
   }
@@ -133,7 +101,7 @@ val layout_value(const val& figure, double width, double height, double letter) 
   };
   const auto text = [&](const portraits::PlacedText& of) {
     return object("x", of.at.x / scale, "y", down(of.at.y), "text", of.text, "size", of.size * letter, "align",
-                  alignments[static_cast<int>(of.align)], "turned", of.turned, "bold", of.faint);
+                  name(of.align), "turned", of.turned, "bold", of.faint);
   };
   const auto panel = [&](const portraits::PanelPlace& of) {
     return object("box", box(of.box), "x", ticks_value(of.x), "y", ticks_value(of.y));
@@ -170,14 +138,8 @@ val text_value(const portraits::Text& text) {
 }
 
 val figure_value(const portraits::Figure& figure) {
-  val value = object("title", figure.title, "panels", list(figure.panels, panel_value), "ground",
-                     css(figure.theme.ground), "ink", css(figure.theme.ink), "faint", css(figure.theme.faint), "line",
-                     figure.theme.line, "columns", figure.max_columns, "narrowest", narrowest);
-  if (const auto& bar = figure.colour_bar) {
-    const auto colour = [](Colour of) { return val(css(of)); };
-    value.set("colourBar",
-              object("name", bar->name, "colours", list(bar->colours, colour), "ticks", ticks_value(bar->ticks)));
-  }
+  val value = portraits::members_of(figure, ToJavaScript());
+  value.set("narrowest", narrowest);
   return value;
 }
 

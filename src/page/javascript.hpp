@@ -3,16 +3,14 @@
 
 #include <cstddef>
 #include <exception>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include <emscripten/val.h>
-#include <Eigen/Core>
 
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 #include "contensou/portraits/figure.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/si/experiment.hpp"

@@ -17,14 +17,13 @@ import { Plane } from "./plane/plane.js";
 import { Player } from "./state/player.js";
 import { rounds, tour } from "./state/presets.js";
 import { today } from "./hero/tries.js";
-import { makePresets } from "./controls/presets_nav.js";
 import { makeShare } from "./share/share.js";
 import { Store } from "./state/store.js";
 import { ScreenSurface } from "./drawing/screen_surface.js";
 import { makeThrowing } from "./hero/throwing.js";
 import { makeWhy } from "./hero/why.js";
 import { makeTyped } from "./cards/typed.js";
-import { makeTour } from "./controls/tour.js";
+import { makePresets, makeTour } from "./controls/tour.js";
 
 function start(library) {
   const opens = speaksOfNothing(location.hash, library);

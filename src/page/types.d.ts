@@ -59,13 +59,13 @@ interface Lines { lines: Float64Array | number[]; colour: string; width: number;
 interface Marks { points: Float64Array | number[]; colour: string; size: number; shape: string; legend: Words }
 interface Label { x: number; y: number; text: Words; colour: string; align: string }
 interface Panel {
-  title: Words; x: Axis; y: Axis; lines: Lines[]; marks: Marks[]; labels: Label[]; bare: boolean; toScale: boolean;
+  title: Words; x: Axis; y: Axis; lines: Lines[]; marks: Marks[]; labels: Label[]; bare: boolean; to_scale: boolean;
   arrows: { arrows: Float64Array; colour: string }[]; regions: { border: Float64Array; colour: string }[];
 }
 interface Figure {
   narrowest: number;
   title: Words; panels: Panel[]; ground: string; ink: string; faint: string; line: number; columns: number;
-  colourBar?: { name: Words; colours: string[]; ticks: Tick[] };
+  colour_bar?: { name: Words; colours: string[]; ticks: Tick[] };
 }
 /** The layout in pixels. colours: boxes from the bottom up. */
 interface Layout {

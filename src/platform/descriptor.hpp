@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 /// Functions for file descriptors, with one implementation for each operating system. A function that fails returns -1
 /// and sets errno. Programs that this program starts do not inherit the descriptors.
+#include <cstdint>
+
 namespace contensou::platform {
 
 int open_to_read(const char* path);
@@ -29,5 +29,15 @@ int reserve(int file, std::uintmax_t bytes);
 /// Sets the permissions of a file.
 /// @param mode  as in stat(); without effect on a system without permissions
 void set_permissions(int file, unsigned mode);
+
+enum class Stream { output, error };
+
+/// Returns true if a stream is a terminal.
+bool is_terminal(Stream stream);
+
+/// Prepares the standard streams. This must be called before any file is opened. A closed standard stream is replaced
+/// by a descriptor that can be neither read nor written. Otherwise a file could get the number of standard error and
+/// receive its messages. In Windows streams become binary and the console UTF-8.
+void prepare_standard_streams();
 
 }  // namespace contensou::platform

@@ -7,7 +7,6 @@
 #include <climits>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -17,7 +16,6 @@
 
 #include "platform/descriptor.hpp"
 #include "platform/interruption.hpp"
-#include "platform/streams.hpp"
 
 namespace contensou::platform {
 

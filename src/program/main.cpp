@@ -11,13 +11,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
 #include "contensou/si/run_file.hpp"
 #include "output/help.hpp"
+#include "platform/descriptor.hpp"
 #include "platform/interruption.hpp"
 #include "platform/output_file.hpp"
-#include "platform/streams.hpp"
 #include "text/nearest_name.hpp"
 #include "verb.hpp"
 

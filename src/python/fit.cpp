@@ -2,7 +2,6 @@
 #include "contensou/fit/fit.hpp"
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "values.hpp"

@@ -1,7 +1,7 @@
 #include <string>
 #include <utility>
 
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 #include "values.hpp"
 
 namespace {

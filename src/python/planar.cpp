@@ -10,7 +10,7 @@
 #include <pybind11/eigen.h>
 
 #include "answers/asked/planar_system.hpp"
-#include "answers/verbs/reduce_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "planar.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 #include "answers/table/answer.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "values.hpp"

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "answers/asked/portrait_spec.hpp"
+#include "contensou/portraits/figure_members.hpp"
 #include "contensou/portraits/layout.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/render.hpp"
@@ -25,87 +26,34 @@ struct Portrait {
   std::function<std::string()> json;
 };
 
-/// Returns points as an array of two columns.
-py::array_t<double> array_of(const std::vector<Point>& points) {
-  static_assert(sizeof(Point) == 2 * sizeof(double));
-  py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
-  std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
-  return array;
-}
+/// Writer of a figure (portraits::members_of) for Python.
+struct ToPython {
+  /// Returns the runs of a text, each (words, italic, level).
+  static py::tuple text(const portraits::Text& text) {
+    return list_of(text.runs(),
+                   [](const portraits::Run& run) { return py::make_tuple(run.words, run.italic, run.level); });
+  }
+  static py::tuple tick(double at, const portraits::Text& words) { return py::make_tuple(at, text(words)); }
+  /// Returns points as an array of two columns.
+  static py::array_t<double> points(const std::vector<Point>& points) {
+    static_assert(sizeof(Point) == 2 * sizeof(double));
+    py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+    std::copy(points.begin(), points.end(), reinterpret_cast<Point*>(array.mutable_data()));
+    return array;
+  }
+  static py::list lines(const Panel&, const std::vector<portraits::Polyline>& lines) { return list_of(lines, points); }
 
-std::string colour_of(portraits::Colour colour) { return fmt::format("#{:06x}", colour.rgb); }
-
-/// Returns the runs of a text, each (words, italic, level).
-py::tuple text_of(const portraits::Text& text) {
-  return list_of(text.runs(),
-                 [](const portraits::Run& run) { return py::make_tuple(run.words, run.italic, run.level); });
-}
-
-py::list ticks_of(const std::vector<portraits::Axis::Tick>& ticks) {
-  return list_of(ticks, [](const portraits::Axis::Tick& tick) { return py::make_tuple(tick.at, text_of(tick.text)); });
-}
-
-py::dict axis_of(const portraits::Axis& axis) {
-  return py::dict(py::arg("name") = text_of(axis.name), py::arg("low") = axis.low, py::arg("high") = axis.high,
-                  py::arg("ticks") = ticks_of(axis.ticks));
-}
-
-py::dict dict_of(const Panel& panel) {
-  static constexpr const char* shapes[] = {"dot", "circle", "square"};
-  static constexpr const char* sides[] = {"left", "center", "right"};
-  return py::dict(py::arg("title") = text_of(panel.title), py::arg("x") = axis_of(panel.x),
-                  py::arg("y") = axis_of(panel.y), py::arg("bare") = panel.bare, py::arg("to_scale") = panel.to_scale,
-                  py::arg("regions") = list_of(panel.regions,
-                                               [](const portraits::Region& region) {
-                                                 return py::dict(py::arg("border") = array_of(region.border),
-                                                                 py::arg("colour") = colour_of(region.colour));
-                                               }),
-                  py::arg("lines") = list_of(panel.lines,
-                                             [](const portraits::Lines& layer) {
-                                               return py::dict(py::arg("lines") = list_of(layer.lines, array_of),
-                                                               py::arg("colour") = colour_of(layer.stroke.colour),
-                                                               py::arg("width") = layer.stroke.width,
-                                                               py::arg("dashed") = layer.stroke.dashed,
-                                                               py::arg("dotted") = layer.stroke.dotted,
-                                                               py::arg("legend") = text_of(layer.legend));
-                                             }),
-                  py::arg("arrows") = list_of(panel.arrows,
-                                              [](const portraits::Arrows& layer) {
-                                                std::vector<Point> ends;
-                                                for (const auto& [at, direction] : layer.arrows)
-                                                  ends.insert(ends.end(), {at, direction});
-                                                return py::dict(py::arg("arrows") = array_of(ends),
-                                                                py::arg("colour") = colour_of(layer.colour));
-                                              }),
-                  py::arg("marks") = list_of(panel.marks,
-                                             [](const portraits::Marks& layer) {
-                                               return py::dict(py::arg("points") = array_of(layer.points),
-                                                               py::arg("colour") = colour_of(layer.colour),
-                                                               py::arg("size") = layer.size,
-                                                               py::arg("shape") = shapes[static_cast<int>(layer.shape)],
-                                                               py::arg("legend") = text_of(layer.legend));
-                                             }),
-                  py::arg("labels") = list_of(panel.labels, [](const portraits::Label& label) {
-                    return py::dict(py::arg("x") = label.at.x, py::arg("y") = label.at.y,
-                                    py::arg("text") = text_of(label.text), py::arg("colour") = colour_of(label.colour),
-                                    py::arg("align") = sides[static_cast<int>(label.align)]);
-                  }));
-}
-
-py::dict dict_of(const Figure& figure) {
-  const auto& bar = figure.colour_bar;
-  return py::dict(
-      py::arg("title") = text_of(figure.title), py::arg("subtitle") = text_of(figure.subtitle),
-      py::arg("width_mm") = figure.size.width_mm, py::arg("height_mm") = figure.size.height_mm,
-      py::arg("letter_pt") = portraits::letter_mm(figure.size.width_mm) * figure.theme.letters * 72 / 25.4,
-      py::arg("ground") = colour_of(figure.theme.ground), py::arg("ink") = colour_of(figure.theme.ink),
-      py::arg("faint") = colour_of(figure.theme.faint),
-      py::arg("panels") = list_of(figure.panels, [](const Panel& panel) { return dict_of(panel); }),
-      py::arg("colour_bar") = bar ? std::optional(py::dict(py::arg("name") = text_of(bar->name),
-                                                           py::arg("colours") = list_of(bar->colours, colour_of),
-                                                           py::arg("ticks") = ticks_of(bar->ticks)))
-                                  : std::nullopt);
-}
+  static py::list list(const auto& range, const auto& value) { return list_of(range, value); }
+  static py::object optional(const auto& value, const auto& function) {
+    return value ? py::object(function(*value)) : py::none();
+  }
+  static py::dict object(const auto&... keys_and_values) {
+    const py::tuple all = py::make_tuple(keys_and_values...);
+    py::dict object;
+    for (std::size_t i = 0; i < all.size(); i += 2) object[all[i]] = all[i + 1];
+    return object;
+  }
+};
 
 /// Returns an argument of Python's function, or a default if the function does not have it.
 template <class Value>
@@ -245,7 +193,7 @@ void bind_portraits(py::module_& module) {
              return py::bytes(drawn());
            })
       .def("json", [](const Portrait& portrait) { return portrait.json(); })
-      .def("figure", [](const Portrait& portrait) { return dict_of(portrait.figure); });
+      .def("figure", [](const Portrait& portrait) { return portraits::members_of(portrait.figure, ToPython()); });
 }
 
 }  // namespace contensou::python

@@ -12,7 +12,7 @@
 #include "contensou/reduction/phase_plane.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "contensou/si/body.hpp"
+#include "contensou/si/experiment.hpp"
 #include "values.hpp"
 
 namespace contensou::python {

@@ -14,13 +14,10 @@
 #include <fmt/format.h>
 
 #include "answers/asked/formula_law.hpp"
-#include "answers/verbs/aim_answer.hpp"
-#include "answers/verbs/engine_answer.hpp"
-#include "answers/verbs/roll_answer.hpp"
-#include "answers/verbs/uncertainty.hpp"
+#include "answers/verbs/ball_answers.hpp"
 #include "contensou/portraits/json.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/cue_strike.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"

@@ -127,7 +127,7 @@ test("every orbit has a contrast of 3:1 to its ground, in light and dark", async
     const { card, ground, own, times } = await page.evaluate(() => {
       const { figure } = globalThis.page.plane.planeScene;
       return {
-        card: getComputedStyle(document.documentElement).getPropertyValue("--card").trim(), ground: figure.ground, times: figure.colourBar.colours,
+        card: getComputedStyle(document.documentElement).getPropertyValue("--card").trim(), ground: figure.ground, times: figure.colour_bar.colours,
         own: [...document.querySelectorAll("#orbits li")].map((item) => item.style.getPropertyValue("--swatch")),
       };
     });

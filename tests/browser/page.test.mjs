@@ -571,7 +571,7 @@ test("the first floor has the bodies, two sliders, the plane and the story; one 
     for (const id of inLab) assert.ok(!(await page.locator(id).first().isVisible()), id);
     assert.equal(await page.locator("input:visible, select:visible").count(), 4, "time, slip, spin, spin of the patch");
     // The plane is curves alone, on axes in plain words.
-    const { title, colourBar, panels: [{ x, y, lines }] } = await page.evaluate(() => globalThis.page.plane.planeScene.figure);
+    const { title, colour_bar: colourBar, panels: [{ x, y, lines }] } = await page.evaluate(() => globalThis.page.plane.planeScene.figure);
     assert.deepEqual([title, colourBar, x.name, y.name, lines.filter(({ legend, dashed }) => legend || dashed).length], ["", undefined, "rim speed of the spin, m/s", "sliding speed, m/s", 0]);
     assert.equal((await page.textContent("#plane-card")).match(/[^.]+\./)[0].trim(), "Each curve is one motion; all end at rest.");
     assert.equal(await page.getAttribute("#lab", "aria-expanded"), "false");

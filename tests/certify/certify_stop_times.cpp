@@ -13,12 +13,12 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/detail/infinity.hpp"
-#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "motion/stop_time_table.hpp"
 #include "reduction/user_laws.hpp"
 #include "reference_table.hpp"
+#include "similarity/curves.hpp"
 
 using namespace contensou::reduction;
 using namespace contensou::tests;

@@ -10,7 +10,6 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/scaling.hpp"
 #include "scores.hpp"
 
 using namespace contensou;

@@ -1,7 +1,6 @@
 #include "fit/track_model.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <typeinfo>
 
-#include "answers/input/pressure_profile.hpp"
+#include "answers/input/tables.hpp"
 #include "finding.hpp"
 
 using namespace contensou;

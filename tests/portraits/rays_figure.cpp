@@ -1,7 +1,6 @@
 #include "contensou/portraits/theory_figures.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <vector>
 
 #include <catch2/catch.hpp>

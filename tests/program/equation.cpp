@@ -1,7 +1,7 @@
 // Kinds of equations, coordinates and solutions as formulas, for the list of Kamke in kamke.csv and for known
 // equations. Each kind is checked by its definition without derivatives. The last column of kamke.csv lists the kinds
 // that classify_ode of SymPy 1.14 found in at most 40 s; it is "?" for equations that took longer.
-#include "answers/equation/steps.hpp"
+#include "answers/equation/equation.hpp"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 #include "run_program.hpp"
 
 using Catch::Matchers::Contains;

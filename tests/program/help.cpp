@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -11,7 +10,7 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "answers/verbs/reduce_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "run_program.hpp"

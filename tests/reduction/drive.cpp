@@ -1,12 +1,10 @@
 // A constant drive: (R48) to (R52) of reduction/README.md.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"

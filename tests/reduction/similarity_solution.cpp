@@ -6,12 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/detail/pade_curve.hpp"
-#include "contensou/reduction/detail/quadrature_curve.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "octic_law.hpp"
+#include "similarity/curves.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;

@@ -12,12 +12,12 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "motion/stop_time_table.hpp"
 #include "octic_law.hpp"
 #include "reference_table.hpp"
+#include "similarity/curves.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;

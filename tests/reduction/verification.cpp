@@ -10,7 +10,6 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/small_mu.hpp"
@@ -19,6 +18,7 @@
 #include "lying_curve.hpp"
 #include "motion/stop_time_table.hpp"
 #include "octic_law.hpp"
+#include "similarity/curves.hpp"
 #include "user_laws.hpp"
 
 using namespace contensou::reduction;

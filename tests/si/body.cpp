@@ -1,4 +1,4 @@
-#include "contensou/si/body.hpp"
+#include "contensou/si/experiment.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -7,7 +7,6 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/cue_strike.hpp"
 #include "contensou/si/motion.hpp"
 
 using namespace contensou;

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/hertz_contact.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/scaling.hpp"
 
 using namespace contensou::si;

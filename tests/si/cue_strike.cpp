@@ -1,4 +1,4 @@
-#include "contensou/si/cue_strike.hpp"
+#include "contensou/si/experiment.hpp"
 
 #include <cmath>
 #include <limits>

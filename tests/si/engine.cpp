@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>

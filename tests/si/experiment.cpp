@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include <catch2/catch.hpp>

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <ctime>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <tuple>

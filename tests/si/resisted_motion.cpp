@@ -1,6 +1,5 @@
 #include "contensou/si/motion.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <vector>
 

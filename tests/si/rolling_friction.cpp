@@ -1,4 +1,3 @@
-#include <cmath>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>

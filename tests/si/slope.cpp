@@ -2,8 +2,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <stdexcept>
-#include <string>
 #include <tuple>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 #include <random>
-#include <string>
 
 #include <catch2/catch.hpp>
 

@@ -9,7 +9,6 @@
 
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
-#include "contensou/si/scaling.hpp"
 #include "motion_cases.hpp"
 
 using namespace contensou;

@@ -4,7 +4,7 @@
     python3 wrench_kernel.py HEADER     ends with 1 if HEADER has other coefficients, or if an error is too large
 
 The functions are g = Phi/k, h = Psi, c = Phi' for k = v/(radius |w|) <= 1, and g = Phi, h = k Psi, c = k^3 Phi' for k >= 1.
-They are 2F1 of z = min(k, 1/k)^2 (reduction/laws/hertz_law.cpp, laws.hpp). With y = 1 - z, contiguous 2F1 give
+They are 2F1 of z = min(k, 1/k)^2 (reduction/laws/laws.cpp, laws.hpp). With y = 1 - z, contiguous 2F1 give
 
     exact    k >= 1: h = (g - y c)/4. For k < 1 all three are polynomials.
     uniform  k >= 1: h = (g - y c)/3. For k < 1, with g and c of 1/k: g, ((1 + y) g - z y c)/3, g - z c.

@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "contensou/reduction/friction_law.hpp"
 
@@ -25,5 +27,12 @@ reduction::Law parse_formula_law(const std::string& text, const std::map<std::st
 /// Returns the law of a text (a name, or formulas), such as the text `law` in a run file; empty for an unknown name.
 /// @throws std::domain_error  as reduction::find_law and parse_formula_law
 std::optional<reduction::Law> find_law_or_formulas(const std::string& text);
+
+/// Words for the error of the paper's Pade law, for any body.
+inline constexpr const char* cost_of_pade =
+    "whose force is up to 39 % too small and whose stop times are up to 44 % too long ('contensou help laws')";
+
+/// The forms of --law, each with its meaning.
+std::vector<std::pair<std::string, std::string>> law_forms();
 
 }  // namespace contensou::answers

@@ -1,15 +1,12 @@
-#include "answers/equation/antiderivative.hpp"
+#include "answers/equation/equation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <numeric>
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace contensou::answers {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "answers/asked/planar_system.hpp"
 #include "answers/input/expression.hpp"
+#include "contensou/reduction/symmetries.hpp"
 
 namespace contensou::answers {
 
@@ -59,5 +61,80 @@ struct EquationKind {
   std::string_view name, meaning;
 };
 const std::vector<EquationKind>& equation_kinds();
+
+/// Returns an antiderivative by a variable; other variables are constants. Empty if the bounded search finds none.
+///
+/// The search knows rational functions whose denominator has rational roots and quadratic factors, products of
+/// polynomials, exp, sin, cos and logarithms, roots of linear and quadratic functions, and substitutions by a part of
+/// the formula. The logarithms are those of absolute values. The caller checks the result: no step is proved.
+std::optional<Expression> antiderivative(const Expression& f, std::size_t variable);
+
+/// Coordinates in which a symmetry of the equation only shifts p, and the equation in them. Formulas contain x and y
+/// with the indices 0 and 1, and q with the index 2.
+struct Coordinates {
+  std::string symmetry;                    ///< the map and its generator as text
+  Expression q, p;                         ///< as formulas in x and y
+  std::optional<Expression> dq_dp, dp_dq;  ///< one of them, as a formula in q
+  std::optional<Expression> dt_dp;         ///< for a system, as a formula in q and p (index 3)
+  bool changes_q = true;                   ///< false for q = x, in which the equation is separated by p alone
+  /// The symmetry, if it is a shift or a turn of the plane about the origin.
+  std::optional<reduction::Generator> motion = {};
+};
+
+/// Returns the coordinates of the first symmetry that the equation has: a scaling, a shift or a turn of the plane, or
+/// the symmetry of a linear equation or of Bernoulli's.
+/// @param found  symmetries of the field, from which a centre and a matrix are taken as fractions
+std::optional<Coordinates> coordinates_of(const Equation& equation, const reduction::PlanarSymmetries& found);
+
+/// Returns the shortest of a formula, its expansion, its form as one fraction, and a product with common factors.
+Expression tidied(const Expression& e);
+
+/// A function H of x and y that is constant along orbits, as a formula.
+struct IntegralFormula {
+  Expression H;
+  Expression solvable;     ///< H in the form that was found, which solved_for_y solves
+  std::string after = {};  ///< "separable after q = ...", if the equation has no symmetry with this q
+  bool quadrant = false;   ///< true: checked only in the quadrant of the start
+};
+
+/// Returns H as a formula if one is found and checked; the search is bounded.
+/// @param factor  inverse integrating factor V as a formula, if it is known
+std::optional<IntegralFormula> integral_of(const Equation& equation, const std::optional<Coordinates>& coordinates,
+                                           const std::optional<Expression>& factor);
+
+/// Returns y as a formula in x along the orbit through the start, solved from H = C; empty if H has no such branch.
+std::optional<Expression> solved_for_y(const Equation& equation, const Expression& H);
+
+/// The reduction of an equation as formulas in its own letters. A part that is not certain is empty.
+struct Steps {
+  std::vector<std::string> names;  ///< the two variables, then q and p
+  std::vector<std::string> kinds = {};
+  std::optional<Coordinates> coordinates = {};
+  std::optional<IntegralFormula> integral = {};
+  std::string where = {};  ///< quadrant in which H was checked, such as "x > 0, y > 0"; empty for the plane
+  std::optional<Expression> branch = {};  ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
+  std::optional<Expression> factor = {};  ///< inverse integrating factor V, that of H if H is known
+  std::vector<Expression> parts = {};     ///< the right sides
+
+  std::string text(const Expression& e, int digits = 0) const { return e.text(names, digits); }
+
+  /// Returns the separated equation, such as "dq/dp = tan(q)"; empty without coordinates.
+  std::string separated(int digits = 0) const;
+
+  /// Returns the formulas at whose zeros H may jump, so that C has another value on the other side: the denominators of
+  /// arguments of atan, and cos(z) for tan(z) in these arguments.
+  std::vector<Expression> jumps() const;
+
+  /// Returns the reason why the right sides have no value next to a point, such as "tan(y/x) has a pole"; empty if
+  /// none is found.
+  std::string broken_at(const Eigen::Vector2d& x) const;
+};
+
+/// @param factor   inverse integrating factor as PlanarReduction::formula; empty if none is known
+/// @param cleared  true if `factor` still has to be divided by the denominator of the field
+/// @param start   start of the orbit; if empty, the branch of the solution stays empty
+/// @param around  point that sets the scale of the points at which formulas are compared
+Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
+               bool cleared, const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around);
 
 }  // namespace contensou::answers

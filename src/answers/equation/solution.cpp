@@ -1,4 +1,4 @@
-#include "answers/equation/solution.hpp"
+#include "answers/equation/equation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
-
-#include "answers/equation/antiderivative.hpp"
 
 namespace contensou::answers {
 

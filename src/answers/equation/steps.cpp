@@ -1,4 +1,4 @@
-#include "answers/equation/steps.hpp"
+#include "answers/equation/equation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "answers/verbs/check_against.hpp"
+#include "answers/verbs/check_answer.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/portraits/figure.hpp"
 #include "contensou/reduction/friction_law.hpp"

@@ -1,9 +1,7 @@
 #include "answers/input/expression.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>

@@ -4,15 +4,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstddef>
 #include <exception>
 #include <numbers>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <system_error>
 #include <tuple>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

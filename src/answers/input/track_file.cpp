@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/input/headings.hpp"
+#include "answers/input/tables.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::answers {

@@ -1,6 +1,5 @@
 #include "answers/table/record.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 

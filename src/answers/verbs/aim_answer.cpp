@@ -1,13 +1,8 @@
-#include "answers/verbs/aim_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 
 #include <cmath>
-#include <string>
 
 #include <fmt/format.h>
-
-#include "answers/verbs/ball_answer.hpp"
-#include "contensou/si/motion.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
 

@@ -1,16 +1,9 @@
-#include "answers/verbs/bounce_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
-
-#include "answers/table/text_table.hpp"
-#include "answers/verbs/ball_answer.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
 

@@ -1,4 +1,4 @@
-#include "answers/verbs/check_against.hpp"
+#include "answers/verbs/check_answer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 #include <Eigen/Core>
 
-#include "answers/input/headings.hpp"
+#include "answers/input/tables.hpp"
 #include "answers/input/track_file.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/contact_cone.hpp"

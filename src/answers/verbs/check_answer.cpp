@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 #include "answers/input/errors.hpp"
-#include "answers/input/message.hpp"
 #include "answers/input/parse.hpp"
-#include "answers/table/text_table.hpp"
 
 namespace contensou::answers {
 

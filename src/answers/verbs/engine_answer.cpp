@@ -1,17 +1,14 @@
-#include "answers/verbs/engine_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
-#include "answers/table/text_table.hpp"
 
 namespace contensou::answers {
 

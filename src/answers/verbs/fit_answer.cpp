@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "answers/input/parse.hpp"
-#include "answers/table/text_table.hpp"
 
 namespace contensou::answers {
 

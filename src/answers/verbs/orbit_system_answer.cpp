@@ -1,4 +1,4 @@
-#include "answers/verbs/orbit_system_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "answers/input/errors.hpp"
-#include "answers/table/text_table.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/root.hpp"
 

@@ -1,15 +1,12 @@
-#include "answers/verbs/phase_plane_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "answers/table/text_table.hpp"
 #include "contensou/reduction/phase_plane.hpp"
-#include "contensou/reduction/reduced_system.hpp"
 
 namespace contensou::answers {
 

@@ -1,13 +1,11 @@
-#include "answers/verbs/reduce_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -15,14 +13,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/equation/steps.hpp"
-#include "answers/input/message.hpp"
+#include "answers/equation/equation.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/reduction/verification.hpp"
 

@@ -1,4 +1,4 @@
-#include "answers/verbs/roll_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/asked/law_forms.hpp"
-#include "answers/table/text_table.hpp"
-#include "answers/verbs/ball_answer.hpp"
-#include "answers/verbs/plain_words.hpp"
+#include "answers/asked/formula_law.hpp"
 #include "contensou/reduction/laws.hpp"
 
 namespace contensou::answers {

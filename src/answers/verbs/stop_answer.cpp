@@ -1,24 +1,17 @@
-#include "answers/verbs/stop_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "answers/asked/law_forms.hpp"
+#include "answers/asked/formula_law.hpp"
 #include "answers/input/errors.hpp"
-#include "answers/table/text_table.hpp"
-#include "answers/verbs/ball_answer.hpp"
-#include "answers/verbs/plain_words.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/reduction/reduced_system.hpp"
 #include "contensou/reduction/small_mu.hpp"
 #include "contensou/reduction/tabulated_pressure_law.hpp"
-#include "contensou/si/motion.hpp"
-#include "contensou/si/scaling.hpp"
 
 namespace contensou::answers {
 

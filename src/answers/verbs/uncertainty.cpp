@@ -1,10 +1,8 @@
-#include "answers/verbs/uncertainty.hpp"
+#include "answers/verbs/ball_answers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -15,12 +13,9 @@
 
 #include "answers/input/errors.hpp"
 #include "answers/input/parse.hpp"
-#include "answers/table/text_table.hpp"
 #include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
-#include "contensou/si/event_gradient.hpp"
 #include "contensou/si/quantity.hpp"
-#include "contensou/si/scaling.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::answers {

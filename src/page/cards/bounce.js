@@ -57,7 +57,7 @@ export function makeBounce(store, controls) {
     const [frame] = drawFigure(surface, [bodies, radius, chosen], () => figureOf(theme, { columns: 1, narrowest: 230 }, [{
       ...panelOf("", { name: "m", low, high }, { low: 0, high: most },
         bodies.map((body, i) => ({ colour: colours[i], width: 2.5, lines: Array.from({ length: 121 }, (_, j) => placeAt(((falls + rises) * j) / 120 - falls, body)).flat() }))),
-      toScale: true,
+      to_scale: true,
     }]), store);
     const time = Math.min(1, haste * fraction) * (falls + rises) - falls;
     const turned = (orbit.u / radius) * (falls + rises);

@@ -1,7 +1,6 @@
 // Controls for ball, body and law, for the contents of the plane, the sliders, and the card of a real ball.
 import { $, isStill, make, write } from "../dom.js";
-import { choiceButtons, withoutOptions } from "./fields.js";
-import { lawField } from "./law_field.js";
+import { choiceButtons, fillSelect, numberField, withoutOptions } from "./fields.js";
 import { isDark } from "../drawing/theme.js";
 import { shown, spinText } from "../numbers.js";
 import { bodyOf, initialState, moved, takeBall, unrolled } from "../state/page_state.js";
@@ -149,4 +148,41 @@ function makeBallCard(controls, store) {
     write($("ball-facts"), `Patch radius ${shown(1000 * contact.patchRadius, 4)} mm, μ = ${shown(mu, 5)}. ` +
       `${body.chi === 1 ? "" : `It counts as rolling once its slip is below ${shown(1000 * store.library.rollingSlip, 2)} mm/s. `}${ball.sources}`);
   });
+}
+
+/**
+ * A list of the laws, with a field for the number of a law.
+ * @param {string} id  id of the list; with -exponent, id of the parent of the number's field
+ * @param {Store} store
+ * @param {{key: string, none?: string, use: (name: string | null) => void}} how
+ *   none: title of the choice of no law, if there is this choice;
+ *   use: called with the name of a law, or null for none; throws an Error with the reason if the law is not allowed
+ */
+function lawField(id, store, { key, none, use }) {
+  const { laws } = store.library;
+  const [select, place] = [$(id), $(`${id}-exponent`)];
+  const numbers = new Map(laws.filter(({ letter }) => letter).map(({ name, example }) => [name, example]));
+  const titles = laws.map(({ name, meaning, letter }) => [name, `${letter ? `${name}:${letter}` : name} – ${meaning}`]);
+  fillSelect(select, { ...(none && { "": none }), ...Object.fromEntries(titles) });
+  const showNumber = numberField(place, {
+    key, label: "its number",
+    use: (value) => {
+      use(`${select.value}:${value}`);
+      numbers.set(select.value, value);
+    },
+  });
+  select.addEventListener("change", () => store.attempt(() => {
+    const number = numbers.get(select.value);
+    use(number === undefined ? select.value || null : `${select.value}:${number}`);
+  }));
+  return {
+    show(law) {
+      const own = law?.includes("=") ? "your own formulas" : null;
+      const [name, number] = own ? [law] : (law ?? "").split(":");
+      if (own) ([...select.options].find(({ text }) => text === own) ?? select.appendChild(new Option(own))).value = name;
+      select.value = name;
+      place.hidden = number === undefined;
+      showNumber(number && Number(number));
+    },
+  };
 }

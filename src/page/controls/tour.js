@@ -1,10 +1,14 @@
-// The tour: steps side by side that scroll. The page shows the step at which scrolling ends.
-import { $, isStill, make } from "../dom.js";
-import { tour } from "../state/presets.js";
+// The tour, and links to motions worth seeing.
+import { $, isStill, make, write } from "../dom.js";
+import { fromFragment, toFragment } from "../state/page_state.js";
+import { presets, tour } from "../state/presets.js";
 
 const pause = 120;  // ms
 
-/** @param {Store} store @param go  called with the fragment of a step */
+/**
+ * Makes the steps, side by side in a list that scrolls. The page shows the step at which scrolling ends.
+ * @param {Store} store @param go  called with the fragment of a step
+ */
 export function makeTour(store, go) {
   const [list, back, on] = ["steps", "step-back", "step-on"].map($);
   let [at, timer, isScrolled] = [0, 0, false];
@@ -30,5 +34,34 @@ export function makeTour(store, go) {
     if (step === at) return;
     isScrolled = false;
     to(at = step, "instant");
+  });
+}
+
+/** Returns the part of a link that describes the motion. */
+const motionOf = (state) => toFragment({ ...state, fraction: 0, isochrone: 0, window: null, step: 0, theme: "auto", embed: false, project: false, lab: false });
+
+/**
+ * Makes the links, with a sentence about the chosen one below them.
+ * @param {Store} store @param go  called with the fragment of a preset
+ */
+export function makePresets(store, go) {
+  let chosen = -1;
+  const say = (index) => write($("says"), presets[index]?.says ?? "");
+  const links = presets.map(({ title, fragment, says }, index) => {
+    const link = make("a", { href: `#${fragment}`, textContent: title, title: says });
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      go(fragment);
+    });
+    for (const event of ["pointerenter", "focus"]) link.addEventListener(event, () => say(index));
+    for (const event of ["pointerleave", "blur"]) link.addEventListener(event, () => say(chosen));
+    return link;
+  });
+  $("presets").append(...links);
+  const motions = presets.map(({ fragment }) => motionOf(fromFragment(fragment, store.library)));
+  store.shows.push((state) => {
+    chosen = motions.indexOf(motionOf(state));
+    links.forEach((link, index) => link.setAttribute("aria-current", String(index === chosen)));
+    say(chosen);
   });
 }

@@ -13,7 +13,7 @@ const leastWidth = 15.5;  // width of a panel with its numbers, in letters
 
 /** Makes a panel of the page. @param {object} x {low, high} and perhaps {name, ticks} @param {object} y as x @returns {Panel} */
 export const panelOf = (title, x, y, lines = /** @type {Partial<Lines>[]} */ ([]), marks = /** @type {Partial<Marks>[]} */ ([])) => ({
-  title, x: { name: "", ticks: [], ...x }, y: { name: "", ticks: [], ...y }, arrows: [], regions: [], labels: [], bare: false, toScale: false,
+  title, x: { name: "", ticks: [], ...x }, y: { name: "", ticks: [], ...y }, arrows: [], regions: [], labels: [], bare: false, to_scale: false,
   lines: lines.map((line) => /** @type {Lines} */ ({ width: 1.5, dashed: false, legend: "", ...line })),
   marks: marks.map((mark) => /** @type {Marks} */ ({ size: 1, shape: "dot", legend: "", ...mark })),
 });
@@ -47,7 +47,7 @@ export function drawFigure(surface, keys, make, store, { covered = true, labelle
       if (labelled) drawLabels(surface, figure, panel, frame);
     });
     // The boxes stand from the bottom up.
-    layout.colours.forEach((box, i) => surface.shape([borderOf(box)], { fill: figure.colourBar?.colours[i] }));
+    layout.colours.forEach((box, i) => surface.shape([borderOf(box)], { fill: figure.colour_bar?.colours[i] }));
     for (const { legend, x, y, width } of layout.legend) {
       const named = ({ legend: other }) => plain(other) === plain(legend);
       const lines = figure.panels.flatMap((panel) => panel.lines).find(named);

@@ -71,7 +71,7 @@ export class Plane {
         ...panel, x: { ...panel.x, name: `rim speed of the spin${unit}` }, y: { ...panel.y, name: `sliding speed${unit}` },
         lines: panel.lines.map((line) => ({ ...line, legend: "" })), marks: panel.marks.map((mark) => ({ ...mark, legend: "" })),
       }));
-      this.bare = { of: figure, figure: { ...figure, panels, title: "", colourBar: undefined } };
+      this.bare = { of: figure, figure: { ...figure, panels, title: "", colour_bar: undefined } };
     }
     return this.bare.figure;
   }

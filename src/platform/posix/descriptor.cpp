@@ -41,4 +41,15 @@ void set_permissions(int file, unsigned mode) {
   if (::fchmod(file, static_cast<mode_t>(mode)) != 0) errno = 0;
 }
 
+#ifndef O_PATH  // Linux alone has O_PATH, which opens a file for neither reading nor writing
+#define O_PATH O_RDONLY
+#endif
+bool is_terminal(Stream stream) { return ::isatty(stream == Stream::error ? STDERR_FILENO : STDOUT_FILENO) != 0; }
+
+void prepare_standard_streams() {
+  int file = 0;
+  while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_PATH);
+  ::close(file);
+}
+
 }  // namespace contensou::platform

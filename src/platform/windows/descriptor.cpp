@@ -1,7 +1,9 @@
 #include "platform/descriptor.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <initializer_list>
 #include <random>
 #include <string_view>
 
@@ -73,5 +75,12 @@ bool is_ready(int file) {
 int reserve(int, std::uintmax_t) { return 0; }
 
 void set_permissions(int, unsigned) {}
+
+bool is_terminal(Stream stream) { return ::_isatty(::_fileno(stream == Stream::error ? stderr : stdout)) != 0; }
+
+void prepare_standard_streams() {
+  for (std::FILE* stream : {stdin, stdout, stderr}) ::_setmode(::_fileno(stream), _O_BINARY);
+  ::SetConsoleOutputCP(CP_UTF8);
+}
 
 }  // namespace contensou::platform

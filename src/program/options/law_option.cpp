@@ -2,11 +2,8 @@
 
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "answers/asked/formula_law.hpp"
-#include "answers/asked/law_forms.hpp"
-#include "answers/input/pressure_profile.hpp"
+#include "answers/input/tables.hpp"
 
 namespace contensou::program {
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "answers/asked/formula_law.hpp"
-#include "answers/input/load_table.hpp"
+#include "answers/input/tables.hpp"
 #include "contensou/si/scaling.hpp"
 #include "output/help.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "answers/asked/given_start.hpp"
 #include "contensou/reduction/reduced_system.hpp"
-#include "contensou/si/body.hpp"
 #include "contensou/si/catalogue.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/load_history.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/run_file.hpp"

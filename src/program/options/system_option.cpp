@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "answers/asked/planar_system.hpp"
-#include "contensou/reduction/planar_reduction.hpp"
-
 namespace contensou::program {
 
 void SystemOption::add(CLI::App& app) {

@@ -5,16 +5,13 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 #include "answers/table/answer.hpp"
 #include "contensou/si/quantity.hpp"
-#include "output/ordered_work.hpp"
 
 namespace contensou::program {
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "answers/figures/figures.hpp"
-#include "answers/verbs/aim_answer.hpp"
-#include "options/figure_options.hpp"
+#include "answers/verbs/ball_answers.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 

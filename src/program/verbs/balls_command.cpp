@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "answers/table/text_table.hpp"
+#include "answers/table/answer.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "contensou/si/catalogue.hpp"
 #include "contensou/si/run_file.hpp"

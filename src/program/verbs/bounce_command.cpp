@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "answers/verbs/bounce_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 #include "contensou/si/quantity.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"

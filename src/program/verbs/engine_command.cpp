@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/verbs/engine_answer.hpp"
+#include "answers/verbs/ball_answers.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"

@@ -1,5 +1,4 @@
 #include "embedded_page.hpp"
-#include "exit_status.hpp"
 #include "options/output_options.hpp"
 #include "verb.hpp"
 

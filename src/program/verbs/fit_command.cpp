@@ -15,9 +15,8 @@
 #include "contensou/si/motion.hpp"
 #include "contensou/si/run_file.hpp"
 #include "contensou/si/scaling.hpp"
-#include "options/bulk_options.hpp"
-#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 

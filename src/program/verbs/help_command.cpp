@@ -7,12 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "answers/asked/law_forms.hpp"
+#include "answers/asked/formula_law.hpp"
 #include "answers/table/answer.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/si/quantity.hpp"
-#include "options/bulk_options.hpp"
-#include "options/figure_options.hpp"
 #include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/help.hpp"

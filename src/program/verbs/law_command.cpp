@@ -8,10 +8,9 @@
 #include "answers/input/csv.hpp"
 #include "contensou/portraits/theory_figures.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "contensou/si/body.hpp"
-#include "contensou/si/scaling.hpp"
-#include "options/figure_options.hpp"
+#include "contensou/si/experiment.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/table/text_table.hpp"
+#include "answers/table/answer.hpp"
 #include "options/output_options.hpp"
 #include "paper/statements.hpp"
 #include "verb.hpp"

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "answers/input/load_table.hpp"
-#include "answers/verbs/ball_answer.hpp"
-#include "answers/verbs/orbit_system_answer.hpp"
+#include "answers/input/tables.hpp"
+#include "answers/verbs/ball_answers.hpp"
+#include "answers/verbs/plane_answers.hpp"
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/detail/stepped_motion.hpp"
 #include "contensou/reduction/flow.hpp"

@@ -9,11 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "answers/table/text_table.hpp"
+#include "answers/table/answer.hpp"
 #include "contensou/portraits/phase_portrait.hpp"
 #include "contensou/portraits/theory_figures.hpp"
 #include "contensou/reduction/laws.hpp"
-#include "options/figure_options.hpp"
 #include "options/output_options.hpp"
 #include "paper/statements.hpp"
 #include "platform/interruption.hpp"

@@ -12,10 +12,10 @@
 #include <Eigen/Core>
 
 #include "answers/asked/portrait_spec.hpp"
-#include "answers/verbs/phase_plane_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 #include "contensou/portraits/planar_portrait.hpp"
-#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/route_option.hpp"
 #include "options/start_options.hpp"
 #include "options/system_option.hpp"

@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include "answers/equation/equation.hpp"
-#include "answers/equation/solution.hpp"
 #include "answers/input/expression.hpp"
-#include "answers/verbs/orbit_system_answer.hpp"
-#include "answers/verbs/reduce_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 #include "contensou/portraits/reduction_figure.hpp"
-#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "options/system_option.hpp"
 #include "output/help.hpp"

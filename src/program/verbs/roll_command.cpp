@@ -4,17 +4,16 @@
 
 #include <fmt/format.h>
 
-#include "answers/input/load_table.hpp"
-#include "answers/verbs/roll_answer.hpp"
+#include "answers/input/tables.hpp"
+#include "answers/verbs/ball_answers.hpp"
 #include "contensou/portraits/roll_figure.hpp"
-#include "contensou/si/cue_strike.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/quantity.hpp"
 #include "contensou/si/scaling.hpp"
-#include "options/bulk_options.hpp"
-#include "options/figure_options.hpp"
 #include "options/instants_option.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "output/batch.hpp"
 #include "verb.hpp"

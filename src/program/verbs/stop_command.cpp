@@ -4,10 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "answers/input/load_table.hpp"
-#include "answers/verbs/stop_answer.hpp"
+#include "answers/input/tables.hpp"
+#include "answers/verbs/ball_answers.hpp"
 #include "contensou/si/scaling.hpp"
-#include "options/bulk_options.hpp"
 #include "options/law_option.hpp"
 #include "options/output_options.hpp"
 #include "options/route_option.hpp"

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/stop_time.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"

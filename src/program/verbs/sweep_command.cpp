@@ -16,11 +16,10 @@
 
 #include "contensou/portraits/stop_time_map.hpp"
 #include "contensou/si/scaling.hpp"
-#include "options/bulk_options.hpp"
-#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
-#include "output/ordered_work.hpp"
+#include "output/batch.hpp"
 #include "output/progress.hpp"
 #include "platform/output_file.hpp"
 #include "verb.hpp"

@@ -1,9 +1,9 @@
 #include <optional>
 
-#include "answers/verbs/phase_plane_answer.hpp"
+#include "answers/verbs/plane_answers.hpp"
 #include "contensou/portraits/theory_figures.hpp"
-#include "options/figure_options.hpp"
 #include "options/law_option.hpp"
+#include "options/output_options.hpp"
 #include "options/start_options.hpp"
 #include "verb.hpp"
 

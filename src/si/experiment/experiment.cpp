@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +13,63 @@
 #include "contensou/si/quantity.hpp"
 
 namespace contensou::si {
+
+double effective_modulus(const HertzModuli& moduli) {
+  const auto compliance = [&](std::size_t body) {
+    const double nu = moduli.poisson_ratio[body];
+    return (1 - nu) * (1 + nu) / moduli.youngs_modulus[body];
+  };
+  return 1 / (compliance(0) + compliance(1));
+}
+
+double hertz_patch_radius(double load, double radius, const HertzModuli& moduli) {
+  const double bend = 1 + radius / moduli.counter_radius;  // R/R'
+  if (!(bend > 0)) {
+    throw std::domain_error(fmt::format(
+        "counter_radius {} m is a dish no wider than the ball of radius {} m, which then touches it in no one "
+        "patch: below {} it is wider",
+        moduli.counter_radius, radius, -radius));
+  }
+  return std::cbrt(0.75 * load * (radius / bend) / effective_modulus(moduli));
+}
+
+double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
+                                    double pivoting_moment, double gamma) {
+  return radius * radius * deceleration / (gamma * friction * gravity * pivoting_moment);
+}
+
+Body Body::with_factor(double of_m_R2) const {
+  const bool flat = lies_flat();
+  const double most = flat ? 1 : 2.0 / 3;
+  constexpr double rounding = 1e-3;  // 0.667 is 2/3, which has no decimals that end
+  if (of_m_R2 > most && of_m_R2 <= most * (1 + rounding)) of_m_R2 = most;
+  if (!(of_m_R2 > 0 && of_m_R2 <= most)) {
+    throw std::domain_error(fmt::format(
+        "the inertia of a {}, over m R^2, must be above 0 and at most {}, as of a {} with R the radius; got {}", name,
+        flat ? "1" : "2/3", flat ? "ring" : "hollow-ball", of_m_R2));
+  }
+  Body changed = *this;
+  changed.factor = of_m_R2;
+  changed.inertia = {.chi = flat ? 1 : 1 + 1 / of_m_R2, .gamma = 1 / of_m_R2};
+  return changed;
+}
+
+std::string Body::complaint(double mu) const {
+  if (patch_ratio) return mu == *patch_ratio ? "" : "a puck rests on its whole face, so mu is 1: leave --mu out";
+  if (rolls_on_a_small_patch) return mu > 0 && mu <= 1 ? "" : "0 < mu <= 1 is required";
+  return mu > 0 ? "" : "mu > 0 is required";
+}
+
+const std::vector<Body>& bodies() {
+  static const std::vector<Body> named{
+      {},
+      {.name = "hollow-ball", .inertia = {.chi = 2.5, .gamma = 1.5}},
+      {"disc", {.chi = 1, .gamma = 2}, 1.0, false, "uniform"},
+      {"puck", {.chi = 1, .gamma = 2}, 1.0, false, "uniform"},
+      {"ring", {.chi = 1, .gamma = 1}, 1.0, false, "ring"},
+  };
+  return named;
+}
 
 static_assert(gravity.standard == Environment{}.gravity && rolling_friction.standard == 0 && slope.standard == 0);
 
@@ -202,6 +258,30 @@ void require_finite_motion(const Experiment& experiment, double braked, double l
       fmt::format("at speeds of {:.2g} (m/s, 1/s) lengths, angles or energies exceed the largest double; up to "
                   "{:.2g} is allowed",
                   speed, allowed));
+}
+
+Velocities struck(const Ball& ball, const CueStrike& strike) {
+  const auto& [speed, right, above, elevation, cue_mass] = strike;
+  const double offset = std::hypot(right, above);
+  if (ball.body.lies_flat())
+    throw std::domain_error(fmt::format(
+        "a {} lies flat and turns about the vertical only; a cue strikes balls: give slip and spin", ball.body.name));
+  if (!(speed > 0 && std::isfinite(speed)))
+    throw std::domain_error(fmt::format("a cue's speed must be positive, in m/s; got {}", speed));
+  if (!(cue_mass > 0 && std::isfinite(cue_mass)))
+    throw std::domain_error(fmt::format("a cue's mass must be positive, in kg; got {}", cue_mass));
+  if (!(elevation >= 0 && elevation < 90))
+    throw std::domain_error(fmt::format("a cue's elevation must be 0 to below 90 degrees; got {}", elevation));
+  if (!(offset <= largest_tip_offset)) {
+    throw std::domain_error(fmt::format("the tip slips off the ball {} radii from its centre: at most {} are allowed",
+                                        offset, largest_tip_offset));
+  }
+  const double gamma = ball.body.inertia.gamma;
+  const double velocity =
+      2 * speed / (1 + mass_for("a cue's stroke", ball) / cue_mass + gamma * offset * offset);  // P/m of struck
+  const double spin = gamma * velocity / ball.radius;
+  const double angle = elevation * (std::numbers::pi / 180), sine = std::sin(angle), cosine = std::cos(angle);
+  return {{velocity * cosine, 0}, {spin * right * sine, spin * above, spin * right * cosine}};
 }
 
 }  // namespace contensou::si

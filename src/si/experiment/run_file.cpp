@@ -6,10 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -18,7 +16,6 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "contensou/reduction/laws.hpp"
 #include "contensou/si/quantity.hpp"
 #include "text/nearest_name.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "contensou/si/hertz_contact.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/motion.hpp"
 
 namespace contensou::si {

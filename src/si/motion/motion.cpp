@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>

@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/detail/quadrature_curve.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "reference_table.hpp"
+#include "similarity/curves.hpp"
 #include "worst_case.hpp"
 
 using namespace contensou::reduction;

@@ -1,4 +1,4 @@
-#include "contensou/reduction/detail/pade_curve.hpp"
+#include "similarity/curves.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "contensou/reduction/detail/quadrature_curve.hpp"
+#include "similarity/curves.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 #include "constants.hpp"
-#include "contensou/reduction/detail/pade_curve.hpp"
 #include "contensou/reduction/laws.hpp"
 #include "user_laws.hpp"
 #include "worst_case.hpp"

@@ -1,7 +1,6 @@
 #include "contensou/reduction/planar_reduction.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "contensou/reduction/flow.hpp"
-#include "contensou/si/cue_strike.hpp"
 #include "contensou/si/experiment.hpp"
 
 namespace contensou::si {

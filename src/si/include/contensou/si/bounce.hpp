@@ -21,8 +21,8 @@ double drop_speed(double height, double gravity);
 /// Returns the patch radius, in m, of an elastic ball in an impact: the mean radius over the normal impulse.
 ///
 /// The mean is B(1/2, 6/5)/2 = 0.89552 (beta function B) of the largest radius a. m v^2/2 = (8/15) E* a^5/R'^2 gives a
-/// (H. Hertz, J. reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156); E* and R' as in hertz_contact.hpp. At
-/// the normal speed w v the radius is (1 - w^2)^(1/5) a, and the impulse so far is m (1 - w) v.
+/// (H. Hertz, J. reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156); E* and R' as in hertz_patch_radius.
+/// At the normal speed w v the radius is (1 - w^2)^(1/5) a, and the impulse so far is m (1 - w) v.
 ///
 /// @param mass    m, kg
 /// @param speed   v, m/s, along the normal

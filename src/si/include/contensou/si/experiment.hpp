@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,11 +11,69 @@
 #include <Eigen/Core>
 
 #include "contensou/reduction/friction_law.hpp"
-#include "contensou/si/body.hpp"
-#include "contensou/si/hertz_contact.hpp"
+#include "contensou/reduction/reduced_system.hpp"
 #include "contensou/si/spreads.hpp"
 
 namespace contensou::si {
+
+/// Elastic constants of the two bodies in contact. In each array the ball is first, the plane second.
+struct HertzModuli {
+  std::array<double, 2> youngs_modulus;  ///< Pa, > 0
+  std::array<double, 2> poisson_ratio;   ///< -1 < nu <= 1/2
+
+  /// Radius R_c of the second body at the contact, m: infinite for a plane, negative for a dish; never 0.
+  double counter_radius = std::numeric_limits<double>::infinity();
+};
+
+/// Returns E* in Pa: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+double effective_modulus(const HertzModuli& moduli);
+
+/// Returns the patch radius (m) of a ball on a plane or a sphere: eps = (3 N R'/(4 E*))^(1/3), 1/R' = 1/R + 1/R_c.
+///
+/// @param load    N, in newtons
+/// @param radius  R, m
+/// @throws std::domain_error  unless R' is positive; in a dish no wider than the ball there is no single patch
+double hertz_patch_radius(double load, double radius, const HertzModuli& moduli);
+
+/// Returns the patch radius (m) of a ball whose spin about the vertical falls at a measured rate without sliding:
+///   eps = R^2 alpha/(gamma f g Psi(0)).
+///
+/// This follows from J domega_z/dt = -f N eps Psi(0) with J = m R^2/gamma and N = m g.
+///
+/// @param radius           R, m
+/// @param deceleration     alpha, rad/s^2
+/// @param friction         f
+/// @param gravity          g, m/s^2
+/// @param pivoting_moment  Psi(0) of the law: 3 pi/16 for the exact and the Pade law, 2/3 for uniform pressure
+/// @param gamma            m R^2/J, the inertia number of the body
+double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
+                                    double pivoting_moment, double gamma = reduction::homogeneous_ball.gamma);
+
+/// An axisymmetric body.
+struct Body {
+  std::string_view name = "ball";  ///< empty for a body without a name
+  reduction::Inertia inertia = reduction::homogeneous_ball;
+  std::optional<double> patch_ratio{};  ///< patch radius/R if the body fixes it: a puck rests on its whole face
+  bool rolls_on_a_small_patch = true;   ///< true: a ball, whose mu = patch radius/R must be at most 1
+  std::string_view law = "exact";       ///< name of the friction law that follows from the body's pressure
+  std::optional<double> factor = {};    ///< moment of inertia divided by m R^2, if given (with_factor)
+
+  /// Returns true if the body turns about the vertical only, and never rolls.
+  bool lies_flat() const { return inertia.chi == 1; }
+
+  /// Returns the body with a moment of inertia of factor m R^2, about any axis of a ball or about the vertical of a
+  /// body that lies flat. R is the largest radius with mass; this bounds the factor.
+  /// @param of_m_R2  factor, above 0; at most 2/3, or 1 for a body that lies flat. A factor beyond this limit by up to
+  ///                 0.1 % is the limit, rounded
+  /// @throws std::domain_error  for any other factor
+  Body with_factor(double of_m_R2) const;
+
+  /// Returns the reason why mu is impossible for the body; empty if it is possible.
+  std::string complaint(double mu) const;
+};
+
+/// Returns all bodies that have a name.
+const std::vector<Body>& bodies();
 
 /// The mass of a ball without a given mass. Every energy computed from it is NaN. The motion needs no mass.
 inline constexpr double unknown_mass = std::numeric_limits<double>::quiet_NaN();
@@ -148,5 +207,35 @@ void require_experiment(const Experiment& experiment);
 /// @param last    last requested time, s, if any
 /// @throws std::domain_error  with the largest allowed speed in the message
 void require_finite_motion(const Experiment& experiment, double braked, double last = 0);
+
+/// Mass of a cue of 19 oz in kg.
+inline constexpr double standard_cue_mass = 0.54;
+
+/// A stroke with a cue that points along x. The tip hits the ball off its centre, as seen along the cue.
+struct CueStrike {
+  double speed;                     ///< speed of the cue, m/s, > 0
+  double right;                     ///< offset to the right of the centre, in radii of the ball
+  double above;                     ///< offset above the centre, in radii of the ball
+  double elevation;                 ///< elevation of the cue's butt in degrees, 0 <= elevation < 90
+  double mass = standard_cue_mass;  ///< mass of the cue, kg, > 0
+};
+
+/// Offset of the tip from the centre, in radii of the ball, above which the tip slips off.
+inline constexpr double largest_tip_offset = 0.5;
+
+/// Computes the velocities that a stroke gives to a ball at rest.
+///
+/// The cue is a rod of mass M and speed s at the elevation e. Its elastic impulse P acts along the cue; the tip has no
+/// friction. The cue points along d = (cos e, 0, -sin e). The tip is at r = -c d - a y + b n, with the offsets a
+/// (right), b (above) and c (along the cue), and n = (sin e, 0, cos e). For J = m R^2/gamma
+///   m V = P d,  J omega = r x P d = P (a sin e, b, a cos e).
+/// The points of contact separate as fast as they met. Therefore
+///   P = 2 m s/(1 + m/M + gamma (a^2 + b^2)/R^2).
+/// The table takes the downward part of V. The friction of the table during the impact is left out. The model is that
+/// of W. Leckie and M. Greenspan, "An event-based pool physics simulator", LNCS 4250 (2006) 247,
+/// doi:10.1007/11922155_19. Their b is measured in the vertical plane.
+///
+/// @throws std::domain_error  if a value is out of its range, or the tip slips off the ball
+Velocities struck(const Ball& ball, const CueStrike& strike);
 
 }  // namespace contensou::si

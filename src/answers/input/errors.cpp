@@ -1,11 +1,8 @@
-#include "answers/input/message.hpp"
+#include "answers/input/errors.hpp"
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <string_view>
-
-#include <fmt/format.h>
 
 namespace contensou::answers {
 

@@ -1,3 +1,5 @@
+// Limit cycles, and separatrices of equilibria whose eigenvalues are both 0: orbits by steps about a point.
+//
 // Limit cycles. A closed orbit turns about equilibria whose indices have the sum 1. Therefore it crosses a ray from one
 // of them. The return map of the ray moves the place s, at which an orbit crosses the ray, to the place P(s) after one
 // turn. A fixed point with a change of sign of ln P(s)/s is a limit cycle: stable if the sign changes from + to -.
@@ -23,7 +25,6 @@
 #include "contensou/reduction/planar_reduction.hpp"
 #include "planar/inverse_factor.hpp"
 #include "planar/region.hpp"
-#include "planar/winding.hpp"
 
 namespace contensou::reduction {
 
@@ -33,6 +34,68 @@ using std::numbers::pi;
 namespace {
 
 constexpr double rough = 1e-9;  ///< tolerance of the orbits that only show where cycles are
+
+/// The way of an orbit about a point, in steps in which neither its direction from the point nor its distance changes
+/// much. Lengths are divided by half axes of an ellipse about the point.
+class Winding {
+ public:
+  /// @param widest  largest change of the angle, and of the logarithm of the distance, in a step
+  /// @param step    time of the first step that is tried
+  /// @param least   shortest step towards a time at which the orbit has no state
+  Winding(PlanarOrbit orbit, const Vector2d& start, const Vector2d& centre, const Vector2d& half, double widest,
+          double step, double least = 0)
+      : orbit_(std::move(orbit)),
+        centre_(centre),
+        half_(half),
+        widest_(widest),
+        step_(step),
+        least_(least),
+        here_(scaled(start)) {}
+
+  /// Goes on by a step. Returns false if there is no step.
+  bool advance() {
+    for (; time_ + step_ > time_; step_ /= 2) {
+      const Vector2d next = state(time_ + step_);
+      if (!next.allFinite() && step_ < least_) return false;
+      const double turned = std::atan2(cross(here_, next), here_.dot(next));
+      const double grown = std::log(next.norm() / here_.norm());
+      if (!(std::abs(turned) < widest_ && std::abs(grown) < widest_)) continue;
+      before_ = time_;
+      time_ += step_;
+      angle_ += turned;
+      moved_ = (next - here_).norm();
+      here_ = next;
+      if (std::abs(turned) < widest_ / 3 && std::abs(grown) < widest_ / 3) step_ *= 1.5;
+      return true;
+    }
+    return false;
+  }
+
+  const PlanarOrbit& orbit() const { return orbit_; }
+  Vector2d scaled(const Vector2d& x) const { return (x - centre_).cwiseQuotient(half_); }
+  const Vector2d& here() const { return here_; }  ///< place after the last step, from the point
+  double angle() const { return angle_; }         ///< by which the direction has turned from the start on
+  double moved() const { return moved_; }         ///< length of the last step
+  double before() const { return before_; }       ///< time before the last step
+  double time() const { return time_; }
+  double step() const { return step_; }
+
+ private:
+  /// Returns the scaled state at a time; NaN if the orbit has none.
+  Vector2d state(double time) const {
+    try {
+      return scaled(orbit_.at(time));
+    } catch (const std::domain_error&) {
+      return Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  PlanarOrbit orbit_;
+  Vector2d centre_, half_;
+  double widest_, step_, least_;
+  Vector2d here_;
+  double angle_ = 0, moved_ = 0, before_ = 0, time_ = 0;
+};
 
 /// Returns the field with a limited number of values; after that many, it throws.
 SmoothField limited(const SmoothField& field, const std::shared_ptr<int>& left) {
@@ -328,6 +391,103 @@ void CycleSearch::about(const Vector2d& centre, double reach) {
   }
 }
 
+/// The fate of a motion that begins near an equilibrium.
+struct Passage {
+  enum class End { leaves, arrives, unknown } end;
+  double angle = 0;    ///< direction from the equilibrium at the end, continued over turns
+  double nearest = 1;  ///< smallest and largest distance from the equilibrium, in radii of the ellipse
+  double farthest = 1;
+};
+
+/// Follows motions from an ellipse about an equilibrium, forwards or backwards.
+class Surroundings {
+ public:
+  Surroundings(const PlanarReduction& steps, const Vector2d& centre, const Vector2d& half)
+      : steps_(steps), centre_(centre), half_(half) {}
+
+  Vector2d point(double angle) const {
+    return centre_ + half_.cwiseProduct(Vector2d(std::cos(angle), std::sin(angle)));
+  }
+
+  Passage passage(double angle) const {
+    constexpr double outside = 1.5, arrived = 1e-3, widest = 0.4, first = 0.1;
+    constexpr int most = 600;
+    Passage passage{Passage::End::unknown, angle};
+    try {
+      const Vector2d start = point(angle);
+      const double speed = steps_.field()(start).cwiseQuotient(half_).norm();
+      if (!(speed > 0)) return passage;
+      Winding winding(steps_.part_of_orbit(start), start, centre_, half_, widest, first / speed);
+      for (int i = 0; i < most && winding.advance(); ++i) {
+        const double distance = winding.here().norm();
+        passage.angle = angle + winding.angle();
+        passage.nearest = std::min(passage.nearest, distance);
+        passage.farthest = std::max(passage.farthest, distance);
+        if (distance > outside || distance < arrived) {
+          passage.end = distance < arrived ? Passage::End::arrives : Passage::End::leaves;
+          return passage;
+        }
+      }
+    } catch (const std::domain_error&) {
+      // The field has no value at the start.
+    }
+    return passage;
+  }
+
+  /// Returns the angles at which separatrices start.
+  std::vector<double> separatrices() const {
+    constexpr int count = 96, halvings = 40;
+    constexpr double apart = 1, same = 0.02;
+    constexpr auto arrives = Passage::End::arrives, leaves = Passage::End::leaves;
+    std::vector<double> found;
+    // The ellipse is not divided at the axes, because axes often are separatrices.
+    const auto angle_at = [](int i) { return 2 * pi * (i + 0.37) / count; };
+    Passage last = passage(angle_at(0));
+    for (int i = 1; i <= count; ++i) {
+      double low = angle_at(i - 1), high = angle_at(i);
+      Passage before = last, after = passage(high);
+      last = after;
+      bool arrived = before.end == arrives || after.end == arrives;
+      if (before.end == Passage::End::unknown || after.end == Passage::End::unknown) continue;
+      if (before.end == arrives && after.end == arrives) continue;
+      if (!arrived && std::abs(after.angle - before.angle) < apart) continue;
+      for (int k = 0; k < halvings; ++k) {
+        const double middle = (low + high) / 2;
+        const Passage here = passage(middle);
+        if (here.end == Passage::End::unknown) break;
+        const bool is_as_before =
+            here.end == before.end &&
+            (here.end == arrives || std::abs(here.angle - before.angle) < std::abs(here.angle - after.angle));
+        if (here.end == arrives && before.end == leaves && after.end == leaves) {
+          arrived = true;
+          low = high = middle;
+          before = after = here;
+          break;
+        }
+        (is_as_before ? low : high) = middle;
+        (is_as_before ? before : after) = here;
+      }
+      // Motions also differ where they touch the outer border; there they do not come near to the equilibrium.
+      constexpr double near = 0.3, far = 1.3;
+      const auto passes_near = [](const Passage& each) {
+        return each.end == arrives ? each.farthest < far : each.nearest < near;
+      };
+      if (!arrived || !passes_near(before) || !passes_near(after)) continue;
+      const double angle = (low + high) / 2;
+      if (!found.empty() && angle - found.back() < same) {
+        found.back() = (found.back() + angle) / 2;
+      } else {
+        found.push_back(angle);
+      }
+    }
+    return found;
+  }
+
+ private:
+  const PlanarReduction& steps_;
+  Vector2d centre_, half_;
+};
+
 }  // namespace
 
 std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equilibria& equilibria, double reach) {
@@ -368,6 +528,21 @@ bool nears(const SmoothField& field, const LimitCycle& cycle, const Vector2d& st
     // The steps do not follow the orbit so far.
   }
   return false;
+}
+
+std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, const Vector2d& centre,
+                                                     const Vector2d& sides) {
+  constexpr double tolerance = 1e-9, radius = 0.01, smaller = 0.4;
+  const PlanarReduction forth = by_steps(field, tolerance), back = forth.reversed();
+  std::vector<SeparatrixPoint> points;
+  for (const bool stable : {true, false}) {
+    const PlanarReduction& steps = stable ? forth : back;
+    const Surroundings wide(steps, centre, radius * sides), narrow(steps, centre, smaller * radius * sides);
+    const std::vector<double> angles = wide.separatrices();
+    if (narrow.separatrices().size() != angles.size()) return {};
+    for (const double angle : angles) points.push_back({wide.point(angle), stable});
+  }
+  return points;
 }
 
 }  // namespace contensou::reduction

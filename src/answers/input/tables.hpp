@@ -5,6 +5,9 @@
 #include <string_view>
 
 #include "answers/input/csv.hpp"
+#include "contensou/reduction/friction_law.hpp"
+#include "contensou/si/experiment.hpp"
+#include "contensou/si/load_history.hpp"
 
 namespace contensou::answers {
 
@@ -42,5 +45,27 @@ SiColumn require_column(const CsvReader& table, std::string_view name, std::stri
 
 /// Returns true if the unit of a column is px or px/s.
 bool is_in_pixels(const SiColumn& column);
+
+/// Reads a changing load from a CSV file with columns t (s) and load (N). Headings may name other units.
+/// @throws BadLine      if the table does not describe a load
+/// @throws FileFailure  if the file cannot be read
+si::LoadHistory read_load_history(const std::string& path);
+
+/// Throws if a changing load changes more than the time scale of a motion. This is so if the load changes the patch, or
+/// if a force is not proportional to the load.
+/// @param others  names of given options that need a constant load, between commas; empty if there are none
+/// @return  a remark on the patch, for people; empty for a body that lies flat
+/// @throws BadInput  with the reason, and the option that the user must leave out
+std::string require_load_alone(const si::Experiment& experiment, const reduction::Law& law, std::string others = "");
+
+/// Reads the law of a pressure from a CSV file with columns rho, pressure. The name of the law is the path.
+/// @throws BadLine             with file and line, if the table breaks a rule of TabulatedPressureLaw
+/// @throws std::runtime_error  with the file, as TabulatedPressureLaw
+/// @throws std::system_error   if the file cannot be read
+reduction::Law read_pressure_profile(const std::string& path);
+
+/// Reads the law from a table whose header is already read.
+/// @param name  name of the law
+reduction::Law read_pressure_profile(CsvReader& table, const std::string& name);
 
 }  // namespace contensou::answers
