@@ -195,8 +195,9 @@ void add_infinity(PanelLayers& layers, const PlanarPortrait& portrait, const Pal
   layers.panel().lines.push_back(
       {{circle(1)}, {palette.invariant, rests ? 4 : 1.6, false, rests}, rests ? "equilibria at infinity" : ""});
   const double golden = disc.onto({disc.radius, 0})[0];
-  layers.panel().lines.push_back(
-      {{circle(golden)}, {palette.theme.faint, 1.2, false, true}, "radius " + math(fmt::format("r = {:g}", disc.radius))});
+  layers.panel().lines.push_back({{circle(golden)},
+                                  {palette.theme.faint, 1.2, false, true},
+                                  "radius " + math(fmt::format("r = {:g}", disc.radius))});
   constexpr double beyond = 1.08;
   for (const int axis : {0, 1}) {
     const auto i = static_cast<std::size_t>(axis);
