@@ -36,7 +36,7 @@
 #include "contensou/si/description.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
-#include "javascript.hpp"
+#include "page/javascript.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::page {
