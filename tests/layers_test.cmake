@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Each room is followed by the rooms whose headers it may include. The page gives the program embedded_page.hpp.
-set(house reduction portraits text platform si fit answers program python page)
+set(house reduction portraits text platform si fit answers program python page javascript)
 set(reduction_uses "")
 set(portraits_uses reduction)
 set(text_uses "")
@@ -15,6 +15,7 @@ set(answers_uses reduction portraits text platform si fit)
 set(program_uses reduction portraits text platform si fit answers page)
 set(python_uses reduction portraits text si fit answers)
 set(page_uses reduction portraits text platform si fit answers)
+set(javascript_uses reduction text si page)
 
 set(faults "")
 set(odeint_allowed reduction/motion/direct_motion.cpp reduction/motion/regularised_motion.cpp reduction/planar/planar_steps.cpp src/si/motion/integrated_motion.cpp

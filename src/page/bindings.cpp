@@ -32,7 +32,7 @@
 #include "contensou/si/experiment.hpp"
 #include "contensou/si/motion.hpp"
 #include "contensou/si/scaling.hpp"
-#include "javascript.hpp"
+#include "page/javascript.hpp"
 #include "text/nearest_name.hpp"
 
 namespace contensou::page {

@@ -10,7 +10,7 @@
 #include "answers/verbs/fit_answer.hpp"
 #include "contensou/fit/fit.hpp"
 #include "contensou/si/experiment.hpp"
-#include "javascript.hpp"
+#include "page/javascript.hpp"
 
 namespace contensou::page {
 

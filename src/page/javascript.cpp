@@ -1,4 +1,4 @@
-#include "javascript.hpp"
+#include "page/javascript.hpp"
 
 #include <algorithm>
 #include <limits>
