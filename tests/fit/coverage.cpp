@@ -285,7 +285,7 @@ Fit fit_of(const RealFilm& film) {
 }  // namespace
 
 TEST_CASE("real films of a puck fit, and their widened intervals hold the truth", "[invariant]") {
-  const int films = getenv("FILMS") ? 200 : 16;
+  constexpr int films = CONTENSOU_FULL_TESTS ? 200 : 10;
   constexpr Parameter numbers[]{Parameter::friction, Parameter::slip, Parameter::spin};
   for (const double uneven : {0.0, 0.02}) {
     std::mt19937_64 random(1);
@@ -309,7 +309,7 @@ TEST_CASE("real films of a puck fit, and their widened intervals hold the truth"
       }
     }
     INFO("uneven " << uneven << ": " << fits << " fit; " << misfits);
-    CHECK(fits >= 0.97 * films);
+    CHECK(fits >= 0.98 * films);
     for (std::size_t j = 0; j < 3; ++j) {
       const double needed = 2 * 1.96 * std::sqrt(squares[j]);
       UNSCOPED_INFO(kind_of(numbers[j]).name << " held in " << held[j] << " of " << films << ", width " << widths[j]

@@ -87,8 +87,8 @@ TEST_CASE("films of other motions do not fit, or leave friction and patch radius
   }
 }
 
-TEST_CASE("a film of a puck on a part of its face proposes this patch", "[invariant]") {
-  // A puck that stands on its whole face gets no proposal.
+TEST_CASE("a film of a puck on a part of its face gives this patch, or proposes it", "[invariant]") {
+  // A puck that stands on its whole face keeps it.
   using enum Observable;
   std::mt19937_64 random(3);
   const std::vector<Seen> seen{{x, 3e-4}, {y, 3e-4}, {spin, 0.3}};
@@ -106,11 +106,17 @@ TEST_CASE("a film of a puck on a part of its face proposes this patch", "[invari
     const Track track = noisy(track_of({seen_puck, law}, ArrayXd::LinSpaced(110, 0, end), seen, false), seen, random);
     const Fit found = fit::fit({.ball = puck, .law = law, .tracks = {track}, .free = usually_free(puck)});
     INFO("film " << film << ", patch " << part);
-    CHECK(found.fits() == (part == 1));
-    REQUIRE(found.patch_seen.has_value() == (part < 1));
+    CHECK(found.fits());
+    REQUIRE(found.estimates[1].free == (part < 1));
+    Free held = usually_free(puck);
+    held.patch_if_seen = false;
+    const Fit whole = fit::fit({.ball = puck, .law = law, .tracks = {track}, .free = held});
+    REQUIRE(whole.patch_seen.has_value() == (part < 1));
     if (part == 1) continue;
-    CHECK(found.patch_seen->radius == Approx(part * puck.ball.radius).epsilon(0.02));
-    CHECK(found.patch_seen->friction == Approx(seen_puck.contact.friction).epsilon(0.02));
+    CHECK_FALSE(whole.fits());
+    CHECK(found.estimates[1].value == Approx(part * puck.ball.radius).epsilon(0.02));
+    CHECK(whole.patch_seen->radius == Approx(part * puck.ball.radius).epsilon(0.02));
+    CHECK(whole.patch_seen->friction == Approx(seen_puck.contact.friction).epsilon(0.02));
   }
 }
 
