@@ -42,21 +42,16 @@ export function stopTime(start: System & State): number;
 /** mu may be an array, too. Up to 31 of its values cost a Flow each. From 32 values on, all of them share tables, which are kept. */
 export function stopTimes(starts: Omit<System, "mu"> & { mu?: Numbers; u: Numbers; v: Numbers }): Float64Array;
 
-/** A contact patch for one time step. motion: slip vx, vy in m/s and spin in rad/s, changed already by all other forces of the step. */
+/** A contact patch for one time step. */
 export interface Contact {
   /** As in System; default exact. */
   law?: string;
+  /** Slip vx, vy in m/s and spin in rad/s, changed already by all other forces of the step. */
   motion: ArrayLike<number> & Iterable<number>;
-  /** N; for 0 or less there is no contact. */
-  load: number;
-  /** Coefficient of friction, and radius of the patch in m. */
-  friction: number;
-  radius: number;
-  /** Change of slip by a unit of impulse at the contact, 1/kg, for a ball 3.5/m; change of spin by a unit of angular impulse, 1/(kg m^2), 1/J_z. */
-  byForce: number;
-  byMoment: number;
-  /** s */
-  dt: number;
+  /** N, for 0 or less there is no contact; coefficient of friction; radius of the patch, m; time step, s. */
+  load: number; friction: number; radius: number; dt: number;
+  /** Change of slip by a unit of impulse at the contact, 1/kg, for a ball 3.5/m; change of spin by a unit of angular impulse, 1/J_z. */
+  byForce: number; byMoment: number;
 }
 /** Returns slip and spin after an implicit time step under dry friction, and mean force in N and moment in N m; times dt, they are the
  *  impulses to apply. The step never adds energy. A contact rests after it if friction can stop it within dt.

@@ -128,27 +128,21 @@ bool read_number(PyObject* given, double& to) {
   return false;
 }
 
-/// Reads the numbers of one contact: a motion in a tuple, a list or an array of doubles, then single numbers.
-/// Returns nothing if they have other types. The functions for arrays compute these, and they report wrong numbers.
+/// Reads the size - 2 arguments of one contact: a motion in a tuple, a list or an array, then single numbers. Returns
+/// nothing if they have other types. The functions for arrays compute these, and they report wrong numbers.
 template <std::size_t size>
 std::optional<Eigen::Array<double, size, 1>> one_contact(const py::args& given) {
+  PyObject* const motion = given[0].ptr();
+  const bool known = PyTuple_CheckExact(motion) || PyList_CheckExact(motion) ||
+                     Py_TYPE(motion) == py::detail::npy_api::get().PyArray_Type_;
+  if (!known || PySequence_Size(motion) != 3) return PyErr_Clear(), std::nullopt;
+  const auto speeds = py::reinterpret_steal<py::object>(PySequence_Fast(motion, ""));
   Eigen::Array<double, size, 1> numbers;
-  const py::handle motion = given[0];
-  bool read = given.size() == size - 2;
-  if (PyTuple_CheckExact(motion.ptr()) || PyList_CheckExact(motion.ptr())) {
-    read = read && PySequence_Fast_GET_SIZE(motion.ptr()) == 3;
-    for (int i = 0; read && i < 3; ++i) read = read_number(PySequence_Fast_GET_ITEM(motion.ptr(), i), numbers[i]);
-  } else if (read && Py_TYPE(motion.ptr()) == py::detail::npy_api::get().PyArray_Type_ && Numbers::check_(motion)) {
-    const auto array = py::reinterpret_borrow<Numbers>(motion);
-    read = array.ndim() == 1 && array.size() == 3;
-    if (read) std::copy_n(array.data(), 3, numbers.data());
-  } else {
-    read = false;
+  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+    PyObject* const each = i < 3 ? PySequence_Fast_GET_ITEM(speeds.ptr(), i) : PyTuple_GET_ITEM(given.ptr(), i - 2);
+    if (!read_number(each, numbers[i])) return std::nullopt;
   }
-  for (std::size_t i = 1; read && i < given.size(); ++i) {
-    read = read_number(PyTuple_GET_ITEM(given.ptr(), i), numbers[static_cast<Eigen::Index>(i) + 2]);
-  }
-  return read ? std::optional(numbers) : std::nullopt;
+  return numbers;
 }
 
 py::array_t<double> array_of(const Eigen::Vector3d& vector) { return py::array_t<double>(3, vector.data()); }
