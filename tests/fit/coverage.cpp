@@ -285,7 +285,7 @@ Fit fit_of(const RealFilm& film) {
 }  // namespace
 
 TEST_CASE("real films of a puck fit, and their widened intervals hold the truth", "[invariant]") {
-  constexpr int films = CONTENSOU_FULL_TESTS ? 200 : 10;
+  constexpr int films = CONTENSOU_FULL_TESTS ? 200 : 16;
   constexpr Parameter numbers[]{Parameter::friction, Parameter::slip, Parameter::spin};
   for (const double uneven : {0.0, 0.02}) {
     std::mt19937_64 random(1);
