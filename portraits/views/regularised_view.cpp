@@ -30,7 +30,7 @@ double regularised_time(const reduction::Flow& flow, const Instant& at, const In
     const auto& curve = *flow.solution().through(it.ln_k);
     return curve.beta_coefficient(curve.chart().coordinate(it.ln_k)) / (mu * std::abs(it.u) + it.v);
   };
-  // reduction/README.md (R7)
+  // reduction/numerics.md (R39)
   const double beta = 3 * pi / (2 * flow.system().inertia().chi) * (b_over_speed(at) - b_over_speed(start));
   return 1 + rate_at(flow.system(), mu * std::abs(start.u), start.v) * std::max(0.0, beta);
 }

@@ -1,4 +1,5 @@
-// Elementary orbit of the exact law for k <= 1, README (R12). s = k^2; s+ > 1 and s- < 0 are zeros of Phi - r k Psi:
+// Elementary orbit of the exact law for k <= 1, numerics.md (R46). s = k^2; s+ > 1 and s- < 0 are zeros of Phi - r k
+// Psi:
 //   Phi - r k Psi = (3 pi k/128) [4 (4 - s) - r (8 - 8 s + 3 s^2)] = (3 pi k/128) 3 r (s+ - s)(s - s-)
 //   w = const s^(a/2) (1 - s/s+)^(e+) (1 - s/s-)^(e-),   a = r/(2 - r),   e+, e-: exponents by partial fractions
 #include "check/hertz_inner_orbit.hpp"

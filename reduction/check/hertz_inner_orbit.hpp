@@ -3,7 +3,7 @@
 namespace contensou::reduction {
 
 /// Returns ln w along an orbit of the exact law for 0 < k <= 1, up to a constant, by elementary functions,
-/// reduction/README.md (R12).
+/// numerics.md (R46).
 ///
 /// The formula is independent of SimilarityCurve::ln_w. The constants differ, so compare differences between two k.
 ///

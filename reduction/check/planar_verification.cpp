@@ -24,7 +24,7 @@ using Eigen::Vector2d;
 namespace {
 
 // Stated errors: ten times that of states and times by quadrature (PlanarReduction), of difference quotients, and of
-// the misfit (R66) with which V is accepted, README, Any planar field.
+// the misfit (R59) with which V is accepted, reduction/planar.md.
 constexpr double quadrature_error = 1e-11;
 constexpr double quotient_error = 1e-9;
 constexpr double misfit_error = 1e-8;

@@ -154,7 +154,7 @@ class Examination {
     add("first integral along (2.6)", drift(direct), stepping);
   }
 
-  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, README (R2). Under a drive the numerator is rho + r k
+  /// Returns |d ln w/d ln k| = r k Psi/|Phi - rho - r k Psi|, theory.md (R2). Under a drive the numerator is rho + r k
   /// Psi, because steps in time give larger errors of k next to the ray, in the ratio of these numerators.
   double steepness(double ln_k) const {
     const double k = std::exp(std::clamp(ln_k, -300.0, 300.0));
@@ -305,7 +305,7 @@ double separated_slope(const ReducedSystem& system, double q) {
   if (q == 0 || !std::isfinite(q)) {
     throw std::domain_error(fmt::format("separated_slope: q must be finite and not 0, got {}", q));
   }
-  // d ln v = -(Phi - rho) ds/v and d ln k = -(Phi - rho - r k Psi) ds/v (README (R2), (R48)), and q = mu k.
+  // d ln v = -(Phi - rho) ds/v and d ln k = -(Phi - rho - r k Psi) ds/v (theory.md (R2), (R20)), and q = mu k.
   const double k = std::abs(q) / system.mu();
   const Balance balance = Balance::of(system.law(), system.r(), system.drive(), k);
   return balance.force / (q * balance.difference());

@@ -1,5 +1,6 @@
-// Notation (README (R32) to (R34)): s = rho^2. A ring has the radius a and the load dL = pressure ds. q <= 1 is the
-// smaller of k and a divided by the larger; y = 1 - q^2. The ring has the force Phi dL and the moment a Psi dL, with
+// Notation (numerics.md (R48), (R49), (R56)): s = rho^2. A ring has the radius a and the load dL = pressure ds. q <= 1
+// is the smaller of k and a divided by the larger; y = 1 - q^2. The ring has the force Phi dL and the moment a Psi dL,
+// with
 //   Phi = q A/2,  Psi = 1 - q^2 D  for k <= a;   Phi = 1 - q^2 D,  Psi = q A/2  for k >= a;   A, D: functions of y
 #include "contensou/reduction/tabulated_pressure_law.hpp"
 
@@ -99,7 +100,7 @@ class RingFunctions {
   std::vector<std::array<Values, terms>> panels_;  ///< powers of (distance from the centre)/(half width), highest first
 };
 
-/// The integrals of (R34) over rings whose radii are close to k; u = s/k^2 - 1.
+/// The integrals of (R56) over rings whose radii are close to k; u = s/k^2 - 1.
 class NearRings {
  public:
   /// Integrals over u, from 0, of Phi and of (a/k) Psi of a ring; and (again) the integrals of these integrals over u.

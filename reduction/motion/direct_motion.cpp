@@ -1,5 +1,5 @@
-// Equations in scaled units (README (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W. W is the
-// weight (16 w + 15 pi v)(8 w + 3 pi v) of (2.8).
+// Equations in scaled units (theory.md (R1)): d ln w/ds = -r Psi/w, d ln v/ds = -(Phi - rho)/v, dbeta/ds = 1/W. W is
+// the weight (16 w + 15 pi v)(8 w + 3 pi v) of (2.8).
 #include "contensou/reduction/detail/stepped_motion.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// README (R61): moving the start along (u, v) scales the motion; moving the start along the field delays the motion.
+// theory.md (R11): moving the start along (u, v) scales the motion; moving the start along the field delays the motion.
 #include "contensou/reduction/flow.hpp"
 
 #include <algorithm>

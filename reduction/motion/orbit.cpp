@@ -1,9 +1,10 @@
-// Notation (README (R1) to (R7)): w = mu |u|, s: scaled time, index 0: start; m, n, o, b and c: SimilarityCurve, at xi:
+// Notation (theory.md and numerics.md (R1) to (R4), (R32), (R39)): w = mu |u|, s: scaled time, index 0: start; m, n, o,
+// b and c: SimilarityCurve, at xi:
 //   s left    = w/(r Psi(0)) + v m                                (R4)
-//   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R5)
-//   slip left = v (v/(2 (1 - rho)) + n w)                         (R13), (R50)
-//   angle left = w (w/(2 r Psi(0)) + o v)                         (R31)
-//   beta      = (3 pi/(2 chi)) (b/(w + v) - b0/(w0 + v0))         (R7)
+//   s elapsed = (w0 - w)/(r Psi(0)) + v0 m0 - v m                 (R32)
+//   slip left = v (v/(2 (1 - rho)) + n w)                         (R30), (R26)
+//   angle left = w (w/(2 r Psi(0)) + o v)                         (R8)
+//   beta      = (3 pi/(2 chi)) (b/(w + v) - b0/(w0 + v0))         (R39)
 //   d(s left)/d xi = c (w + v)                                    (R3)
 #include "contensou/reduction/orbit.hpp"
 

@@ -88,7 +88,7 @@ PhasePlane phase_plane(const Flow& flow) {
     }
   };
 
-  // Rates by README (R16), (R17). They underflow if mu is tiny, but the orders do not.
+  // Rates by theory.md (R18), (R19). They underflow if mu is tiny, but the orders do not.
   const double sliding_rate = 2 * chi / (3 * pi);
   const double pivoting_rate = 2 * gamma * mu / (3 * pi);
   const double moment = law.pivoting_moment();

@@ -1,4 +1,4 @@
-// Equations in scaled units (README (R1)), with W = (16 w + 15 pi v)(8 w + 3 pi v), the weight of beta in (2.8):
+// Equations in scaled units (theory.md (R1)), with W = (16 w + 15 pi v)(8 w + 3 pi v), the weight of beta in (2.8):
 //   d ln w/dbeta = -W r Psi/w,  d ln v/dbeta = -W (Phi - rho)/v,  ds/dbeta = W
 #include "contensou/reduction/detail/stepped_motion.hpp"
 

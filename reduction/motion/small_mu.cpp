@@ -1,7 +1,7 @@
-// Notation (README (R21), (R23)): g = (1 - Psi/Psi(0))/Phi; m0 = first, m1 = second of the expansion. For r -> 0 the
-// equation (R19) of m becomes that of m0, and its derivative by r, (R58), that of m1:
+// Notation (theory.md (R12), (R13)): g = (1 - Psi/Psi(0))/Phi; m0 = first, m1 = second of the expansion. For r -> 0 the
+// equation (R7) of m becomes that of m0, and its derivative by r, (R35), that of m1:
 //   Phi (m0' + m0) = 1 - Psi/Psi(0),   Phi (m1' + m1) = k Psi m0',   ' = d/d ln k,   m0' = g - m0
-// The integral I of (R46) is the limit of ln w/(r Psi(0)), (R2).
+// The integral I of (R14) is the limit of ln w/(r Psi(0)), (R2).
 #include "contensou/reduction/small_mu.hpp"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State 
   return estimates;
 }
 
-/// k m0 and the integral I of (R46) for all k, and the inverse of the function k m0 + I of k, for k up to k0.
+/// k m0 and the integral I of (R14) for all k, and the inverse of the function k m0 + I of k, for k up to k0.
 class SmallMuMotion::Layer {
  public:
   Layer(const Law& law, double ln_k0) : curve_(law, vanishing_r), law_(law), ln_k0_(ln_k0), start_(at(ln_k0)) {}

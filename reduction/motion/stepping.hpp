@@ -46,8 +46,8 @@ class AsymptoticTail {
   double beta_scale_;  ///< beta since `from` is beta_scale_ (1/f - 1); f is the share left of the tail's time
 };
 
-/// The right sides of the equations of motion, README (R1), times the larger of w and v, so that no divisor vanishes.
-/// Only one division, by `larger`, remains:
+/// The right sides of the equations of motion, theory.md (R1), times the larger of w and v, so that no divisor
+/// vanishes. Only one division, by `larger`, remains:
 ///   -d ln w/ds = r of_spin/larger,   -d ln v/ds = of_slip/larger
 struct Braking {
   double larger, of_spin, of_slip;

@@ -1,4 +1,4 @@
-// README (R18): tau* = P + m(k) S = (P/|u0|) |u0| + v0 M(k), M = (S/v0) m. P/|u0| and S/v0 are constants of a system.
+// theory.md (R5): tau* = P + m(k) S = (P/|u0|) |u0| + v0 M(k), M = (S/v0) m. P/|u0| and S/v0 are constants of a system.
 #include "motion/stop_time_table.hpp"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ class Fit {
   std::array<std::array<double, Panels::terms>, Panels::terms> powers_{};
 };
 
-/// Returns m of README (R4) at k.
+/// Returns m of theory.md (R4) at k.
 double sliding_coefficient(const Flow& flow, double k) {
   const double ln_k = std::log(k);
   const auto& curve = flow.solution().through(ln_k);

@@ -9,7 +9,7 @@ namespace contensou::reduction {
 
 /// The stop times of one system for very many starts: at fixed law, mu and body
 ///   tau* = P + m(k0) S,  k0 = v0/(mu |u0|)
-/// (README (R4)), with m as a table of polynomials. For an array the cost is about that of reading and writing it.
+/// (theory.md (R4)), with m as a table of polynomials. For an array the cost is about that of reading and writing it.
 ///
 /// A start (u0, v0) has u0 of either sign and v0 >= 0, both of any size. A stop time above all doubles is infinity.
 /// A start that Flow::stop_time rejects becomes NaN.
@@ -18,7 +18,7 @@ namespace contensou::reduction {
 /// panel is above 4 eps, the flow computes all starts of this panel one by one. The flow computes all starts if P/|u0|
 /// or S/v0 of the system is above 2^100 or below 2^-100.
 ///
-/// Source    README (R18): m from the flow's curves.
+/// Source    theory.md (R5): m from the flow's curves.
 /// Accuracy  4 eps relative, plus the error of the curve.
 /// Cost      10 ms to make; then 3 ns a start in an array (AVX2; 6 ns without), 20 ns for a single start.
 /// Bits      equal for one start and for many, for any division of the starts into arrays and threads.

@@ -1,5 +1,5 @@
-// Notation (README (R18), (R50), (R58)): tau* = P + m S, y = m k/(1 + k), s = w/(r Psi(0)) + (w + v) y (tau* scaled).
-// A function f(k, r) is interpolated at Chebyshev's points r_j:  f = sum_j l_j(r) f_j(k)
+// Notation (theory.md and numerics.md (R5), (R26), (R35)): tau* = P + m S, y = m k/(1 + k), s = w/(r Psi(0)) + (w + v)
+// y (tau* scaled). A function f(k, r) is interpolated at Chebyshev's points r_j:  f = sum_j l_j(r) f_j(k)
 #include "contensou/reduction/detail/stop_times_of_mu.hpp"
 
 #include <algorithm>

@@ -27,7 +27,7 @@ struct Place {
   double error;
 };
 
-/// The rates R and T of README (R42) beside a direction, on one side, as functions of the angle z > 0 from it (R62).
+/// The rates R and T of planar.md (R64) beside a direction, on one side, as functions of the angle z > 0 from it (R65).
 /// The leading orders come from a series through samples, in powers of z, of its square root or of its cube root,
 /// poles included. If no series converges, the orders are slopes of logarithms. These slopes must agree at several
 /// distances.

@@ -1,6 +1,6 @@
-// V as a formula. The functions of V's form have names. The null vectors of README (R64) in these functions
+// V as a formula. The functions of V's form have names. The null vectors of planar.md (R57) in these functions
 // are brought to row echelon form. The entries are rational if V has rational coefficients. They are rounded to
-// fractions, and the misfit (R66) is computed with the fractions.
+// fractions, and the misfit (R59) is computed with the fractions.
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
@@ -212,7 +212,7 @@ Functions terms_of(FactorForm form) {
   };
 }
 
-/// Returns the rows of V's equation (R64) in these functions, scaled as in the misfit (R66).
+/// Returns the rows of V's equation (R57) in these functions, scaled as in the misfit (R59).
 MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
   MatrixXd rows(std::ssize(samples.points), functions(samples.points[0], samples.jets[0]).rows());
   for (Index k = 0; k < rows.rows(); ++k) {
@@ -223,7 +223,7 @@ MatrixXd rows_of(const Functions& functions, const FieldSamples& samples) {
   return rows;
 }
 
-/// Returns the combination with rational coefficients and the fewest functions that satisfies V's equation (R64).
+/// Returns the combination with rational coefficients and the fewest functions that satisfies V's equation (R57).
 std::optional<Coefficients> null_combination(const Functions& functions, const FieldSamples& samples) {
   MatrixXd rows = rows_of(functions, samples);
   VectorXd sizes = VectorXd::Zero(rows.cols());

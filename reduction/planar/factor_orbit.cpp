@@ -1,6 +1,6 @@
-// An orbit of f = (F, G) is a level line of H, dH = (F dv - G du)/V, computed part by part, README (R67), (R68). There
-// are no steps in time. A part is a curve w(s): one coordinate w as a function of the other, s, moved onto the level by
-// Newton's method. The time is the integral of ds/F (ds/G if s is v).
+// An orbit of f = (F, G) is a level line of H, dH = (F dv - G du)/V, computed part by part, planar.md (R60), (R61).
+// There are no steps in time. A part is a curve w(s): one coordinate w as a function of the other, s, moved onto the
+// level by Newton's method. The time is the integral of ds/F (ds/G if s is v).
 #include "planar/inverse_factor.hpp"
 
 #include <algorithm>
@@ -630,7 +630,8 @@ class Follower {
   }
 
   /// Finds the coordinate w (across) at the points of a panel of s (along). q approximates dw/ds. Along w = w_0 +
-  /// integral of q ds, H changes by the integral of (q - G/F) F/V ds, and dH/dw = F/V. Newton's method, README (R67).
+  /// integral of q ds, H changes by the integral of (q - G/F) F/V ds, and dH/dw = F/V. Newton's method, planar.md
+  /// (R60).
   std::optional<Panel> solve(int along, double length, const Jet& start) {
     const int across = 1 - along;
     // Along a switching curve the rounding of its function is that of the largest coordinates.

@@ -1,6 +1,6 @@
 // The equations of motion (2.6) as a planar system with the scaling X = t d/dt + u d/du + v d/dv.
 //
-// First integral: ln |u| - ln w(k) of the flow and p - L(q) of README (R42) are constant along orbits, and exp(s X)
+// First integral: ln |u| - ln w(k) of the flow and p - L(q) of planar.md (R64) are constant along orbits, and exp(s X)
 // adds s to both. Therefore their difference is the same on an orbit and on its copies. All orbits of a sector are
 // copies of one orbit, so the two first integrals differ by a constant in each sector.
 #include <algorithm>

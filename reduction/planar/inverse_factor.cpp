@@ -1,7 +1,7 @@
-// The equation of V, README (R64), in a basis of functions: f . grad V - V div f = 0, one row for each point.
+// The equation of V, planar.md (R57), in a basis of functions: f . grad V - V div f = 0, one row for each point.
 //   If [X, f] = g f for a generator X of the orbits (g a function), f ^ X is a solution: areas grow at the rate div f.
 // Rows are divided by |F|/radius + |G|/radius + |div f|, with f = (F, G), and the basis is made orthonormal over the
-// points. Then the singular values are the misfits (R66) of all V of the form. The terms of f . grad V are not used for
+// points. Then the singular values are the misfits (R59) of all V of the form. The terms of f . grad V are not used for
 // this division, because they vanish for V = 1 and a conservative field.
 #include "planar/inverse_factor.hpp"
 

@@ -44,7 +44,8 @@ struct Box {
   Eigen::Vector2d inside(const Eigen::Vector2d& x) const { return (x - centre).cwiseQuotient(radii); }
 };
 
-/// Returns the weight w of README (R66) for f = (F, G): 1/(|F|/radius + |G|/radius + |div f|), or 0 if it is infinite.
+/// Returns the weight w of planar.md (R59) for f = (F, G): 1/(|F|/radius + |G|/radius + |div f|), or 0 if it is
+/// infinite.
 double weight(const Box& box, const Jet& jet);
 
 /// Returns the box about x in which V is fitted.
@@ -80,7 +81,7 @@ class InverseFactor {
   /// @param jet  jet.slopes is used only for the derivatives of an affine form, jet.basis only for the form `basis`
   Value operator()(const Eigen::Vector2d& x, const Jet& jet) const;
 
-  /// Returns the misfit (R66) at one point, but divided by V at this point, not by the mean square of V over the box.
+  /// Returns the misfit (R59) at one point, but divided by V at this point, not by the mean square of V over the box.
   double residual(const Eigen::Vector2d& x, const Jet& jet) const;
 
   /// f . grad V - V div f, and the sum of the sizes of its terms and of the terms of V and div f. Not for a product.
@@ -114,7 +115,7 @@ struct FieldSamples {
   Jet centre;
   std::vector<Eigen::Vector2d> points = {};
   std::vector<Jet> jets = {};
-  double error = 0;  ///< error of the derivatives, relative to the divisor of the misfit (R66)
+  double error = 0;  ///< error of the derivatives, relative to the divisor of the misfit (R59)
 
   int fitted() const { return static_cast<int>(points.size()) * 8 / 13; }
 };

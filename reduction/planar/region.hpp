@@ -15,7 +15,7 @@ struct Onward;
 /// The part of the plane about an orbit in which no switching function of a field changes its sign, and the field
 /// there, continued smoothly beyond the border of this part. Orbits are computed region by region, so that no step or
 /// series crosses a jump or a kink. A part of a switching curve along which motions slide is a region, too; its field
-/// is Filippov's convex combination, README (R69).
+/// is Filippov's convex combination, planar.md (R62).
 class Region {
  public:
   /// @param x    point of the orbit, perhaps on a border

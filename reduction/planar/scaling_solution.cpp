@@ -72,7 +72,7 @@ struct StripPlace {
   double radial = 0;  ///< R; used only without a strip
 };
 
-/// The solution by a scaling: README (R42) to (R45).
+/// The solution by a scaling: planar.md (R64), (R66), (R67), (R69).
 struct ScalingSolution final : SectionSolution, std::enable_shared_from_this<ScalingSolution> {
   ScalingSolution(SmoothField given, const Generator& generator, const Vector2d& around, double given_noise);
 
@@ -164,7 +164,7 @@ void ScalingSolution::leave_doubtful_open() {
 }
 
 /// Returns R of the motion along a direction on which orbits of one side or both arrive in finite time, by Filippov's
-/// convex combination (R69): T of the combination is 0. Empty if an orbit leaves the direction or can cross it.
+/// convex combination (R62): T of the combination is 0. Empty if an orbit leaves the direction or can cross it.
 std::optional<double> ScalingSolution::slide_along(const Direction& end) const {
   const auto comes = [](const Approach& side) { return side.regular() && side.angular().factor < 0; };
   // Orbits beside a ray of this side need for ever to leave it.

@@ -12,7 +12,7 @@ namespace contensou::reduction {
 /// Returns the value of a field; empty if the field has no value at x.
 std::optional<Eigen::Vector2d> value_of(const PlanarField& field, const Eigen::Vector2d& x);
 
-/// The field f on the section, the closed curve x_0 + S n(q), which the scaling moves over the plane (README (R42)).
+/// The field f on the section, the closed curve x_0 + S n(q), which the scaling moves over the plane (planar.md (R64)).
 class SectionField {
  public:
   /// The rates p' = R (radial) and q' = T (angular) of the canonical coordinates in the time sigma.

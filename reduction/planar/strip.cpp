@@ -1,5 +1,5 @@
-// Notation (README (R42) to (R44)): p' = R, q' = T in sigma, dt = exp(c p) dsigma; xi falls at a rate s >= 0. p = L(xi)
-// on one orbit; exp(c p) M(xi) is the time left:   dL/dxi = -R/s,   s dM/dxi - c R M = 1
+// Notation (planar.md (R64), (R66), (R67)): p' = R, q' = T in sigma, dt = exp(c p) dsigma; xi falls at a rate s >= 0. p
+// = L(xi) on one orbit; exp(c p) M(xi) is the time left:   dL/dxi = -R/s,   s dM/dxi - c R M = 1
 #include "planar/strip.hpp"
 
 #include <algorithm>
@@ -78,7 +78,8 @@ bool Strip::joins_ray() const {
   return !closed() && to_->ray() && to_->radial().order == 0 && to_->angular().order < 1;
 }
 
-/// Returns M, time left divided by exp(c p), at the first edge (README (R63)). Below this edge M is a power of exp(xi).
+/// Returns M, time left divided by exp(c p), at the first edge (planar.md (R68)). Below this edge M is a power of
+/// exp(xi).
 double Strip::first_time() {
   if (!to_->decided()) return 0;
   const double c = field_->time_degree(), a = to_->angular().order, b = to_->radial().order;

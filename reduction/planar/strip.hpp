@@ -11,7 +11,7 @@
 
 namespace contensou::reduction {
 
-/// Thrown if T of README (R42) changes its sign within a sector, or if within a turn T is 0 up to its errors.
+/// Thrown if T of planar.md (R64) changes its sign within a sector, or if within a turn T is 0 up to its errors.
 struct MissedRay {
   Eigen::Vector2d n;
   bool crossed;  ///< true: T has the other sign at n; false: T is 0 up to its errors

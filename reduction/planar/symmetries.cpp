@@ -1,4 +1,4 @@
-// The determining equations of X = c t d/dt + (A x + b) . d/dx, README (R41):
+// The determining equations of X = c t d/dt + (A x + b) . d/dx, planar.md (R63):
 //   A f - Df (A x + b) - c f = 0,   unknowns (A11, A12, A21, A22, b1, b2, c)
 #include "contensou/reduction/symmetries.hpp"
 

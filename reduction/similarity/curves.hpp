@@ -11,8 +11,9 @@ namespace contensou::reduction {
 
 /// The similarity curve of the Pade law in closed form: powers and one Gauss hypergeometric function.
 ///
-/// Source    README (R8) for the orbit, (R9) for the time (it completes the solution begun by V. F. Zhuravlev, 1998),
-///           (R27) to (R30) for the numerics, (R11) for the regularised time, (R14) for slip and angle.
+/// Source    numerics.md (R40) for the orbit, (R41) for the time (it completes the solution begun by V. F. Zhuravlev,
+/// 1998),
+///           (R44), (R45), (R54), (R55) for the numerics, (R43) for the regularised time, (R42) for slip and angle.
 /// Accuracy  sliding_coefficient, slip_length_coefficient, angle_coefficient and beta_coefficient about 5 eps relative;
 ///           ln_w eps (|ln w| + r) absolute.
 class PadeCurve final : public SimilarityCurve {
@@ -44,20 +45,20 @@ class PadeCurve final : public SimilarityCurve {
  private:
   double A_, B_, a_, e_;
   double log_ratio_;           ///< ln(B/A)
-  double half_beta_;           ///< integral of (R11) from 1/2 to 1
-  double sliding_connection_;  ///< constant of (R30) for the sliding coefficient m
-  double angle_connection_;    ///< constant of (R30) for the angle coefficient o
+  double half_beta_;           ///< integral of (R43) from 1/2 to 1
+  double sliding_connection_;  ///< constant of (R55) for the sliding coefficient m
+  double angle_connection_;    ///< constant of (R55) for the angle coefficient o
 
-  /// Terms 2, 3, ... of the integral from x = B k/(A + B k) to 1/2 in (R11): x^a far_beta_ - sum beta_terms_[n] x^n.
+  /// Terms 2, 3, ... of the integral from x = B k/(A + B k) to 1/2 in (R43): x^a far_beta_ - sum beta_terms_[n] x^n.
   std::array<double, terms> beta_terms_{};
   double far_beta_ = 0;
 };
 
-/// The similarity curve of any friction law, by quadrature of the separated equation (README (R2)).
+/// The similarity curve of any friction law, by quadrature of the separated equation (theory.md (R2)).
 ///
 /// A stop time needs the sliding coefficient m alone. m is found as a function of ln k, from the stop outwards
 /// (RegularSolution). The other functions of SimilarityCurve are found at their first use: n, o and b like m; ln w and
-/// c as functions of xi by (R26). The range of k is cut into panels. On each panel the equation is solved as a Legendre
+/// c as functions of xi by (R53). The range of k is cut into panels. On each panel the equation is solved as a Legendre
 /// series through Gauss points. Panels meet at the law's kinks and are halved until the series converge. They reach
 /// from k = 4e-18 to 1e19; beyond, limits are exact to the last bit. Panels towards a ray end where Phi - r k Psi is
 /// only rounding.

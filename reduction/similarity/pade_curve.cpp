@@ -1,7 +1,7 @@
-// Notation (README (R28) to (R30)), with p = lambda and q = Q:
-//   G = 1/(1 + X), X = a_1/(b_1 + a_2/(b_2 + ...)), b_n = 1 + n p                    (R29)
-//   eta = 1/(p + T), y = p eta, d = q - 1                                             (R30)
-// Notation (README (R8) to (R14)):
+// Notation (numerics.md (R45), (R54), (R55)), with p = lambda and q = Q:
+//   G = 1/(1 + X), X = a_1/(b_1 + a_2/(b_2 + ...)), b_n = 1 + n p                    (R54)
+//   eta = 1/(p + T), y = p eta, d = q - 1                                             (R55)
+// Notation (numerics.md (R40) to (R43)):
 //   A = 8 (2 - r), B = 3 pi (5 - r), a = r/(2 - r), e = r/(5 - r), b = a - e
 //   x = B k/(A + B k), y = 1 - x = A/(A + B k), z = ln(x/y) = ln k + ln(B/A)
 #include "similarity/curves.hpp"
@@ -18,7 +18,7 @@
 
 namespace contensou::reduction {
 
-/// A function of the ratio k under the Pade law that is a hypergeometric function: m of README (R4) or o of (R31).
+/// A function of the ratio k under the Pade law that is a hypergeometric function: m of theory.md (R4) or o of (R8).
 ///
 ///   value = end + (begin - end) G,   G = 2F1(1, q; 1 + 1/p; -T/p)
 struct PadeRelaxation {
@@ -27,13 +27,13 @@ struct PadeRelaxation {
   double p;           ///< lambda > 0
   double q;           ///< Q, 1 to 3/2
   double excess;      ///< 1 - p q >= 0, accurate to its own last digit
-  double T;           ///< p zeta >= 0, with zeta of (R28)
-  double connection;  ///< [lnGamma(P) + lnGamma(1 - d) - lnGamma(P - d)]/d - ln P of (R30),  P = 1/p, d = q - 1
+  double T;           ///< p zeta >= 0, with zeta of (R45)
+  double connection;  ///< [lnGamma(P) + lnGamma(1 - d) - lnGamma(P - d)]/d - ln P of (R55),  P = 1/p, d = q - 1
 };
 
 /// Returns the value.
 ///
-/// Source    README (R29) to (R30).
+/// Source    numerics.md (R54), (R55).
 /// Accuracy  5 ulp.
 double value(const PadeRelaxation& at);
 
@@ -42,7 +42,7 @@ double expm1_over(double d, double t);
 
 namespace {
 
-/// Returns the number of pairs of (R29) by the faster of two rates of convergence. The error of m is then below eps/8.
+/// Returns the number of pairs of (R54) by the faster of two rates of convergence. The error of m is then below eps/8.
 int pairs_of_fraction(double p, double T) {
   // The first rate is tabulated for T/p < 3.
   if (T < 0.015625 * p) return 4;
@@ -56,7 +56,7 @@ int pairs_of_fraction(double p, double T) {
   return 1 + static_cast<int>(std::min(by_distance, by_scale) / 2);
 }
 
-/// Evaluates the continued fraction (R29) from a depth below which the rest is negligible. Only one division is needed,
+/// Evaluates the continued fraction (R54) from a depth below which the rest is negligible. Only one division is needed,
 /// because the fraction from depth n on is N_n/N_(n+1). All terms are positive, so nothing cancels.
 double by_fraction(const PadeRelaxation& at) {
   const int pairs = pairs_of_fraction(at.p, at.T);
@@ -81,7 +81,7 @@ double by_fraction(const PadeRelaxation& at) {
                         : at.end + (at.begin - at.end) * (first / (first + second));
 }
 
-/// Evaluates the series (R30) in y. Two of its terms, which are infinite at Q = 1, are combined.
+/// Evaluates the series (R55) in y. Two of its terms, which are infinite at Q = 1, are combined.
 double by_series(const PadeRelaxation& at) {
   const auto& [begin, end, p, q, excess, T, connection] = at;
   const double eta = 1 / (p + T);
@@ -224,7 +224,7 @@ double PadeCurve::beta_coefficient(double ln_k) const {
       ln_k > 0 ? A_ * (1 + std::exp(-ln_k)) / (B_ + A_ * std::exp(-ln_k)) : at.y * (1 + std::exp(ln_k));
   if (at.y <= 0.5) return bounded / (3 * pi * A_ * (e_ + 1)) * gauss_series(1 - b(), e_ + 2, at.y);
 
-  // (R11): x^a times the integral of t^(-a-1) (1-t)^e, from x to 1/2 term by term, then from 1/2 to 1. The integrals of
+  // (R43): x^a times the integral of t^(-a-1) (1-t)^e, from x to 1/2 term by term, then from 1/2 to 1. The integrals of
   // the terms t^-a and (for r near 1) t^(1-a) are powers that can come close to a logarithm.
   const double to_half = -std::numbers::ln2 - at.ln_x;
   const double x_to_a = std::exp(a_ * at.ln_x);

@@ -1,4 +1,5 @@
-// Notation (README (R1) to (R7), (R26)): w = mu |u|, k = v/w, D = Phi - rho - r k Psi, ' = d/dxi, q = (ln k)'/D > 0;
+// Notation (theory.md and numerics.md (R1) to (R4), (R32), (R39), (R53)): w = mu |u|, k = v/w, D = Phi - rho - r k Psi,
+// ' = d/dxi, q = (ln k)'/D > 0;
 //   (ln w)' = r k Psi q
 //   c = k q/(1 + k)
 #include "similarity/curves.hpp"

@@ -1,5 +1,5 @@
-// Notation (README (R19), (R31), (R49), (R50)): z = +- ln k with the sign by which z grows away from the stop; k = v/w,
-// F = Phi - rho, D = F - r k Psi, |D| = +- D:
+// Notation (theory.md (R7), (R8), (R25), (R26)): z = +- ln k with the sign by which z grows away from the stop; k =
+// v/w, F = Phi - rho, D = F - r k Psi, |D| = +- D:
 //   |D| dm/dz + F m               = 1 - Psi/Psi(0)
 //   |D| dn/dz + (F + r k Psi) n   = k (1 - Phi)/(1 - rho)
 //   |D| do/dz + (F + r k Psi) o   = 1 - Psi/Psi(0)

@@ -86,35 +86,35 @@ std::vector<TerminalChart> charts_of(const TerminalRatios& ratios);
 /// return m, n and o times k/(1 + k).
 bool reaches_rest(const TerminalChart& chart, double drive);
 
-/// Solves the equation of m with any right side, also that of a derivative of m by r or rho, README (R58).
+/// Solves the equation of m with any right side, also that of a derivative of m by r or rho, numerics.md (R35).
 /// @param source   right side at k; if to_rest is true, the right side of the product
 /// @param to_rest  true to solve for k/(1 + k) times m or times its derivative
 RegularSolution sliding_equation(const Law& law, double r, const TerminalChart& chart, double drive, bool to_rest,
                                  const std::function<double(double k)>& source);
 
-/// Returns m of README (R4) between two neighbours among 0, the invariant rays and infinity. m is regular at the limit
-/// of k. If reaches_rest is true, the result is m k/(1 + k).
+/// Returns m of theory.md (R4) between two neighbours among 0, the invariant rays and infinity. m is regular at the
+/// limit of k. If reaches_rest is true, the result is m k/(1 + k).
 ///
 /// @param chart  chart along which Phi - rho - r k Psi does not change its sign
 /// @throws std::domain_error  if this sign changes, or unless r > 0
 RegularSolution sliding_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// Returns ds/dv of README (R57) along the same chart; s is the scaled stop time.
+/// Returns ds/dv of numerics.md (R34) along the same chart; s is the scaled stop time.
 RegularSolution by_sliding_speed(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// Returns ds/dw of README (R57) along the part of the chart from k to infinity, where Phi > rho.
+/// Returns ds/dw of numerics.md (R34) along the part of the chart from k to infinity, where Phi > rho.
 /// @param chart  chart that reaches infinity
 /// @param start  value at k, if the solution begins at k; if empty, the solution is regular at its beginning
 RegularSolution by_pivoting_speed(const Law& law, double r, const TerminalChart& chart, double drive, double k,
                                   std::optional<double> start);
 
-/// Returns n/(1 + k) along the same chart, n of (R13) and (R50). If reaches_rest, the result has the factor k/(1 + k).
+/// Returns n/(1 + k) along the same chart, n of (R30) and (R26). If reaches_rest, the result has the factor k/(1 + k).
 RegularSolution slip_length_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// Returns o of (R31) along the same chart. If reaches_rest is true, the result has the factor k/(1 + k).
+/// Returns o of (R8) along the same chart. If reaches_rest is true, the result has the factor k/(1 + k).
 RegularSolution angle_solution(const Law& law, double r, const TerminalChart& chart, double drive);
 
-/// The function b of (R7) along the same chart. In the equation of b, D has the opposite sign. Therefore b is solved
+/// The function b of (R39) along the same chart. In the equation of b, D has the opposite sign. Therefore b is solved
 /// from the far end towards the stop, and b is regular at the far end.
 class BetaSolution {
  public:

@@ -1,4 +1,5 @@
-// Notation (README (R10), (R57), (R58)): F = Phi - rho, D = F - r k Psi, ' = d/d ln k, s = w/(r Psi(0)) + m v
+// Notation (theory.md and numerics.md (R10), (R34), (R35)): F = Phi - rho, D = F - r k Psi, ' = d/d ln k, s = w/(r
+// Psi(0)) + m v
 //   ds/dv = m + m',  ds/dw = 1/(r Psi(0)) - k m' = 1/(r Psi(0)) + k (m - ds/dv),  m' = (Delta - F m)/D
 #include "similarity/sliding_derivatives.hpp"
 

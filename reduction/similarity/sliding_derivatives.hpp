@@ -14,9 +14,9 @@ namespace contensou::reduction {
 
 /// The derivatives of the scaled stop time s along one chart.
 ///
-/// The derivatives by the speeds are algebraic in m, README (R10). This formula loses its digits next to a ray, and in
-/// a fast slide for the derivative by w. In these cases, and under a drive unless the law's slopes are differences,
-/// equation (R57) is solved. The derivatives by r and rho need one equation each, (R58).
+/// The derivatives by the speeds are algebraic in m, theory.md (R10). This formula loses its digits next to a ray, and
+/// in a fast slide for the derivative by w. In these cases, and under a drive unless the law's slopes are differences,
+/// equation (R34) is solved. The derivatives by r and rho need one equation each, (R35).
 class SlidingDerivatives {
  public:
   /// @throws std::domain_error  as sliding_solution
@@ -61,7 +61,7 @@ class SlidingDerivatives {
   /// @param k_m  the product k m, which has a limit at k = 0
   BySpeeds by_speeds(const Place& place, double m, double k_m) const;
 
-  /// Returns true if ds/dv follows from m. Slopes by differences are wrong next to a kink, and (R57) needs slopes.
+  /// Returns true if ds/dv follows from m. Slopes by differences are wrong next to a kink, and (R34) needs slopes.
   bool is_algebraic(const Place& place) const;
 
   /// Returns m_ divided by m: k/(1 + k), or 1.
@@ -82,7 +82,7 @@ class SlidingDerivatives {
   std::optional<RegularSolution> by_w_;
 };
 
-/// Returns the gradient of a stop time, README (R10).
+/// Returns the gradient of a stop time, theory.md (R10).
 /// @param start     a state
 /// @param tau       its stop time
 /// @param off_axes  returns the derivatives of the scaled stop time at k; called only for starts off the axes

@@ -22,7 +22,7 @@ inline double net_force(const Law& law, Slip slip, double sliding, double drive)
   return by_deficit(law, drive) ? (1 - drive) - law.force_deficit(slip) : sliding - drive;
 }
 
-/// D = Phi - rho - r k Psi of README (R2) and (R49), as a difference of two accurate numbers. If D > 0, k falls.
+/// D = Phi - rho - r k Psi of theory.md (R2) and (R25), as a difference of two accurate numbers. If D > 0, k falls.
 struct Balance {
   double slows;            ///< first number: Phi, or 1 - rho if by_deficit
   double speeds;           ///< second number: rho + r k Psi, or (1 - Phi) + r k Psi if by_deficit

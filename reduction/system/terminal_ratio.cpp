@@ -1,4 +1,5 @@
-// Notation (README (R2)): x = ln k; E = slows/speeds - 1 (Balance) has the sign of Phi - rho - r k Psi. E > 0: k falls.
+// Notation (theory.md (R2)): x = ln k; E = slows/speeds - 1 (Balance) has the sign of Phi - rho - r k Psi. E > 0: k
+// falls.
 #include "contensou/reduction/reduced_system.hpp"
 
 #include <algorithm>

@@ -13,8 +13,8 @@ namespace contensou::fit {
 ///
 ///   V = v0 + W0 - (v0 - v)/chi - rho T, with the slip v0 and the rolling W0 at the start.
 /// For a ball without rolling friction the orbit contains only the change of V by the slip, -(v0 - v)/chi.
-/// A ball with rolling friction u_r that turns about a horizontal axis has the drive rho = u_r/f (reduction/README.md,
-/// (R53)); its rolling is V - v. After the rolling has come to 0, rolling resistance holds the ball: it slides like a
+/// A ball with rolling friction u_r that turns about a horizontal axis has the drive rho = u_r/f (reduction/theory.md,
+/// (R21)); its rolling is V - v. After the rolling has come to 0, rolling resistance holds the ball: it slides like a
 /// puck, with chi = 1 and without a drive. After slip and spin have ended, the ball rolls on, slower and slower, and
 /// comes to rest.
 ///

@@ -18,7 +18,7 @@ PADE, EXACT = (ct.Flow(mu=MU, law=law) for law in ("pade", "exact"))
 
 
 def by_2f1():
-    """The Pade law's closed form, reduction/README.md (R9), by SciPy's 2F1."""
+    """The Pade law's closed form, reduction/numerics.md (R41), by SciPy's 2F1."""
     r = 5 / 7 * MU**2
     a, e = r / (2 - r), r / (5 - r)
     grown = 3 * math.pi * (5 - r) * V / (MU * U)

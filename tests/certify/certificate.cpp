@@ -1,4 +1,4 @@
-// Notation, (R27) to (R29) of reduction/numerics.md: r = gamma mu^2/chi, z = (3 pi/8) k,
+// Notation, (R44), (R45), (R54) of reduction/numerics.md: r = gamma mu^2/chi, z = (3 pi/8) k,
 //   G = G(p, q; T), m = end + (begin - end) G;  each value is a ball: a number and a radius that covers every error.
 #include "certificate.hpp"
 
@@ -72,7 +72,7 @@ thread_local slong Ball::precision = 128;
 constexpr slong wanted_bits = 90;
 constexpr slong max_bits = 1 << 16;
 
-/// The numbers of (R28) in ball arithmetic. begin is m at T = 0, end is m at T = infinity; both are exact, or 5/r.
+/// The numbers of (R45) in ball arithmetic. begin is m at T = 0, end is m at T = infinity; both are exact, or 5/r.
 struct Relaxation {
   Ball begin, end, p, q, excess, T;
 };
@@ -111,7 +111,7 @@ Relaxation relaxation(const ReducedSystem& system, State start) {
   return {ray, 2.5, p, Ball(-2) * chi / alpha, Ball(-5) * alpha / (Ball(3) * g), alpha * distance / z};
 }
 
-/// Returns G by the continued fraction (R29). All its terms are positive. Therefore the first two approximations of the
+/// Returns G by the continued fraction (R54). All its terms are positive. Therefore the first two approximations of the
 /// omitted part enclose this part, and every later step keeps the enclosure.
 Ball by_fraction(const Relaxation& at) {
   const auto b = [&](slong n) { return Ball(1) + at.p * static_cast<double>(n); };

@@ -5,7 +5,7 @@
 namespace contensou::reduction {
 
 /// Returns a proved bound of the error of a stop time under the Pade law, in units in the last place of the true value.
-/// The closed form (R28) is evaluated in ball arithmetic, in which every term is enclosed. The doubles of the input
+/// The closed form (R45) is evaluated in ball arithmetic, in which every term is enclosed. The doubles of the input
 /// count as exact numbers.
 ///
 /// @param tau   stop time to be judged; infinity counts as 2^1024

@@ -67,7 +67,7 @@ TEST_CASE("In the view of beta each state of an orbit has its beta, as its axis 
     REQUIRE(told["beta"].size() == static_cast<std::size_t>(orbit.rows()));
     CHECK(told["beta"][0] == 0);
     CHECK(told["beta"].back() == "inf");
-    // The axis of the view shows 1 + (40 mu^3 |u0| + 105 pi v0) beta, from (R7) of reduction/numerics.md.
+    // The axis of the view shows 1 + (40 mu^3 |u0| + 105 pi v0) beta, from (R39) of reduction/numerics.md.
     const double rate = 40 * 0.027 * std::abs(orbit.u[0]) + 105 * 3.141592653589793 * orbit.v[0];
     for (Eigen::Index i = 0; i + 1 < orbit.rows(); ++i) {
       const double beta = told["beta"][static_cast<std::size_t>(i)];

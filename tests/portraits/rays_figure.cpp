@@ -68,7 +68,7 @@ TEST_CASE("with a drive rays are drawn where terminal_ratios finds them", "[rout
       for (const Arrows& heads : figure.panels[1].arrows) {
         for (const Arrow& head : heads.arrows) CHECK(head.at.y * head.direction.x < 0);
       }
-      // The lines show m over v, for u = 1. The stop time is P + m S, (R18) of reduction/README.md.
+      // The lines show m over v, for u = 1. The stop time is P + m S, (R5) of reduction/theory.md.
       const Lines* of_r = lines_of(figure.panels[2], math("r = 0.5"));
       REQUIRE(of_r != nullptr);
       const reduction::ReducedSystem system(law, 1, {.chi = 1, .gamma = 0.5}, drive);

@@ -1,4 +1,4 @@
-// Tests the search for the start that has a given result: (R59) and (R60) of reduction/numerics.md.
+// Tests the search for the start that has a given result: (R36) and (R37) of reduction/numerics.md.
 #include <cmath>
 #include <random>
 #include <string>
@@ -38,7 +38,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or, for {0, 6}, whose Psi grows first. (R59) excludes both.
+/// A law whose Phi falls from 2.1 near k = 1.2 to 1, or, for {0, 6}, whose Psi grows first. (R36) excludes both.
 struct WavyLaw {
   double force = 6, moment = 0;
 

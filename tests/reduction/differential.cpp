@@ -203,7 +203,7 @@ void ask(Questions& questions, ReducedSystem (Questions::*next)(), int systems) 
   CHECK(asked == systems * starts);
 }
 
-/// T(k), the scaled stop time divided by w, of a body with a drive and a ray: dT/dk = (1 - r Psi T)/D from (R2), (R48);
+/// T(k), the scaled stop time divided by w, of a body with a drive and a ray: dT/dk = (1 - r Psi T)/D from (R2), (R20);
 /// D: `difference`. T is integrated in steps from the ray's tangent, with more digits than a double has. No code is
 /// shared with the library, not even the laws.
 class ByTheRay {

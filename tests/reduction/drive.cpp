@@ -1,4 +1,4 @@
-// A constant drive: (R48) to (R52) of reduction/README.md.
+// A constant drive: (R20), (R25) to (R28) of reduction/theory.md.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -34,7 +34,7 @@ double ray_of(const Law& law, double r, double drive) {
   return ratios.rays[0].k;
 }
 
-/// Integrates (R48) for v and w by the classical Runge-Kutta method. Only the law is taken from the library.
+/// Integrates (R20) for v and w by the classical Runge-Kutta method. Only the law is taken from the library.
 struct Stepped {
   double w, v, slip, angle;
 };
@@ -119,7 +119,7 @@ TEST_CASE("one ray below 1 - r K, and none from there on", "[drive][limit]") {
 }
 
 TEST_CASE("closed stop times with a drive", "[drive][formula]") {
-  // Cases: no spin; a start on the ray; every start under the elliptic law with r C^2 = 1 (R51).
+  // Cases: no spin; a start on the ray; every start under the elliptic law with r C^2 = 1 (R28).
   for (double drive : {1e-60, 1e-6, 0.05, 0.5, 0.9, 0.999999}) {
     INFO("drive = " << drive);
     for (const Law& law : paper_laws()) {

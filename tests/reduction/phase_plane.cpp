@@ -151,7 +151,7 @@ TEST_CASE("Where two points merge the linear part says so", "[phase_plane][limit
 }
 
 TEST_CASE("A ray at the kink k = 1 has the slope of the law there", "[phase_plane][table]") {
-  // For D = Phi - r k Psi, dD/dk = Phi' (1 + r k^2) - r Psi. `scale` is 2 chi W/(3 pi), chi = 1, W(k = 1) of (R24).
+  // For D = Phi - r k Psi, dD/dk = Phi' (1 + r k^2) - r Psi. `scale` is 2 chi W/(3 pi), chi = 1, W(k = 1) of (R9).
   const double scale = 2 / (3 * pi) * (16 + 15 * pi) * (8 + 3 * pi);
   const auto angular = [](const char* law, double r) {
     return point_of(phase_plane(ReducedSystem(*find_law(law), 1, {1, r})), InvariantDirection::ray,

@@ -1,4 +1,4 @@
-// Tests the derivatives of the stop time: (R10) of reduction/README.md, (R57) and (R58) of numerics.md.
+// Tests the derivatives of the stop time: (R10) of reduction/theory.md, (R34) and (R35) of numerics.md.
 #include <algorithm>
 #include <array>
 #include <cmath>

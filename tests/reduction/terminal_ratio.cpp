@@ -86,7 +86,7 @@ TEST_CASE("Phi/(k Psi) need not grow: every ray is found", "[terminal_ratio]") {
   }
 }
 
-// Tests (R40) of reduction/numerics.md.
+// Tests (R33) of reduction/numerics.md.
 TEST_CASE("no pressure on a disc has a ray for r <= 1/2, and some have one just above", "[terminal_ratio][limit]") {
   std::mt19937 random(40);
   std::uniform_real_distribution<double> share(0, 1);
@@ -143,7 +143,7 @@ TEST_CASE("a ray next to an axis is as accurate as it says", "[terminal_ratio][l
     CAPTURE(gap, ray.accuracy);
     CHECK(std::abs(ray.k / std::sqrt(s) - 1) <= ray.accuracy);
     CHECK(ray.accuracy < 1e-14 / gap);
-    // Under the Pade law k* solves A + B k = 0, (R8).
+    // Under the Pade law k* solves A + B k = 0, (R40).
     for (double r_pade : {r, far_r}) {
       const InvariantRay pade = terminal_ratios(PadeLaw{}, r_pade).rays.at(0);
       CHECK(std::abs(pade.k / (8 * (r_pade - 2) / (3 * std::acos(-1.0) * (5 - r_pade))) - 1) <= pade.accuracy);

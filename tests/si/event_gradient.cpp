@@ -1,4 +1,4 @@
-// Derivatives of the events of a roll are compared with (R61) and the first integrals, by the chain rule.
+// Derivatives of the events of a roll are compared with (R11) and the first integrals, by the chain rule.
 #include "contensou/si/event_gradient.hpp"
 
 #include <cmath>

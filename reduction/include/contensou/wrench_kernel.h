@@ -208,7 +208,7 @@ CONTENSOU_HOST_DEVICE WrenchSlopes<T> friction_of_patch(T vx, T vy, T w, T limit
 ///
 /// Accuracy  in double 4 eps, in float 1e-6, relative to the law for k from 1e-8 to 1e8. No finite argument gives NaN.
 ///           The result overflows only if f N radius overflows.
-/// Source    reduction/numerics.md (R32), (R36); Zh98 (1.3) to (1.6) for the exact law and the Pade law.
+/// Source    numerics.md (R48), (R50); Zh98 (1.3) to (1.6) for the exact law and the Pade law.
 /// @param vx, vy  velocity of the patch centre over the other body in m/s
 /// @param w       angular velocity about the normal in rad/s
 /// @param limit   f N in newtons; for 0 or less there is no contact, and force and moment are 0

@@ -53,7 +53,7 @@ struct Statement {
   double at = 0;                ///< k or mu at which the numbers are compared
   std::string_view where = {};  ///< text that shows `at`: a format of fmt with the argument `at`
   Verdict recorded =
-      Verdict::holds;                ///< verdict that is expected, for the paper by reduction/README.md, section errata
+      Verdict::holds;                ///< verdict that is expected, for the paper by reduction/theory.md, section errata
   std::string_view correction = {};  ///< a format of fmt with the arguments `computed` and `percent`
   Number corrected = nullptr;        ///< number from the corrected statement
   Source source = {};                ///< empty for a statement of V. F. Zhuravlev, 1998 (Zh98)

@@ -13,7 +13,7 @@
 #include "contensou/si/scaling.hpp"
 
 // Let F = f N Phi be the force and M = c N Psi the moment under the load N. The motion under a cone is then that of
-// (2.6) in reduction/README.md for a patch of radius c/f with Psi(0) = 1, in the time s = chi f g t:
+// (2.6) in reduction/theory.md for a patch of radius c/f with Psi(0) = 1, in the time s = chi f g t:
 //     dv/ds = -Phi,   dw/ds = -r Psi,   w = mu |u|,   mu = c/(f R),   r = gamma mu^2/chi,   k = v/w = f v/(c |omega|),
 //
 // The friction is the pair (Phi, Psi) of the cone for which Phi v + Psi w, the power divided by f N, is largest.

@@ -85,7 +85,7 @@ std::string out_of_reach(const Goal& goal, double least) {
 
 /// Finds the start of a ball with rolling friction from its turns, and from the distance or time until nothing moves.
 /// Lengths and turns are proportional to the square of the speeds, and times to the speeds, except for the effect of
-/// resting_slip. The quotient of the two demands therefore determines the ratio k at the start (reduction/README.md),
+/// resting_slip. The quotient of the two demands therefore determines the ratio k at the start (reduction/numerics.md),
 /// and one demand then determines the speeds.
 /// @param goal  turns and one other demand
 SlipAndSpin aimed_to_rest(const Experiment& experiment, const reduction::Flow& flow, const Goal& goal) {

@@ -1,4 +1,4 @@
-// Notation (reduction/README.md, (R56)): V velocity, A pull, a deceleration, phi angle from A to V, p = a/A, z =
+// Notation (reduction/theory.md, (R24)): V velocity, A pull, a deceleration, phi angle from A to V, p = a/A, z =
 // tan(phi/2) = z_0 exp(-fall), y = z/z_0. Then |V| = B (y^(p-1) + z_0^2 y^(p+1)).
 #include "pure_rolling.hpp"
 

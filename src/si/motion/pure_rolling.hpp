@@ -4,7 +4,7 @@
 
 namespace contensou::si {
 
-/// Rolling without slip on a plane with a constant pull, V' = A - a V/|V| (reduction/README.md, (R56)). On a slope A is
+/// Rolling without slip on a plane with a constant pull, V' = A - a V/|V| (reduction/theory.md, (R24)). On a slope A is
 /// (1 - 1/chi) g sin(alpha), downwards, and a is u_r g cos(alpha).
 class PureRolling {
  public:
@@ -23,7 +23,7 @@ class PureRolling {
   /// Returns the time until the ball rests for good, s; infinity if it never does.
   double rest_time() const;
 
-  /// Returns the time, s, until rolling needs too much friction, |share + a V/|V|| > most (R56); infinity if never.
+  /// Returns the time, s, until rolling needs too much friction, |share + a V/|V|| > most (R24); infinity if never.
   /// @param most   largest friction, f N/m, m/s^2
   /// @param share  part of the pull that friction balances, A/(chi - 1), m/s^2
   double slides_after(double most, double share) const;
@@ -43,7 +43,7 @@ class PureRolling {
   double pull_, resisting_;
   bool straight_;
   Stretch first_;
-  double z_ = 0, scale_ = 0;  ///< constants z_0 and B of (R56)
+  double z_ = 0, scale_ = 0;  ///< constants z_0 and B of (R24)
 };
 
 }  // namespace contensou::si

@@ -1,6 +1,6 @@
 // Notation: c is the slip, W = R (omega_y, -omega_x) the rolling velocity, V = c + W the velocity of the centre, w =
 // eps |omega_z|, k = |c|/w, e = c/|c|, a = u_r g, and d the pull of a slope. On a slope g stands for g cos(alpha).
-// Friction, rolling resistance and pull give (reduction/README.md, (R53), (R54))
+// Friction, rolling resistance and pull give (reduction/theory.md, (R21), (R22))
 //   V' = -f g Phi e + d,   W' = (chi - 1) f g Phi e - chi a W/|W|,   c' = V' - W'
 #include <algorithm>
 #include <array>
@@ -194,7 +194,7 @@ class Straight final : public Resisted {
       pieces_.push_back({t, here, {t * body_.tau_per_second, turning, driven, speeds, driven.orbit(speeds)}});
       const Piece& piece = pieces_.back();
       const double stop = t + seconds(experiment, piece.of.orbit.stop_time());
-      // After a ball has begun to turn, it turns until slip and spin end (R55).
+      // After a ball has begun to turn, it turns until slip and spin end (R23).
       const bool goes_on = turning && pieces_.size() > 1;
       const std::optional<double> changes = goes_on   ? std::nullopt
                                             : turning ? ceases_to_turn(piece, stop)
@@ -421,7 +421,7 @@ class Integrated final : public Resisted {
     return now;
   }
 
-  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R56) for A = friction.
+  /// Returns the time, s, until resistance stops a rolling so slow that friction is constant: (R24) for A = friction.
   double time_to_hold(Step step) const {
     const Vector2d rolling(step.x[2], step.x[3]);
     if (rolling.norm() == 0) return 0;

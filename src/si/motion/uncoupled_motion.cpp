@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 /// The motion of the uncoupled model. A ball with rolling friction first slides. Then it rolls without slip along a
 /// straight line, slows down at a = u_r g and comes to rest. If the friction f g is less than a, the ball cannot roll:
-/// its centre slows down at f g, its turning at chi a - (chi - 1) f g, and it slides (reduction/README.md, (R53)). The
+/// its centre slows down at f g, its turning at chi a - (chi - 1) f g, and it slides (reduction/theory.md, (R21)). The
 /// spin is not affected.
 class Uncoupled final : public Motion::Solution {
  public:

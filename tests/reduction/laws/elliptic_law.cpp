@@ -1,4 +1,4 @@
-// Tests the law whose motions are elementary functions, (R35) of reduction/numerics.md.
+// Tests the law whose motions are elementary functions, (R47) of reduction/numerics.md.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,7 @@ namespace {
 
 using Real = long double;
 
-/// Returns (R35) divided by w0. Panels integrate over z = -ln y, where y is the fraction of w0 that is left.
+/// Returns (R47) divided by w0. Panels integrate over z = -ln y, where y is the fraction of w0 that is left.
 Real time_left(Real k0, Real r, Real c) {
   const Real ratio = r * c * c;
   const Real exponent = (1 - ratio) / ratio;

@@ -375,7 +375,7 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
   CHECK(orbit(lotka, {1, 1}).end() == PlanarEnd::equilibrium);
 }
 
-TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, README (R65)", "[factor]") {
+TEST_CASE("T of (2.6) is V on the section but for a factor without zeros, reduction/planar.md (R58)", "[factor]") {
   for (const char* name : {"pade", "exact"}) {
     if (!CONTENSOU_FULL_TESTS && name == std::string_view("exact")) continue;  // takes a minute
     const ReducedSystem system(*find_law(name), 0.3);

@@ -16,7 +16,8 @@
 
 namespace contensou::portraits {
 
-/// A part of a switching curve on which motions slide or rest, or which they leave to both sides, README (R69).
+/// A part of a switching curve on which motions slide or rest, or which they leave to both sides, reduction/planar.md
+/// (R62).
 struct SwitchingPart {
   reduction::SwitchingMotion::Kind motion;
   std::vector<Eigen::Vector2d> points;  ///< in the direction in which motions slide

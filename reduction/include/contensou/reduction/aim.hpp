@@ -29,20 +29,20 @@ struct TooFarApart : std::domain_error {
   using std::domain_error::domain_error;
 };
 
-/// Tests the hypothesis of (R59) and (R60): with growing k = v/(mu |u|), Phi does not fall and Psi does not grow.
+/// Tests the hypothesis of (R36) and (R37): with growing k = v/(mu |u|), Phi does not fall and Psi does not grow.
 ///
 /// The test takes 276 values of k from 1e-6 to 1e6 and ignores relative changes below 1e-6. Coulomb friction under any
 /// pressure and all named laws pass, because their Phi and Psi are derivatives of a convex function.
 /// @throws std::domain_error  if Phi falls or Psi grows; the message names the function and both k
 void require_monotone(const Law& law);
 
-/// Returns the shortest stop time of all motions with a given distance or a given angle, reduction/README.md (R60). For
+/// Returns the shortest stop time of all motions with a given distance or a given angle, numerics.md (R37). For
 /// a distance it is the time of pure sliding; for an angle, the time of pure pivoting.
 /// @param aim  aim.tau is ignored; if distance and turned are both given, the distance is used
 /// @throws std::domain_error  if the flow has a drive, or unless aim contains two demands, both finite and >= 0
 double least_time(const Flow& flow, const Aim& aim);
 
-/// Finds the one start with u, v >= 0 that fulfils the two demands, by a root in ln k and a scale factor (R59), (R60).
+/// Finds the one start with u, v >= 0 that fulfils the two demands, by a root in ln k and a scale factor (R36), (R37).
 /// @return the start; empty if and only if the demanded stop time is below least_time
 /// @throws std::domain_error  unless aim contains two demands, both finite and >= 0; for a drive; as require_monotone
 /// @throws TooFarApart        if the best start misses a demand by more than 1e-6, relative

@@ -36,7 +36,7 @@ class StopTimeTable;
 ///
 /// Accuracy  StopTime::accuracy: 1e-15 in closed form for mu <= 1; by quadrature 3e-15 for a smooth law.
 /// Cost      0.2 ms for a law without closed form; the table of stop_times 10 ms, once.
-/// Source    Zh98 (Prikl. Mat. Mekh. 62) for the model; reduction/README.md (here README) for all formulas.
+/// Source    Zh98 (Prikl. Mat. Mekh. 62) for the model; reduction/theory.md and numerics.md for all formulas.
 class Flow {
  public:
   /// Solves the system by the law's closed form if there is one, else by quadrature.
@@ -69,7 +69,8 @@ class Flow {
   /// @throws std::domain_error  if start is not a state (finite, v >= 0)
   StopTime stop_time(State start) const;
 
-  /// Returns the stop time and its gradient, README (R10), (R57), (R58). Only the first start needs an integration.
+  /// Returns the stop time and its gradient, theory.md and numerics.md (R10), (R34), (R35). Only the first start needs
+  /// an integration.
   /// @throws std::domain_error  if start is not a state, or if u = v = 0, at which no gradient exists
   ///
   /// Accuracy  the products u by_u, v by_v, ...: about 100 eps of tau; 1e-9 beside a ray of a law without slopes. In a
@@ -86,7 +87,7 @@ class Flow {
   ///
   /// H is constant along every orbit and differs between orbits. The scaling (u, v) -> (c u, c v) adds ln c to H. The
   /// additive constant of H changes across an invariant ray. Pade law: ln [ |u| k^(-a) (A + B k)^b ] up to a constant,
-  /// with A, B, a and b of PadeCurve (README (R8)).
+  /// with A, B, a and b of PadeCurve (numerics.md (R40)).
   ///
   /// @param ln_v  natural logarithm of v; v itself underflows near the stop
   /// @throws std::domain_error  unless u and ln_v are finite and u is not 0; on an invariant ray (k within 4 eps)
@@ -148,8 +149,9 @@ struct InstantGradient {
   static double time_by(double by, const Part& part) { return -by / part.by_tau; }
 };
 
-/// Returns the state, the slip length and the angle at the time tau, with their gradients (README (R61)). Gradients are
-/// algebraic in the state and in the field at the start and at tau. After the stop, speeds are 0 and lengths constant.
+/// Returns the state, the slip length and the angle at the time tau, with their gradients (theory.md (R11)). Gradients
+/// are algebraic in the state and in the field at the start and at tau. After the stop, speeds are 0 and lengths
+/// constant.
 /// @throws std::domain_error  if start is not a state or lies on an axis; if tau is negative, as Orbit::instant
 ///
 /// Accuracy  u by_u and v by_v: 1e-13 of the largest part of the same kind, times the ratio of the larger term of

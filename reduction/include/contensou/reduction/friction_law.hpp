@@ -88,7 +88,7 @@ concept Callable = std::is_function_v<std::remove_pointer_t<L>> || requires {
   law(slip);
 };
 
-/// Bounds, over all starts, of the coefficient m in the stop time tau* = P + m S (reduction/README.md (R6)). P is the
+/// Bounds, over all starts, of the coefficient m in the stop time tau* = P + m S (theory.md (R6)). P is the
 /// stop time of pure pivoting, S that of pure sliding.
 struct SlidingBounds {
   double min;

@@ -35,7 +35,7 @@ struct HertzLaw {
 /// Coulomb friction of a circular patch; at rho patch radii from its centre the pressure is const (1 - rho^2)^p.
 ///
 /// p = 1/2 is Hertz's pressure (HertzLaw), p = 0 a uniform disc, p = -1/2 a flat rigid punch, p = 1 a paraboloid (a
-/// soft foundation). The limit p -> -1 is a thin ring (README (R32)).
+/// soft foundation). The limit p -> -1 is a thin ring (numerics.md (R48)).
 ///
 /// Source    z = k^2:   Phi = C (p + 3/2) k 2F1(1/2, -p - 1/2; 2; z),  Psi = C 2F1(1/2, -p - 3/2; 1; z),   k <= 1
 ///           z = k^-2:  Phi = 2F1(-1/2, 1/2; p + 2; z),  Psi = 2F1(1/2, 1/2; p + 3; z)/(2 (p + 2) k),      k >= 1
@@ -87,9 +87,9 @@ class PressureLaw {
 /// Source    Phi = k/sqrt(k^2 + C^2), Psi = C^2/sqrt(k^2 + C^2); R. D. Howe and M. R. Cutkosky, "Practical
 ///           force-motion models for sliding manipulation", Int. J. Robotics Research 15 (1996) 557,
 ///           doi:10.1177/027836499601500603.
-/// Orbits are powers, v ~ w^(1/(r C^2)), w = mu |u|, r of ReducedSystem; the stop time is one integral, README (R35).
-/// Accuracy  2 eps relative for every k (eps: the rounding of a double).
-/// Symmetry  degree 0: unchanged, bit for bit, when both speeds are scaled by a power of two.
+/// Orbits are powers, v ~ w^(1/(r C^2)), w = mu |u|, r of ReducedSystem; the stop time is one integral, numerics.md
+/// (R47). Accuracy  2 eps relative for every k (eps: the rounding of a double). Symmetry  degree 0: unchanged, bit for
+/// bit, when both speeds are scaled by a power of two.
 class EllipticLaw {
  public:
   static constexpr SlidingBounds sliding_bounds{0, 1};

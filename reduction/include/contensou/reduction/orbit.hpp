@@ -39,10 +39,10 @@ class Flow;
 /// The motion from one start to its stop, made by Flow::orbit.
 ///
 /// The motion is the similarity curve of the system, scaled to pass through the start. There are no time steps: the
-/// state at a time follows from one root of the formula for the time, README (R4), (R5). Slip length and angle follow
-/// from (R13), (R38), (R50); the regularised time beta (ReducedSystem::regularising_weight) from (R7). The axes (u0 = 0
-/// or v0 = 0), invariant rays and rest are ordinary starts. Times and speeds have the unit of the start's speeds;
-/// lengths have the unit of a speed squared.
+/// state at a time follows from one root of the formula for the time, theory.md and numerics.md (R4), (R32). Slip
+/// length and angle follow from (R30), (R31), (R26); the regularised time beta (ReducedSystem::regularising_weight)
+/// from (R39). The axes (u0 = 0 or v0 = 0), invariant rays and rest are ordinary starts. Times and speeds have the unit
+/// of the start's speeds; lengths have the unit of a speed squared.
 ///
 /// Accuracy  u and ln v 1e-12 relative at any fraction of the stop time for 1e-4 <= mu <= 1 (tests/reference); beta
 ///           1e-8, and 1e-5 within 1e-3 of an invariant ray. Near the stop the speeds are proportional to the time
@@ -196,11 +196,11 @@ class Orbit {
   bool creeps_ = false;  ///< true: the start is so near v = 0 that the drive raises the sliding speed to v_ immediately
   int exponent_;         ///< speeds are divided by 2^exponent_; then their products neither overflow nor underflow
   double w_, v_;         ///< mu |u0| and v0, both scaled; if creeps_, v_ is the speed after the immediate rise
-  double pivoting_;      ///< P of README (R18), the stop time of pure pivoting, scaled
+  double pivoting_;      ///< P of theory.md (R5), the stop time of pure pivoting, scaled
   double ln_k0_;
   double xi0_ = 0;
   mutable OnDemand ln_w0_;
-  double m0_;             ///< sliding coefficient m of README (R18) at the start
+  double m0_;             ///< sliding coefficient m of theory.md (R5) at the start
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
 };
 

@@ -61,7 +61,7 @@ struct PhasePlane {
   std::vector<EndTangent> tangents;  ///< one for each of terminal.ends: the tangent of the orbits with this limit
 };
 
-/// Finds the singular points and the linear part of the field at each (README (R15) to (R17)).
+/// Finds the singular points and the linear part of the field at each (theory.md (R17) to (R19)).
 ///
 /// Accuracy  eigenvalues on the axes 1e-14 relative; on a ray 1e-11, and 1e-6 for a ray at k* within 1e-3 of 1, where
 ///           many laws have a kink; never below the error of the ray's k. An r within TerminalRatios::tolerance of

@@ -31,7 +31,7 @@ struct PlanarCanonical {
 enum class PlanarEnd {
   centre,  ///< the centre x_0 of the scaling
   infinity,
-  rest,         ///< a point other than the centre, at which the field, or Filippov's velocity (R69), vanishes
+  rest,         ///< a point other than the centre, at which the field, or Filippov's velocity (R62), vanishes
   border,       ///< a pole, a jump, or the edge of the points at which the field has a value; no orbit continues
   periodic,     ///< no end: the orbit is closed
   undecided,    ///< unknown: PlanarReduction::undecided returns the reason
@@ -68,7 +68,7 @@ struct PlanarTurn {
   double sigma;   ///< duration of a turn in sigma, dsigma = exp(-c p) dt; for c = 0 it is the period
 };
 
-/// Thrown if T, the rate of q of README (R42), comes so near to 0 that rounding hides whether there are rays.
+/// Thrown if T, the rate of q of planar.md (R64), comes so near to 0 that rounding hides whether there are rays.
 class UndecidedRays : public std::domain_error {
  public:
   using std::domain_error::domain_error;
@@ -83,12 +83,12 @@ struct FactorPiece {
   std::function<double(const Eigen::Vector2d& x)> value;  ///< V at x; NaN at a point where V has no value
 };
 
-/// A form of V that was tried, and the error of the best V of this form in README (R64), f . grad V = V div f.
+/// A form of V that was tried, and the error of the best V of this form in planar.md (R57), f . grad V = V div f.
 struct TriedForm {
   std::string_view form;
-  double singular_value;  ///< smallest singular value: root mean square of the misfit (R66) over the points of the fit
+  double singular_value;  ///< smallest singular value: root mean square of the misfit (R59) over the points of the fit
   double gap;             ///< smallest singular value that does not count as 0, divided by the largest that does
-  double residual;        ///< largest misfit (R66) at points that the fit did not use
+  double residual;        ///< largest misfit (R59) at points that the fit did not use
   bool cleared = false;   ///< true if V D, V times the denominator of the field, has the form
 };
 
@@ -106,7 +106,7 @@ struct LevelPoint {
 ///     plane.orbit(start).at(0.5);      // state at the time 0.5
 ///     if (plane.solved()) plane.end(start);  // PlanarEnd::centre
 ///
-/// Source: reduction/README.md (R42) to (R45). A value type; copies share the solution.
+/// Source: planar.md (R64), (R66), (R67), (R69). A value type; copies share the solution.
 ///
 /// Accuracy  relative 1e-12 of times, for a field that is smooth except for kinks and jumps and accurate to its last
 ///           bits. End times are less accurate next to multiple rays and to poles off the axes: see end_time_error().
@@ -134,7 +134,7 @@ class PlanarReduction {
   const std::vector<TriedForm>& tried() const;
 
   /// Returns V up to a constant factor, as a formula in u, v, u' and v'; empty unless V solves the system and has
-  /// rational coefficients with which the misfit (R66) is below 1e-12. V of degree 4 or less is factorised.
+  /// rational coefficients with which the misfit (R59) is below 1e-12. V of degree 4 or less is factorised.
   std::string formula() const;
 
   const SmoothField& field() const;
@@ -266,7 +266,7 @@ Eigen::Vector2d sampled_about(const SmoothField& field, const Eigen::Vector2d& s
 PlanarReduction reduce(const SmoothField& field, const Eigen::Vector2d& start, const PlanarSymmetries& found);
 PlanarReduction reduce(const SmoothField& field, const Eigen::Vector2d& start);
 
-/// Solves x' = f(x) by an inverse integrating factor V, f . grad V = V div f, README (R64) to (R68); else by steps.
+/// Solves x' = f(x) by an inverse integrating factor V, f . grad V = V div f, planar.md (R57) to (R61); else by steps.
 ///
 /// V is sought in a box, +-30 % about the start or, if the start (u, v) is an equilibrium, about (1.25 u, 0.8 v). The
 /// search ends at the first form that satisfies the equation: "constant" (div f = 0), "affine" (V = f ^ X, X affine),
@@ -287,7 +287,7 @@ PlanarReduction by_factor(const SmoothField& field, const Eigen::Vector2d& start
 ///
 /// Each step keeps the error below `tolerance`, relative to the state or to a thousandth of the start; an orbit has at
 /// most 10 000 steps. Orbits are cut where a switching function changes its sign; there they cross, slide or rest
-/// (R69). Other jumps are detected by the error estimate of this method; the estimate of Fehlberg 7(8) does not detect
+/// (R62). Other jumps are detected by the error estimate of this method; the estimate of Fehlberg 7(8) does not detect
 /// jumps. Tests and answers compare the quadratures with these orbits.
 ///
 /// @return a system with an empty form, and neither factor nor first integral. Ends are undecided, except the rest of
@@ -304,7 +304,7 @@ PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12);
 /// Cost      0.1 ms, and the solution of the flow
 PlanarReduction reduced(const Flow& flow);
 
-/// The motion at a point of a switching curve, by Filippov's definition, README (R69).
+/// The motion at a point of a switching curve, by Filippov's definition, planar.md (R62).
 struct SwitchingMotion {
   enum class Kind {
     crosses,  ///< also where the field is continuous
@@ -428,7 +428,7 @@ std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, c
                                                      const Eigen::Vector2d& sides);
 
 /// A polynomial field of degree d on the Poincaré disc. The disc |X| < 1 shows the whole plane by x = r X/(1 - |X|^2),
-/// and the circle |X| = 1 shows infinity: each of its points is a direction. There the field is tangential, README
+/// and the circle |X| = 1 shows infinity: each of its points is a direction. There the field is tangential, planar.md
 /// (R70).
 struct PoincareDisc {
   int degree;         ///< d, the larger degree of the two components

@@ -18,7 +18,7 @@ struct Inertia {
 inline constexpr Inertia homogeneous_ball{};
 
 /// The limit of k = v/(mu |u|) as a body that slides and pivots comes to rest. u and v always vanish at the same time
-/// (README (R39)). The limit of k shows whether u or v vanishes faster.
+/// (numerics.md (R29)). The limit of k shows whether u or v vanishes faster.
 enum class TerminalRegime {
   zero,      ///< k -> 0: v vanishes faster
   ray,       ///< k tends to the k of an invariant ray
@@ -52,10 +52,10 @@ struct InvariantRay {
 
 /// The zeros of Phi - r k Psi for 0 < k < infinity, and the limits of k between them.
 ///
-/// k falls if Phi > r k Psi and grows if Phi < r k Psi (README (R2)). Therefore every motion between two neighbours
+/// k falls if Phi > r k Psi and grows if Phi < r k Psi (theory.md (R2)). Therefore every motion between two neighbours
 /// among 0, the rays and infinity moves away from one neighbour and tends to the other. For the named pressures and the
 /// Pade law Phi/(k Psi) grows with k. Then, for low < r < high, there is one ray; it attracts and is the only limit. A
-/// tabulated pressure can have several rays. For r <= 1/2 no pressure on a disc has a ray (README (R40)).
+/// tabulated pressure can have several rays. For r <= 1/2 no pressure on a disc has a ray (numerics.md (R33)).
 struct TerminalRatios {
   double low;                       ///< Phi/(k Psi) at k = 0, that is Phi'(0)/Psi(0)
   double high;                      ///< (Phi - rho)/(k Psi) at k = infinity
@@ -131,7 +131,7 @@ struct StopTimeGradient {
 ///   dv/dtau = -(2 chi/(3 pi)) (Phi(k) - rho),  du/dtau = -(2 gamma mu/(3 pi)) Psi(k) sign(u),  k = v/(mu |u|).
 /// v is the sliding speed, u = R omega_z the pivoting speed, mu the patch radius divided by R. rho is a constant drive
 /// along the slip, 0 in the paper. It represents a slope straight down, or the rolling resistance of a ball that rolls
-/// in the direction in which it slides (reduction/README.md, "A constant drive"). Under a drive v = 0 is no orbit: a
+/// in the direction in which it slides (reduction/theory.md, "A constant drive"). Under a drive v = 0 is no orbit: a
 /// body that spins without sliding begins to creep.
 ///
 /// The time is the paper's tau = (3 pi/2) f g t with the coefficient of friction f; tau has the unit of a speed. A
@@ -156,10 +156,10 @@ class ReducedSystem {
   /// Smallest drive except 0. A smaller drive changes no digit of a motion, and its ray leaves the range of doubles.
   static constexpr double least_drive = 1e-100;
 
-  /// Returns r = gamma mu^2/chi, a normal double. r and rho determine the shape of a motion (README (R1)).
+  /// Returns r = gamma mu^2/chi, a normal double. r and rho determine the shape of a motion (theory.md (R1)).
   double r() const { return r_; }
 
-  /// Returns ds/dtau of the scaled time s = chi f g t (README (R1)): dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.
+  /// Returns ds/dtau of the scaled time s = chi f g t (theory.md (R1)): dv/ds = rho - Phi, dw/ds = -r Psi, w = mu |u|.
   double scaled_time_rate() const { return scaled_time_rate_; }
 
   /// Returns d(u, v)/dtau, the right side of the equations of motion.
@@ -185,7 +185,7 @@ class ReducedSystem {
   /// Returns P = 3 pi |u|/(2 gamma mu Psi(0)), the stop time of pivoting without sliding (ball: 16 |u|/(5 mu)).
   double pivoting_limit(double u) const;
 
-  /// Returns bounds of the stop time from the law's SlidingBounds and max(S, P) (README (R6), with a drive (R52)),
+  /// Returns bounds of the stop time from the law's SlidingBounds and max(S, P) (theory.md (R6), with a drive (R27)),
   /// widened by 2 rounding_of_stop_time(r)/(1 - rho). For a law without SlidingBounds they are [0, infinity].
   Bounds stop_time_bounds(State start) const;
 

@@ -10,13 +10,15 @@
 namespace contensou::reduction {
 
 /// Coefficients of the expansion m(k; r) = first + r second + O(r^2) for small r. m is the sliding coefficient of
-/// README (R4); r = gamma mu^2/chi is far below r_low = Phi'(0)/Psi(0). The error is r^2 O(ln^3 k/k) for k -> infinity.
+/// theory.md (R4); r = gamma mu^2/chi is far below r_low = Phi'(0)/Psi(0). The error is r^2 O(ln^3 k/k) for k ->
+/// infinity.
 struct CoefficientExpansion {
   double first;
   double second;
 };
 
-/// Computes both coefficients at one k, for any law, as m and its derivative by r in the limit r -> 0 (README (R21)).
+/// Computes both coefficients at one k, for any law, as m and its derivative by r in the limit r -> 0 (theory.md
+/// (R12)).
 ///
 /// @param ln_k  any finite number
 /// @throws std::domain_error  if ln_k is not finite
@@ -25,7 +27,7 @@ struct CoefficientExpansion {
 /// Cost      that of two curves.
 CoefficientExpansion coefficient_expansion(const Law& law, double ln_k);
 
-/// Constants of the expansion k first(k) = k - logarithm ln k - constant + O(1/k) as k -> infinity (README (R23)).
+/// Constants of the expansion k first(k) = k - logarithm ln k - constant + O(1/k) as k -> infinity (theory.md (R13)).
 struct FarCoefficient {
   double logarithm;
   double constant;
@@ -56,7 +58,8 @@ struct StopEstimate {
 /// @throws std::domain_error  if start is not a state, for a drive, or unless r < Phi'(0)/Psi(0) (then k -> 0)
 std::vector<StopEstimate> small_mu_estimates(const ReducedSystem& system, State start);
 
-/// The motion from one start to leading order for r = gamma mu^2/chi far below r_low = Phi'(0)/Psi(0) (README (R47)).
+/// The motion from one start to leading order for r = gamma mu^2/chi far below r_low = Phi'(0)/Psi(0) (theory.md
+/// (R15)).
 ///
 /// One formula covers two stages. In the first stage, w = mu |u| hardly changes (the layer of sliding). In the second
 /// stage, the spin-down, w falls in proportion to the time left, and v falls as a power of the time left. The motion
@@ -88,8 +91,8 @@ class SmallMuMotion {
   class Layer;
   std::shared_ptr<const Layer> layer_;  ///< null on the axes
   State start_;
-  double pivoting_;       ///< P of README (R18), the stop time of pure pivoting
-  double sliding_;        ///< S of README (R18), the stop time of pure sliding
+  double pivoting_;       ///< P of theory.md (R5), the stop time of pure pivoting
+  double sliding_;        ///< S of theory.md (R5), the stop time of pure sliding
   double pivoting_rate_;  ///< r Psi(0) = -dw/ds at k = 0
   double unit_rate_ = 0;  ///< d(s/w0)/dtau; s is the scaled time, w0 = mu |u0|
   double ln_k0_ = 0;

@@ -10,7 +10,7 @@ namespace contensou::reduction {
 /// The methods for a stop time. They share no code except the law; their results are compared.
 enum class Route {
   closed,       ///< closed form of the law (closed_solution)
-  quadrature,   ///< integrals over k for the orbit and for the time (README (R2), (R3))
+  quadrature,   ///< integrals over k for the orbit and for the time (theory.md (R2), (R3))
   regularised,  ///< steps in beta through the paper's regularised equations (2.7) and (2.8)
   direct,       ///< steps in tau through the equations of motion (2.6)
 };

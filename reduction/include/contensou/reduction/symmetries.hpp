@@ -93,7 +93,7 @@ struct PlanarSymmetries {
   /// the field. The other generators are accurate to about `level`.
   std::vector<Generator> generators = {};
 
-  /// Singular values of the determining equations (README (R41)), increasing, relative to the largest.
+  /// Singular values of the determining equations (planar.md (R63)), increasing, relative to the largest.
   std::array<double, 7> singular_values = {};
 
   /// Singular values below this level count as 0. It is eight times the error that the derivatives cause.

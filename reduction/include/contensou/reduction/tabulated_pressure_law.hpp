@@ -14,7 +14,7 @@ namespace contensou::reduction {
 /// Coulomb friction of a circular patch whose pressure is given as a table. Between two rows the pressure is linear in
 /// rho^2, rho = (distance from the centre)/(patch radius). Two rows with the same rho are a step of the pressure.
 ///
-/// Source    README (R32) to (R34): a sum over thin rings, weighted by the pressure.
+/// Source    numerics.md (R48), (R49), (R56): a sum over thin rings, weighted by the pressure.
 /// Accuracy  12 eps for every table, however steep, and every k for which Phi and Psi do not underflow. A table of n
 ///           rows approximates a smooth pressure to about 1/n^2; to 1/n^(3/2) if it has a square root at the edge.
 /// Cost      2 to 10 us a slip for 10 to 10 000 rows, because distant rows (rho far from k) are grouped.

@@ -33,7 +33,7 @@ double regularised_symmetry_residual(const ReducedSystem& system, State state);
 /// Returns the residual of W = dv/du, degree 0, that is of u W_u + v W_v = 0.
 double slope_symmetry_residual(const ReducedSystem& system, State state);
 
-/// Returns dp/dq = Phi/(q D), D = Phi - r k Psi, the right side of the separated equation (README (R2)) in the
+/// Returns dp/dq = Phi/(q D), D = Phi - r k Psi, the right side of the separated equation (theory.md (R2)) in the
 /// canonical coordinates q = v/u = mu k and p = ln v. The group (u, v) -> (c u, c v) keeps q and adds ln c to p. The
 /// right side does not contain p, so one quadrature solves the equation. For a ball under the Pade law the right side
 /// is 7 (16 mu + 15 pi q)/(q (mu A + B q)) with A = 8 (14 - 5 mu^2), B = 15 pi (7 - mu^2).

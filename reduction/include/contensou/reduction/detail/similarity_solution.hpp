@@ -13,8 +13,8 @@ namespace contensou::reduction {
 /// A coordinate xi of k = v/(mu |u|) between two neighbouring invariant ratios: the terminal ratio k*, which is the
 /// limit of k at the stop, and k_far, from which k comes. Each of the two is 0, the k of an invariant ray, or infinity.
 ///
-/// xi is the argument of every SimilarityCurve (README (R25)). It falls to -infinity at the stop and grows to infinity
-/// at k_far.
+/// xi is the argument of every SimilarityCurve (numerics.md (R38)). It falls to -infinity at the stop and grows to
+/// infinity at k_far.
 ///   from above:  xi = ln[(k - k*)/(1 - k/k_far)]          (k* = 0, k_far = infinity: ln k)
 ///   from below:  xi = ln[(1/k - 1/k*)/(1 - k_far/k)]      (k* = infinity, k_far = 0: -ln k)
 /// Next to k* and k_far the double k has lost the digits of its distance from k* or k_far; xi keeps these digits.
@@ -71,30 +71,30 @@ class TerminalChart {
 /// law and the Pade law, xi is ln k.
 ///
 /// Orbits, stop times, the state at a time and the regularised time follow from the functions by exponentials and sums
-/// (Orbit). w is mu |u|, s is the scaled time of reduction/README.md (R1). m, n and c are bounded for all r; so is b,
+/// (Orbit). w is mu |u|, s is the scaled time of theory.md (R1). m, n and c are bounded for all r; so is b,
 /// except at k = 0, where b is 1/(128 r Psi(0)). Under a drive rho, m, n and o grow like 1/k as k -> 0, but their
 /// products with v stay finite. v underflows long before ln v.
 class SimilarityCurve {
  public:
   virtual ~SimilarityCurve() = default;
 
-  /// Returns ln w along the curve, up to a constant; it grows with xi (README (R2)).
+  /// Returns ln w along the curve, up to a constant; it grows with xi (theory.md (R2)).
   virtual double ln_w(double xi) const = 0;
 
-  /// Returns m: the time left is P + m S (README (R4)), with the stop times P of pure pivoting and S of pure sliding.
-  /// In the limit of pure sliding, m is 1/(1 - rho).
+  /// Returns m: the time left is P + m S (theory.md (R4)), with the stop times P of pure pivoting and S of pure
+  /// sliding. In the limit of pure sliding, m is 1/(1 - rho).
   virtual double sliding_coefficient(double xi) const = 0;
 
-  /// Returns n: the slip length left is v (v/(2 (1 - rho)) + n w) (README (R13), (R50)).
+  /// Returns n: the slip length left is v (v/(2 (1 - rho)) + n w) (theory.md and numerics.md (R30), (R26)).
   virtual double slip_length_coefficient(double xi) const = 0;
 
-  /// Returns o: the angle left, the integral of w ds, is w (w/(2 r Psi(0)) + o v) (README (R31)).
+  /// Returns o: the angle left, the integral of w ds, is w (w/(2 r Psi(0)) + o v) (theory.md (R8)).
   virtual double angle_coefficient(double xi) const = 0;
 
-  /// Returns b: the regularised time is b/(w + v), up to its unit and a constant (README (R7)).
+  /// Returns b: the regularised time is b/(w + v), up to its unit and a constant (numerics.md (R39)).
   virtual double beta_coefficient(double xi) const = 0;
 
-  /// Returns c: the derivative of the time left by xi is c (w + v) (README (R3)).
+  /// Returns c: the derivative of the time left by xi is c (w + v) (theory.md (R3)).
   virtual double time_rate(double xi) const = 0;
 
   /// Returns a bound of the relative error of stop times computed with sliding_coefficient.
@@ -156,14 +156,14 @@ class SimilaritySolution {
   std::vector<Curve> curves_;
 };
 
-/// Finds the solution by quadrature, for any law and r (README (R2), (R19), (R24), (R31)).
+/// Finds the solution by quadrature, for any law and r (theory.md (R2), (R7), (R9), (R8)).
 /// @param ratios  terminal_ratios(law, r, drive)
 /// @throws std::domain_error   unless r is positive and finite
 /// @throws std::runtime_error  if the law has an invariant ray that terminal_ratios did not find
 SimilaritySolution quadrature_solution(const Law& law, double r, const TerminalRatios& ratios, double drive = 0);
 
-/// Returns the solution in closed form, by the type of the law: PadeCurve (README (R8) to (R14)) for PadeLaw if r <=
-/// PadeCurve::max_r; else empty. No other code depends on which laws have a closed form.
+/// Returns the solution in closed form, by the type of the law: PadeCurve (numerics.md (R40) to (R43)) for PadeLaw if r
+/// <= PadeCurve::max_r; else empty. No other code depends on which laws have a closed form.
 SimilaritySolution closed_solution(const Law& law, double r, double drive = 0);
 
 }  // namespace contensou::reduction

@@ -29,7 +29,7 @@ struct Motion {
 
 /// Settings of both steppers.
 struct StepperSettings {
-  double tolerance = 1e-14;  ///< bound of the local error of ln u, ln v and tau/(S + P), with S and P of README (R18)
+  double tolerance = 1e-14;  ///< bound of the local error of ln u, ln v and tau/(S + P), with S and P of theory.md (R5)
   long step_limit = 2'000'000;
 };
 

@@ -22,7 +22,7 @@ namespace contensou::reduction {
 ///           as Flow::stop_time_gradient
 /// Cost      8 ms for an interval of the exact law; then 1.2 us a start, with the gradient 7 us
 /// Bits      depend on the start and mu alone
-/// Source    README (R18), (R19), (R58); barycentric interpolation
+/// Source    theory.md and numerics.md (R5), (R7), (R35); barycentric interpolation
 class StopTimesOfMu {
  public:
   /// Largest r of the intervals. Every homogeneous ball with mu <= 1 has an r up to this number.

@@ -23,7 +23,7 @@ using SlopedLaw = std::variant<ByDifferences, kernel::Exact, kernel::Uniform, ke
 SlopedLaw with_slopes(const Law& law);
 
 /// Returns the friction of a law with its slopes, for implicit steps in time. A law with a dissipation potential
-/// satisfies p force_slope = r moment_slope, where p and r are the speeds of kernel::Slip (README (R36)). A call
+/// satisfies p force_slope = r moment_slope, where p and r are the speeds of kernel::Slip (numerics.md (R50)). A call
 /// allocates or throws only if the law does.
 std::function<kernel::Friction<double>(Slip)> tangent_of(const Law& law);
 

@@ -16,7 +16,7 @@ struct Goal {
 };
 
 /// Finds the one start, without rolling, that fulfils two demands (reduction::aimed). Under rolling friction one demand
-/// must be the turns; that the start is unique is then tested, not proved (reduction/README.md).
+/// must be the turns; that the start is unique is then tested, not proved (reduction/numerics.md).
 /// @param experiment  its start is not used
 /// @param flow        flow of undriven_system(experiment, law)
 /// @throws std::domain_error  unless two demands are given, finite, with distance and time >= 0; if no start fulfils

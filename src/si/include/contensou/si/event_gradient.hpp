@@ -45,7 +45,7 @@ class EventNumbers {
   /// value. Empty if the numbers have no derivative: at a spin of 0, at the limits of the component, and, for a
   /// component that changes the slip, if the slip is within 1e-6 of the threshold of rolling.
   ///
-  /// Accuracy  1e-8 for the derivatives by the start and by friction, compared with reduction/README.md (R61), and for
+  /// Accuracy  1e-8 for the derivatives by the start and by friction, compared with reduction/theory.md (R11), and for
   ///           the time of rest of a motion that is integrated in steps.
   std::optional<Eigen::VectorXd> slopes(const Component& by) const;
 

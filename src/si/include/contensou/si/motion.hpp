@@ -81,7 +81,7 @@ inline constexpr double resting_slip = 1e-4;
 /// is a torque chi J u_r g/R (J: moment of inertia) against turning about a horizontal axis; for a homogeneous ball
 /// (7/5) u_r m g R. Under it a ball that rolls without slip slows down at u_r g. The torque also acts on a sliding
 /// ball, and up to its size it prevents the start of turning. On a slope of the angle alpha, g cos(alpha) presses and g
-/// sin(alpha) pulls. After slip and spin the ball rolls on or rests, in closed form (reduction/README.md, (R56)).
+/// sin(alpha) pulls. After slip and spin the ball rolls on or rests, in closed form (reduction/theory.md, (R24)).
 ///
 /// A motion never changes. Copies, also in several threads, share its solution.
 ///
@@ -90,7 +90,7 @@ class Motion {
  public:
   /// Computes the motion, if possible without steps in time. Slip and spin are then one orbit of the reduced system.
   ///
-  /// Under rolling friction or on a slope they are several orbits with a drive (reduction/README.md, (R53) to (R55)).
+  /// Under rolling friction or on a slope they are several orbits with a drive (reduction/theory.md, (R21) to (R23)).
   /// This requires that the body slides in the direction in which it rolls, and straight down a slope. Any other such
   /// motion is integrated by the method of Cash and Karp 5(4).
   ///

@@ -22,7 +22,7 @@ reduction::ReducedSystem reduced_system(const Experiment& experiment, const redu
 /// Returns the reduced system without the pull of a slope and without rolling resistance.
 reduction::ReducedSystem undriven_system(const Experiment& experiment, const reduction::Law& law);
 
-/// The drives of the slip, divided by f N (reduction/README.md, (R53), (R54)).
+/// The drives of the slip, divided by f N (reduction/theory.md, (R21), (R22)).
 struct Drives {
   double slope;    ///< tan(alpha)/(chi f) of a slope that falls in the direction of sliding; negative if it rises
   double rolling;  ///< u_r/f

@@ -30,7 +30,7 @@ struct Wrench {
 ///
 /// Consider a law with a dissipation potential R: every named law except pade, which also has a kink at omega = 0. The
 /// wrench is then minus the gradient of the convex function f N R(V, w). The Jacobian is symmetric and negative
-/// semidefinite, and an implicit step under a given load N has exactly one solution (reduction/README.md, (R36)).
+/// semidefinite, and an implicit step under a given load N has exactly one solution (reduction/numerics.md, (R50)).
 ///
 /// At rest the Jacobian is diagonal, -f N/s for the force and -f N eps^2 K/s for the moment, with K = lim k Psi (1/5
 /// for exact). If eps is the unit of length, the Jacobian is below 5 f N/s for every motion under every law. (The law
