@@ -62,6 +62,8 @@ class Reporter {
   static double by_chance(double values);
   /// Returns true if neighbouring residuals of an observable are more alike than chance makes them.
   bool neighbours_depend(Observable observable) const;
+  /// Largest variation of the friction of a real table. Beyond that the law of the motion is another one.
+  static constexpr double most_varying = 0.1;
   /// Widens the errors for friction that varies along the path and for dependent errors of the camera.
   void set_widened(const Eigen::VectorXd& residuals);
   /// Returns the largest range of the values of an observable, or of the other axis beside it.

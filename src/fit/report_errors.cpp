@@ -91,6 +91,7 @@ void Reporter::set_dependence() {
   const VectorXd sizes = residuals_.unaryExpr([this](double each) { return bounded(each); });
   VectorXd more = VectorXd::Zero(residuals_.size());  // g - 1 for each row
   double worth = static_cast<double>(search_.values);
+  bool is_film = true;
   for (std::size_t place = 0; place < std::size(dependence_); ++place) {
     const std::vector<Index>& rows = search_.rows_of[place];
     if (!search_.estimated[place]) continue;
@@ -101,7 +102,10 @@ void Reporter::set_dependence() {
       fitted += rows_of_A.row(row).squaredNorm();
     }
     const double variance = squares / std::max(1.0, n - fitted);
-    if (std::sqrt(variance) < sharpest_film * range_of(place) * search_.weight[rows.front()]) continue;
+    if (std::sqrt(variance) < sharpest_film * range_of(place) * search_.weight[rows.front()]) {
+      is_film = false;
+      continue;
+    }
     dependence_[place] = dependence_of(place, sizes, std::sqrt(variance) * rows_of_A);
     // A growth below 1 is due to chance.
     const double growth = std::max(1.0, dependence_[place].growth);
@@ -113,8 +117,8 @@ void Reporter::set_dependence() {
                                    (derivatives_.transpose() * more.asDiagonal() * derivatives_) * inverse_.covariance);
   const auto found = static_cast<double>(search_.free.size());
   quantile_ = student_quantile(std::max(1.0, std::floor(worth - found)));
-  if (std::ranges::any_of(observable_kinds(), [&](const auto& kind) { return neighbours_depend(kind.observable); }))
-    set_widened(sizes);
+  const auto depends = [&](const auto& kind) { return neighbours_depend(kind.observable); };
+  if (is_film && std::ranges::any_of(observable_kinds(), depends)) set_widened(sizes);
 }
 
 double Reporter::range_of(std::size_t place) const {

@@ -69,8 +69,6 @@ void Reporter::set_misfits() {
           "vx - R wy of a ball that spins faster than it rolls",
           slip.value));
   }
-  // A real table varies by some per cent. Beyond that the law of the motion is another one.
-  constexpr double most_varying = 0.1;
   const bool varies_too_much = fit_.widened && fit_.widened->friction_varies > most_varying;
   for (const Noise& noise : fit_.noise) {
     const auto& [observable, name, unit, meaning] = kind_of(noise.observable);
@@ -84,7 +82,7 @@ void Reporter::set_misfits() {
     // Errors of a camera are up to a hundredth of the way that it shows, or a degree.
     constexpr double share = 0.01;
     const double least = observable == Observable::angle ? std::numbers::pi / 180 : 0;
-    const bool of_camera = rest_[place] <= std::max(share * range_of(place), least);
+    const bool of_camera = fit_.widened && rest_[place] <= std::max(share * range_of(place), least);
     if (neighbours_depend(observable) && (!of_camera || varies_too_much)) {
       fit_.misfits.push_back(fmt::format(
           "{} is off by {:.2g} {} on the average, and neighbours are off alike: their correlation is {:.2f}, "

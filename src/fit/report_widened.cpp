@@ -102,6 +102,8 @@ void Reporter::set_widened(const VectorXd& residuals) {
     constexpr double hardly = 1e-3;
     if (std::abs(variance - before) < hardly * variance) break;
   }
+  fit_.widened = {std::sqrt(variance), 1, 1};
+  if (fit_.widened->friction_varies > most_varying) return;  // this film is refused; its profiles would be very long
   const MatrixXd by_waves = derivatives_.transpose() * X.rightCols(q);
   const MatrixXd by_camera = derivatives_.transpose() * noise.cwiseProduct(growth).asDiagonal() * derivatives_;
   set_covariance(variance_ * inverse_.covariance * (by_camera + variance * by_waves * by_waves.transpose()) *
