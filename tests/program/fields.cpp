@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <regex>
 #include <set>
@@ -157,6 +158,14 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
     spin_alone += fmt::format("{},{},{}\n", t, 100 - 10 * t + 0.01 * (i % 3 - 1), 100 * t - 5 * t * t);
   }
   write_file(spins, spin_alone);
+  // Neighbouring errors of a camera depend on each other.
+  std::string dependent = "t,slip\n";
+  for (int i = 0; i < 112; ++i) {
+    const double t = 0.25 * i / 111;
+    dependent += fmt::format("{},{}\n", t, 1 - 1.96 * t + 0.003 * std::sin(50 * t) + 5e-4 * (i * 7 % 5 - 2));
+  }
+  const std::string camera = scratch.file("camera.csv");
+  write_file(camera, dependent);
   const std::string against = "check --ball pool --rolling-friction 0.01 --against " + film;
   const std::string y_up = "check --ball puck --against " + scratch.file("y_up.csv");
   write_file(scratch.file("y_up.csv"), "t,vx,vy,vz,wx,wy,wz\n0,1,0,1,0,1,0\n0.1,0.93,0,0.93,0,0.93,0\n");
@@ -188,6 +197,7 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
         "portrait --orbits 2 -o - --through 0.5,0.5" + system + "'u\\' = -u; v\\' = -2*v'",
         "portrait --orbits 2 -o -" + system + "'u\\' = v; v\\' = u - u^3'",
         "portrait --orbits 2 -o - --window 0:2,0:2" + system + "'u\\' = u*(1-v); v\\' = v*(u-1)'",
+        "portrait --orbits 2 -o - --view disc" + system + "'u\\' = u^2; v\\' = v'",
         "portrait --orbits 2 -o - --nullclines" + system + "'u\\' = v; v\\' = (1-u^2)*v - u'",
         "portrait --orbits 2 -o -" + system + "'u\\' = -u*v; v\\' = u*v - 0.2*v'"}},
       {"portrait --facts", {"portrait --facts --mu 0.3", "portrait --facts --mu 0.3 --drive 0.1"}},
@@ -201,8 +211,8 @@ TEST_CASE("help lists the fields of each verb that JSON and CSV contain, and no 
         "reduce" + system + "'u\\' = v; v\\' = -sign(u) - 0.5*sign(v)'",
         "reduce" + system + "'u\\' = v; v\\' = (1-u^2)*v - u'"}},
       {"fit",
-       {"fit " + film + " --ball pool --rolling-friction 0.01",
-        "fit " + spins + " --ball pool --noise spin=1,angle=1"}},
+       {"fit " + film + " --ball pool --rolling-friction 0.01", "fit " + spins + " --ball pool --noise spin=1,angle=1",
+        "fit " + camera + " --ball puck"}},
       {"balls", {"balls"}},
       {"aim",
        {"aim --ball pool --distance 1 --turns 3", "aim --ball pool --distance 1 --turns 3 --rolling-friction 0.01"}},
