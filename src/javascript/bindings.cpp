@@ -19,7 +19,7 @@
 #include "contensou/reduction/detail/stop_times_of_mu.hpp"
 #include "contensou/reduction/flow.hpp"
 #include "contensou/reduction/verification.hpp"
-#include "contensou/si/body.hpp"
+#include "contensou/si/experiment.hpp"
 #include "contensou/si/wrench.hpp"
 #include "page/javascript.hpp"
 #include "text/nearest_name.hpp"

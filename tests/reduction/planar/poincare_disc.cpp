@@ -146,7 +146,7 @@ TEST_CASE("equilibria of random polynomial fields on the disc agree with the lea
       const double scale = std::pow(disc.radius, degree - 1), along = leading(angle)[0], slope = leading.slope(angle);
       CHECK(std::abs(leading(angle)[1]) < 1e-9);
       REQUIRE(each.eigenvalues);
-      const auto [low, high] = std::minmax(-scale * along, scale * slope);
+      const auto [low, high] = std::minmax({-scale * along, scale * slope});
       CHECK(each.eigenvalues->first.real() == Approx(low).epsilon(1e-8).margin(1e-8));
       CHECK(each.eigenvalues->second.real() == Approx(high).epsilon(1e-8).margin(1e-8));
       // The same slopes come from the field of the disc.
