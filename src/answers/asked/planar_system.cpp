@@ -338,7 +338,6 @@ FormulaField::operator reduction::SmoothField() const {
       return Eigen::RowVector3d(value, by_u, by_v);
     };
   }
-  field.polynomials = polynomials();
   if (formulas.switches({0, 0}).rows() > 0) {
     field.switches = [formulas = formulas](const Eigen::Vector2d& x) { return formulas.switches({x[0], x[1]}); };
     field.branch = [*this](const Eigen::Vector2d& x) -> reduction::SmoothField {

@@ -28,7 +28,8 @@ struct FormulaField {
   /// Returns the derivatives of (u', v') by u and v, from Formulas::with_slopes. Row 0 belongs to u'.
   Eigen::Matrix2d jacobian(const Eigen::Vector2d& x) const;
 
-  /// Returns the coefficients of u' and v' as in reduction::SmoothField; empty unless both are polynomials.
+  /// Returns the coefficients of u' and v' as in reduction::SmoothField; empty unless both are polynomials. The
+  /// conversion to a SmoothField leaves them out, because the page contains no Expression.
   std::vector<Eigen::MatrixXd> polynomials() const;
 
   operator reduction::SmoothField() const;  // NOLINT(google-explicit-constructor): the field is smooth

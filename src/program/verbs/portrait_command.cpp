@@ -219,7 +219,9 @@ class PortraitCommand final : public Verb {
           "--view {}: only (2.6) has this view. With --system the plane of u and v is drawn, or give --view disc",
           name(*request_.view));
     }
-    if (request_.view && reduction::SmoothField(typed.field).polynomials.empty()) {
+    reduction::SmoothField field = typed.field;
+    if (request_.view) field.polynomials = typed.field.polynomials();
+    if (request_.view && field.polynomials.empty()) {
       throw BadInput(
           "--view disc: the right sides are no polynomials, so that the field has no values at infinity. Leave --view out, "
           "and choose a large --window");
@@ -235,7 +237,7 @@ class PortraitCommand final : public Verb {
     request_.nullclines = nullclines_;
     const Output output = read_output();
     portraits::PlanarPortrait portrait =
-        portraits::planar_portrait(reduction::reduce(typed.field, around), system_.text(), request_);
+        portraits::planar_portrait(reduction::reduce(field, around), system_.text(), request_);
     portrait.variables = typed.variables();
     portrait.parameters = law_.parameters();
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });
