@@ -220,7 +220,7 @@ class PortraitCommand final : public Verb {
           name(*request_.view));
     }
     reduction::SmoothField field = typed.field;
-    if (request_.view) field.polynomials = typed.field.polynomials();
+    if (request_.view) field.polynomials = typed.formulas.polynomials();
     if (request_.view && field.polynomials.empty()) {
       throw BadInput(
           "--view disc: the right sides are no polynomials, so that the field has no values at infinity. Leave --view out, "
