@@ -913,9 +913,9 @@ PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::s
   return portrait;
 }
 
-/// Returns the portrait of the whole plane on the Poincaré disc.
-PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, PortraitRequest request) {
-  request.view.reset();
+}  // namespace
+
+PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
   const PlanarView flat = view_of(plane, request);
   // The radius is a round number, and what the usual window shows lies well inside the circle.
   const Window& window = flat.window;
@@ -981,10 +981,7 @@ PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, 
   return portrait;
 }
 
-}  // namespace
-
 PlanarPortrait planar_portrait(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
-  if (request.view == View::disc) return portrait_on_disc(plane, std::move(name), request);
   return portrait_in(view_of(plane, request), plane, std::move(name), request);
 }
 

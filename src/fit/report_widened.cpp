@@ -77,7 +77,7 @@ void Reporter::set_widened(const VectorXd& residuals) {
     const MatrixXd weighted = noise.cwiseProduct(growth).cwiseInverse().asDiagonal() * X;
     MatrixXd M = X.transpose() * weighted;
     const VectorXd found = weighted.transpose() * residuals;
-    const MatrixXd others = M.topLeftCorner(p, p).ldlt().solve(M.topRightCorner(p, q));
+    const MatrixXd others = Eigen::LLT<MatrixXd>(M.topLeftCorner(p, p)).solve(M.topRightCorner(p, q));
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(M.bottomRightCorner(q, q) - M.bottomLeftCorner(q, p) * others);
     const double before = variance;
     const VectorXd scale = solver.eigenvalues().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
@@ -85,9 +85,9 @@ void Reporter::set_widened(const VectorXd& residuals) {
         solver.eigenvalues(),
         scale.cwiseProduct(solver.eigenvectors().transpose() * (found.tail(q) - others.transpose() * found.head(p))));
     M.diagonal().tail(q).array() += 1 / variance;
-    const MatrixXd inverse = M.inverse(), root = inverse.llt().matrixL();
-    const VectorXd rest = residuals - X * (inverse * found);
-    const MatrixXd rows_of_A = X * root;
+    const Eigen::LLT<MatrixXd> factors(M);
+    const VectorXd rest = residuals - X * factors.solve(found);
+    const MatrixXd rows_of_A = X * factors.matrixU().solve(MatrixXd::Identity(p + q, p + q));
     for (std::size_t place = 0; place < std::size(dependence_); ++place) {
       const std::vector<Index>& rows = search_.rows_of[place];
       if (!search_.estimated[place]) continue;

@@ -552,9 +552,8 @@ TEST_CASE("on the Poincare disc orbits lead from sources at infinity to sinks at
   field.polynomials[1](1, 1) = 5;
   field.polynomials[1](0, 0) = -5;
   PortraitRequest request;
-  request.view = View::disc;
   request.highlight = State{3, -40};
-  const PlanarPortrait portrait = planar_portrait(reduction::by_steps(field), "a system", request);
+  const PlanarPortrait portrait = portrait_on_disc(reduction::by_steps(field), "a system", request);
   REQUIRE(portrait.disc);
   REQUIRE(portrait.disc->at_infinity.size() == 6);
   CHECK(portrait.equilibria.points.empty());
@@ -597,5 +596,5 @@ TEST_CASE("on the Poincare disc orbits lead from sources at infinity to sinks at
       for (const Point& at : line) CHECK(std::hypot(at.x, at.y) < 1 + 1e-6);
     }
   }
-  CHECK_THROWS_WITH(planar_portrait(reduction::by_steps(pendulum), "a pendulum", request), Contains("polynomials"));
+  CHECK_THROWS_WITH(portrait_on_disc(reduction::by_steps(pendulum), "a pendulum", request), Contains("polynomials"));
 }

@@ -236,8 +236,9 @@ class PortraitCommand final : public Verb {
     }
     request_.nullclines = nullclines_;
     const Output output = read_output();
-    portraits::PlanarPortrait portrait =
-        portraits::planar_portrait(reduction::reduce(field, around), system_.text(), request_);
+    const auto compute = request_.view ? portraits::portrait_on_disc : portraits::planar_portrait;
+    request_.view.reset();
+    portraits::PlanarPortrait portrait = compute(reduction::reduce(field, around), system_.text(), request_);
     portrait.variables = typed.variables();
     portrait.parameters = law_.parameters();
     return write(output, portrait, {.version = CONTENSOU_VERSION}, [&] { return draw(portrait, style_); });

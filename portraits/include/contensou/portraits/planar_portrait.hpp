@@ -46,7 +46,7 @@ struct PlanarPortrait : Portrait {
   std::map<std::string, double> parameters = {};      ///< values of letters in the name, for the subtitle
   reduction::Equilibria equilibria = {};              ///< equilibria in the window
   std::vector<SwitchingPart> switching = {};          ///< sliding, rest and ambiguity on switching curves
-  /// For View::disc: the whole plane on the Poincaré disc. Then orbits are computed by steps, and there are no
+  /// For portrait_on_disc: the Poincaré disc. Then orbits are computed by steps, and there are no
   /// isochrones. `equilibria` contains those of the finite plane, and the curves are in u and v, too.
   std::optional<reduction::PoincareDisc> disc = {};
   // Only for a system without a scaling:
@@ -73,8 +73,13 @@ struct PlanarPortrait : Portrait {
 PlanarPortrait planar_portrait(const reduction::PlanarReduction& plane, std::string name,
                                const PortraitRequest& request = {});
 
-/// Return the portrait as JSON or CSV; `contensou help fields` describes members and columns. With
-/// View::disc, u and v near infinity are cut at a thousand million times the radius.
+/// Computes the portrait of the whole plane on the Poincaré disc. The radius of the disc follows from the window.
+/// @throws std::domain_error  as planar_portrait and reduction::poincare_disc
+PlanarPortrait portrait_on_disc(const reduction::PlanarReduction& plane, std::string name,
+                                const PortraitRequest& request = {});
+
+/// Return the portrait as JSON or CSV; `contensou help fields` describes members and columns. On
+/// the disc, u and v near infinity are cut at a thousand million times the radius.
 std::string to_json(const PlanarPortrait& portrait, const PortraitSource& source = {});
 std::string to_csv(const PlanarPortrait& portrait, const PortraitSource& source = {});
 
