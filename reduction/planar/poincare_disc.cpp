@@ -38,137 +38,95 @@ using Eigen::Vector2d;
 
 namespace {
 
-using Polynomials = std::vector<MatrixXd>;
+using Slopes = Eigen::Matrix<double, 2, 3>;
 
-int degree_of(const MatrixXd& polynomial) {
-  int degree = 0;
-  for (Eigen::Index i = 0; i < polynomial.rows(); ++i) {
-    for (Eigen::Index j = 0; j < polynomial.cols(); ++j) {
-      if (polynomial(i, j) != 0) degree = std::max(degree, static_cast<int>(i + j));
-    }
-  }
-  return degree;
-}
-
-/// The function g(X) = w^d f(r X/w)/r with its Jacobian.
-struct Homogenised {
-  Polynomials coefficients;  ///< those of f in units of r
-  int degree;
-
-  struct Value {
-    Vector2d g = Vector2d::Zero();
-    Matrix2d slopes = Matrix2d::Zero();
+/// The homogeneous polynomials f*(u, v, w) = w^d f(u/w, v/w).
+struct HomogeneousField {
+  struct Term {
+    int component, i, j, k;  ///< exponents of u, v and w
+    double factor;
   };
+  std::vector<Term> terms = {};
+  int degree = 0;
 
-  Value operator()(const Vector2d& X, bool with_slopes) const {
-    const double w = 1 - X.squaredNorm();
-    const auto term = [](double base, int n) {
+  /// @param unit       unit of length; a negative one reverses both axes
+  /// @param exchanged  true: u and v are exchanged
+  HomogeneousField(const SmoothField& field, double unit, bool exchanged = false) {
+    for (int c : {0, 1}) {
+      const MatrixXd& all = field.polynomials[static_cast<std::size_t>(c)];
+      for (int i = 0; i < all.rows(); ++i) {
+        for (int j = 0; j < all.cols(); ++j) {
+          if (all(i, j) == 0) continue;
+          terms.push_back(
+              {exchanged ? 1 - c : c, exchanged ? j : i, exchanged ? i : j, 0, all(i, j) * std::pow(unit, i + j - 1)});
+          degree = std::max(degree, i + j);
+        }
+      }
+    }
+    for (Term& term : terms) term.k = degree - term.i - term.j;
+  }
+
+  /// @param slopes  if given, receives the derivatives by u, v and w
+  Vector2d operator()(double u, double v, double w, Slopes* slopes = nullptr) const {
+    const auto power = [](double base, int n) {
       double product = n < 0 ? 0 : 1;
       for (; n > 0; --n) product *= base;
       return product;
     };
-    Value value;
-    for (int c : {0, 1}) {
-      const MatrixXd& all = coefficients[static_cast<std::size_t>(c)];
-      for (int i = 0; i < all.rows(); ++i) {
-        for (int j = 0; j < all.cols(); ++j) {
-          if (all(i, j) == 0) continue;
-          const int k = degree - i - j;
-          const double u = term(X[0], i), v = term(X[1], j), power = term(w, k);
-          value.g[c] += all(i, j) * u * v * power;
-          if (!with_slopes) continue;
-          const double by_w = k * u * v * term(w, k - 1);
-          value.slopes(c, 0) += all(i, j) * (i * term(X[0], i - 1) * v * power - 2 * X[0] * by_w);
-          value.slopes(c, 1) += all(i, j) * (j * term(X[1], j - 1) * u * power - 2 * X[1] * by_w);
-        }
-      }
+    Vector2d f(0, 0);
+    if (slopes != nullptr) slopes->setZero();
+    for (const auto& [c, i, j, k, factor] : terms) {
+      const double by_u = power(u, i), by_v = power(v, j), by_w = power(w, k);
+      f[c] += factor * by_u * by_v * by_w;
+      if (slopes == nullptr) continue;
+      (*slopes)(c, 0) += factor * i * power(u, i - 1) * by_v * by_w;
+      (*slopes)(c, 1) += factor * j * power(v, j - 1) * by_u * by_w;
+      (*slopes)(c, 2) += factor * k * power(w, k - 1) * by_u * by_v;
     }
-    return value;
+    return f;
   }
 };
 
-/// Returns the field of a chart: the polynomials of u' and z' in u and z.
-Polynomials chart_of(const Polynomials& f, int degree) {
-  Polynomials chart(2, MatrixXd(MatrixXd::Zero(degree + 2, degree + 2)));
-  for (int c : {0, 1}) {
-    const MatrixXd& all = f[static_cast<std::size_t>(c)];
-    for (int i = 0; i < all.rows(); ++i) {
-      for (int j = 0; j < all.cols() && i + j <= degree; ++j) {
-        const int k = degree - i - j;
-        if (c == 0) chart[0](j + 1, k) -= all(i, j);
-        if (c == 0) chart[1](j, k + 1) -= all(i, j);
-        if (c == 1) chart[0](j, k) += all(i, j);
-      }
-    }
-  }
-  return chart;
-}
-
-SmoothField field_of(const Polynomials& polynomials) {
-  const auto sum = [](const MatrixXd& all, const Vector2d& x, int by) {
-    double value = 0;
-    for (int i = 0; i < all.rows(); ++i) {
-      for (int j = 0; j < all.cols(); ++j) {
-        const int n = by == 0 ? i : by == 1 ? j : 1;  // factor of the derivative
-        if (all(i, j) != 0 && n != 0) {
-          value += n * all(i, j) * std::pow(x[0], i - (by == 0 ? 1 : 0)) * std::pow(x[1], j - (by == 1 ? 1 : 0));
-        }
-      }
-    }
-    return value;
-  };
-  return SmoothField([=](const Vector2d& x) { return Vector2d(sum(polynomials[0], x, 2), sum(polynomials[1], x, 2)); },
-                     [=](const Vector2d& x) {
-                       Matrix2d all;
-                       for (int i : {0, 1}) {
-                         for (int j : {0, 1}) all(i, j) = sum(polynomials[static_cast<std::size_t>(i)], x, j);
-                       }
-                       return all;
-                     });
-}
-
-/// Returns the coefficients of f in another unit of length.
-Polynomials in_units(Polynomials f, double length) {
-  for (MatrixXd& each : f) {
-    for (Eigen::Index i = 0; i < each.rows(); ++i) {
-      for (Eigen::Index j = 0; j < each.cols(); ++j) each(i, j) *= std::pow(length, i + j - 1);
-    }
-  }
-  return f;
+/// Multiplies the rates of the motions about an equilibrium.
+void hasten(Equilibrium& each, double factor) {
+  each.slopes *= factor;
+  if (!each.eigenvalues) return;
+  each.eigenvalues->first *= factor;
+  each.eigenvalues->second *= factor;
 }
 
 /// Returns the equilibria on the circle in the order of their angles.
-/// @param length  unit of length in the charts; the terms of low degree are seen well in one unit, and not in another
-std::vector<Equilibrium> on_circle(const Polynomials& f, int degree, double length) {
+/// @param unit    unit of length of the disc
+/// @param length  unit of length in the charts, in units of the disc; the terms of low degree are seen well in one
+/// unit,
+///                and not in another
+std::vector<Equilibrium> on_circle(const SmoothField& field, double unit, double length) {
   std::vector<Equilibrium> all;
   for (const double sign : {1., -1.}) {
-    Polynomials turned = in_units(f, length);  // the field as seen in the coordinates -x
-    for (MatrixXd& each : turned) {
-      for (Eigen::Index i = 0; i < each.rows(); ++i) {
-        for (Eigen::Index j = 0; j < each.cols(); ++j) each(i, j) *= (i + j) % 2 == 0 ? sign : 1;
-      }
-    }
     for (const bool exchanged : {false, true}) {
-      if (exchanged) {
-        std::swap(turned[0], turned[1]);
-        for (MatrixXd& each : turned) each = each.transpose().eval();
-      }
-      constexpr double widest = 1.05, high = 1.05, same = 1e-9;
-      for (Equilibrium& each :
-           find_equilibria(field_of(chart_of(turned, degree)), {-widest, -high}, {widest, high}).points) {
+      const HomogeneousField f(field, sign * length * unit, exchanged);
+      const auto value = [f](const Vector2d& x) {
+        const Vector2d at = f(1, x[0], x[1]);
+        return Vector2d(at[1] - x[0] * at[0], -x[1] * at[0]);
+      };
+      const auto jacobian = [f](const Vector2d& x) {
+        Slopes slopes;
+        const double first = f(1, x[0], x[1], &slopes)[0];
+        Matrix2d chart = -x * slopes.rightCols<2>().row(0) - first * Matrix2d::Identity();
+        chart.row(0) += slopes.rightCols<2>().row(1);
+        return chart;
+      };
+      constexpr double widest = 1.05, same = 1e-9;
+      const Vector2d corner(widest, widest);
+      for (Equilibrium& each : find_equilibria(SmoothField(value, jacobian), -corner, corner).points) {
         const double u = each.x[0];
         if (std::abs(each.x[1]) > same || std::abs(u) > (exchanged ? 1 - same : 1 + same)) continue;
-        const Vector2d n = sign / std::hypot(1, u) * (exchanged ? Vector2d(u, 1) : Vector2d(1, u));
-        const double c = 1 / std::hypot(1, u), rate = std::pow(c / length, degree - 1);
+        const double c = 1 / std::hypot(1, u);
+        each.x = sign * c * (exchanged ? Vector2d(u, 1) : Vector2d(1, u));
         Matrix2d onto;
-        onto.col(0) = c * c * (exchanged ? -1 : 1) * Vector2d(-n[1], n[0]);
-        onto.col(1) = -c / (2 * length) * n;
-        each.x = n;
-        each.slopes = rate * onto * each.slopes * onto.inverse();
-        if (each.eigenvalues) {
-          each.eigenvalues->first *= rate;
-          each.eigenvalues->second *= rate;
-        }
+        onto << c * c * (exchanged ? -1 : 1) * Vector2d(-each.x[1], each.x[0]), -c / (2 * length) * each.x;
+        each.slopes = onto * each.slopes * onto.inverse();
+        hasten(each, std::pow(c / length, f.degree - 1));
         all.push_back(each);
       }
     }
@@ -179,11 +137,11 @@ std::vector<Equilibrium> on_circle(const Polynomials& f, int degree, double leng
 
 /// Returns true if f is 0 at x except for rounding: beside the circle, the field of the disc is small in many places.
 bool vanishes(const SmoothField& field, const Vector2d& x) {
-  Polynomials sizes = field.polynomials;
-  for (MatrixXd& each : sizes) each = each.cwiseAbs();
+  HomogeneousField sizes(field, 1);
+  for (HomogeneousField::Term& term : sizes.terms) term.factor = std::abs(term.factor);
   constexpr double small = 1e-7;  // a coordinate of 0 can be a smaller number
-  return (field(x).cwiseAbs().array() <= small * field_of(sizes)(x.cwiseAbs().array() + small * x.norm()).array())
-      .all();
+  const Vector2d at = x.cwiseAbs().array() + small * x.norm();
+  return (field(x).cwiseAbs().array() <= small * sizes(at[0], at[1], 1).array()).all();
 }
 
 }  // namespace
@@ -202,23 +160,22 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
   if (!(radius > 0) || !std::isfinite(radius)) {
     throw std::domain_error(fmt::format("the radius of the Poincaré disc must be positive and finite, got {}", radius));
   }
-  Homogenised g{field.polynomials, std::max(degree_of(field.polynomials[0]), degree_of(field.polynomials[1]))};
-  if (std::ranges::all_of(g.coefficients, [](const MatrixXd& each) { return each.isZero(0); })) {
-    throw std::domain_error("the Poincaré disc needs a field that is not 0");
-  }
-  g.coefficients = in_units(g.coefficients, radius);
-  const auto value = [g](const Vector2d& X) -> Vector2d {
-    const Vector2d at = g(X, false).g;
-    return at - 2 * X.dot(at) / (1 + X.squaredNorm()) * X;
+  const HomogeneousField f(field, radius);
+  if (f.terms.empty()) throw std::domain_error("the Poincaré disc needs a field that is not 0");
+  const auto plain = [f](const Vector2d& X) { return f(X[0], X[1], 1 - X.squaredNorm()); };
+  const auto value = [plain](const Vector2d& X) -> Vector2d {
+    const Vector2d g = plain(X);
+    return g - 2 * X.dot(g) / (1 + X.squaredNorm()) * X;
   };
-  const auto jacobian = [g](const Vector2d& X) -> Matrix2d {
-    const auto [at, slopes] = g(X, true);
-    const double one = 1 + X.squaredNorm(), inner = X.dot(at);
-    return slopes - 2 / one * (inner * Matrix2d::Identity() + X * (at + slopes.transpose() * X).transpose()) +
+  const auto jacobian = [f](const Vector2d& X) -> Matrix2d {
+    Slopes by;
+    const Vector2d g = f(X[0], X[1], 1 - X.squaredNorm(), &by);
+    const Matrix2d slopes = by.leftCols<2>() - 2 * by.col(2) * X.transpose();
+    const double one = 1 + X.squaredNorm(), inner = X.dot(g);
+    return slopes - 2 / one * (inner * Matrix2d::Identity() + X * (g + slopes.transpose() * X).transpose()) +
            4 * inner / (one * one) * X * X.transpose();
   };
-  const auto plain = [g](const Vector2d& X) -> Vector2d { return g(X, false).g; };
-  PoincareDisc disc{g.degree, radius, SmoothField(value, jacobian), SmoothField(plain), {}, {}};
+  PoincareDisc disc{f.degree, radius, SmoothField(value, jacobian), SmoothField(plain), {}, {}};
 
   constexpr double around = 1.05;
   disc.equilibria = find_equilibria(disc.field, Vector2d::Constant(-around), Vector2d::Constant(around));
@@ -232,17 +189,12 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
     if (w <= 0 || !vanishes(field, disc.from(each.x))) continue;
     each.x = disc.onto(few_decimals(field, disc.from(each.x), Vector2d::Constant(radius), snap).value());
     count(each, 2);
-    const double rate = std::pow(w, 1 - g.degree);  // ds/dt
-    each.slopes *= rate;
-    if (each.eigenvalues) {
-      each.eigenvalues->first *= rate;
-      each.eigenvalues->second *= rate;
-    }
+    hasten(each, std::pow(w, 1 - f.degree));  // ds/dt
     disc.equilibria.points.push_back(each);
   }
   const std::optional<int> finite = sum;
   for (const double length : {1., 1. / 8, 8.}) {
-    std::vector<Equilibrium> found = on_circle(g.coefficients, g.degree, length);
+    std::vector<Equilibrium> found = on_circle(field, radius, length);
     sum = finite;
     for (const Equilibrium& each : found) count(each, 1);
     disc.equilibria.complete = sum == 2 || disc.equilibria.on_curve;
