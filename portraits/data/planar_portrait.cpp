@@ -18,6 +18,7 @@
 #include "contensou/reduction/detail/infinity.hpp"
 #include "contensou/reduction/planar_reduction.hpp"
 #include "data/planar_window.hpp"
+#include "data/round_numbers.hpp"
 #include "data/tracing.hpp"
 #include "data/widest_gaps.hpp"
 
@@ -919,23 +920,23 @@ PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, 
   const PlanarView flat = view_of(plane, request);
   // The radius is a round number, and what the usual window shows lies well inside the circle.
   const Window& window = flat.window;
-  const double half = 0.7 * window.low.cwiseAbs().cwiseMax(window.high.cwiseAbs()).maxCoeff();
-  double radius = std::pow(10, std::floor(std::log10(half)));
-  for (const double factor : {2, 5, 10}) {
-    if (radius < half) radius = factor * std::pow(10, std::floor(std::log10(half)));
-  }
-  reduction::PoincareDisc disc = reduction::poincare_disc(plane.field(), radius);
-  // The proofs that a point is a center need the plane.
+  constexpr double part = 1.5;
+  const double largest = window.low.cwiseAbs().cwiseMax(window.high.cwiseAbs()).maxCoeff();
+  reduction::PoincareDisc disc = reduction::poincare_disc(plane.field(), round_down(part * largest));
   const auto onto = [&](const Vector2d& x) { return disc.onto(x); };
   const auto from = [&](const Vector2d& X) {
     constexpr double highest = 1 - 1e-9;  // about a thousand million times the radius
     return disc.from(X.norm() > highest ? X * (highest / X.norm()) : X);
   };
-  for (reduction::Equilibrium& each : disc.equilibria.points) each.x = from(each.x);
-  disc.equilibria.low = window.low;
-  disc.equilibria.high = window.high;
-  compare_kinds(disc.equilibria, plane);
-  for (reduction::Equilibrium& each : disc.equilibria.points) each.x = onto(each.x);
+  // The proofs that a point is a center need the plane.
+  reduction::Equilibria in_plane = disc.equilibria;
+  in_plane.low = window.low;
+  in_plane.high = window.high;
+  for (reduction::Equilibrium& each : in_plane.points) each.x = from(each.x);
+  compare_kinds(in_plane, plane);
+  in_plane.low = Vector2d::Constant(-infinity);
+  in_plane.high = Vector2d::Constant(infinity);
+  for (std::size_t i = 0; i < in_plane.points.size(); ++i) disc.equilibria.points[i].kind = in_plane.points[i].kind;
 
   PortraitRequest on_disc = request;
   const auto move = [&](State& x) {
@@ -950,33 +951,24 @@ PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, 
   PlanarPortrait portrait =
       portrait_in(std::move(round), reduction::by_steps(disc.field, fine), std::move(name), on_disc, &disc);
 
-  const auto unrolled = [&](std::vector<PortraitOrbit>& lines) {
-    for (PortraitOrbit& line : lines) {
-      for (Eigen::Index i = 0; i < line.rows(); ++i) {
-        const Vector2d x = from({line.u[i], line.v[i]});
-        line.u[i] = x[0];
-        line.v[i] = x[1];
-      }
+  const auto unroll = [&](PortraitOrbit& line) {
+    for (Eigen::Index i = 0; i < line.rows(); ++i) {
+      const Vector2d x = from({line.u[i], line.v[i]});
+      line.u[i] = x[0];
+      line.v[i] = x[1];
     }
   };
   for (std::vector<PortraitOrbit>* lines :
        {&portrait.orbits, &portrait.highlight, &portrait.through, &portrait.lines_of_equilibria,
         &portrait.nullclines[0], &portrait.nullclines[1]}) {
-    unrolled(*lines);
+    std::ranges::for_each(*lines, unroll);
   }
-  for (Separatrix& each : portrait.separatrices) {
-    std::vector<PortraitOrbit> line{std::move(each)};
-    unrolled(line);
-    static_cast<PortraitOrbit&>(each) = std::move(line.front());
-  }
+  std::ranges::for_each(portrait.separatrices, unroll);
   portrait.window = window;
   portrait.points = request.through;
   portrait.cycles = flat.cycles;
   portrait.plane = plane;
-  for (reduction::Equilibrium& each : disc.equilibria.points) each.x = from(each.x);
-  disc.equilibria.low = Vector2d::Constant(-infinity);
-  disc.equilibria.high = Vector2d::Constant(infinity);
-  portrait.equilibria = disc.equilibria;
+  portrait.equilibria = std::move(in_plane);
   portrait.disc = std::move(disc);
   return portrait;
 }
