@@ -42,6 +42,10 @@ const Flow& flow_of(const std::string& law, double mu, double chi, double gamma,
   return *flow;
 }
 
+double stop_time(const std::string& law, double mu, double chi, double gamma, double drive, double u, double v) {
+  return flow_of(law, mu, chi, gamma, drive).orbit({.u = u, .v = v}).stop_time();
+}
+
 /// Returns the stop times of the starts in two arrays of one length; NaN for a value that is no start.
 val stop_times(const std::string& law, double mu, double chi, double gamma, double drive, const val& us,
                const val& vs) {
@@ -73,7 +77,7 @@ val stop_times_of_mu(const std::string& law, const val& mus, double chi, double 
   for (const auto& [value, indices] : rows) {
     for (std::size_t i : indices) {
       const reduction::State start{u[i], v[i]};
-      taus[i] = shares ? (*tables)(value, start) : flow_of(law, value, chi, gamma, drive).orbit(start).stop_time();
+      taus[i] = shares ? (*tables)(value, start) : stop_time(law, value, chi, gamma, drive, u[i], v[i]);
     }
   }
   return column(taus);
@@ -116,6 +120,7 @@ std::string complaint(const std::string& body, double mu) {
 
 EMSCRIPTEN_BINDINGS(contensou_npm) {
   using namespace contensou::page;
+  emscripten::function("stopTime", answering<stop_time>);
   emscripten::function("stopTimes", answering<stop_times>);
   emscripten::function("stopTimesOfMu", answering<stop_times_of_mu>);
   emscripten::function("checks", answering<checks>);

@@ -98,20 +98,6 @@ const columnsOf = (given) => {
   return Object.values(given).map((each) => isColumn(each) ? each : new Float64Array(count).fill(each));
 };
 
-const shared = new library.Plane();
-let solved = "";
-
-/** Returns a plane of a system; the last one is kept. */
-const planeOf = (system) => {
-  const of = systemOf(system), key = of.join(" ");
-  if (key !== solved) {
-    solved = "";
-    shared.choose(...of);
-    solved = key;
-  }
-  return shared;
-};
-
 export class Flow {
   #plane = new library.Plane();
   #system;
@@ -153,7 +139,7 @@ export class Flow {
 export const stopTime = (given) => {
   const { u, v, ...system } = only("stopTime", given, [...ofStart, ...ofSystem]);
   startOf("stopTime", { u, v });
-  return planeOf(system).stop(u, v);
+  return library.stopTime(...systemOf(system), u, v);
 };
 
 export const stopTimes = (given) => {
