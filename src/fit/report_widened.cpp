@@ -102,13 +102,15 @@ void Reporter::set_widened(const VectorXd& residuals) {
     constexpr double hardly = 1e-3;
     if (std::abs(variance - before) < hardly * variance) break;
   }
-  fit_.widened = {std::sqrt(variance), 1, 1};
-  if (fit_.widened->friction_varies > most_varying) return;  // this film is refused; its profiles would be very long
+  Widened& widened = fit_.widened.emplace(Widened{std::sqrt(variance), 1, 1});
+  // Such a film is refused, and its profiles would be very long.
+  if (widened.friction_varies > most_varying) return;
   const MatrixXd by_waves = derivatives_.transpose() * X.rightCols(q);
   const MatrixXd by_camera = derivatives_.transpose() * noise.cwiseProduct(growth).asDiagonal() * derivatives_;
   set_covariance(variance_ * inverse_.covariance * (by_camera + variance * by_waves * by_waves.transpose()) *
                  inverse_.covariance);
-  Widened widened{std::sqrt(variance), std::numeric_limits<double>::infinity(), 0};
+  widened.least = std::numeric_limits<double>::infinity();
+  widened.most = 0;
   for (std::size_t i = 0; i < search_.free.size(); ++i) {
     const Parameter parameter = TrackModel::parameter_at(search_.free[i]);
     if (static_cast<int>(parameter) >= static_cast<int>(Parameter::direction)) continue;
@@ -117,7 +119,6 @@ void Reporter::set_widened(const VectorXd& residuals) {
     widened.least = std::min(widened.least, factor);
     widened.most = std::max(widened.most, factor);
   }
-  fit_.widened = widened;
 }
 
 }  // namespace contensou::fit
