@@ -1,4 +1,4 @@
-// What a stop time and a time step cost in JavaScript, in one run: the table of src/javascript/README.md.
+// Costs of a stop time and of a time step in JavaScript, in one run: the table of src/javascript/README.md.
 //
 //     node tests/benchmark/javascript.mjs build/src/javascript/package
 import { resolve } from "node:path";

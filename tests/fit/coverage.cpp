@@ -195,7 +195,7 @@ struct RealFilm {
   Track track;
 };
 
-/// How a RealFilm differs from the model.
+/// The differences of a RealFilm from the model.
 struct Table {
   double uneven = 0.02;  ///< standard deviation of the friction along the path, divided by its mean
   double patch = 1;      ///< patch radius divided by the radius
