@@ -933,6 +933,7 @@ PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, 
   in_plane.low = window.low;
   in_plane.high = window.high;
   for (reduction::Equilibrium& each : in_plane.points) each.x = from(each.x);
+  if (in_plane.on_curve) in_plane.on_curve = from(*in_plane.on_curve);
   compare_kinds(in_plane, plane);
   in_plane.low = Vector2d::Constant(-infinity);
   in_plane.high = Vector2d::Constant(infinity);

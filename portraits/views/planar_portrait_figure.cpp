@@ -180,20 +180,16 @@ void add_infinity(PanelLayers& layers, const PlanarPortrait& portrait, const Pal
   for (const reduction::Equilibrium& each : disc.at_infinity) angles.push_back(std::atan2(each.x[1], each.x[0]));
   if (angles.empty()) angles = {-2.4, -0.8, 0.8, 2.4};
   Arrows arrows{{}, palette.invariant};
-  double fastest = 0;
-  for (std::size_t i = 0; i < angles.size(); ++i) {
+  for (std::size_t i = 0; i < angles.size() && !disc.rests; ++i) {
     const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * std::numbers::pi;
     const double middle = (angles[i] + next) / 2;
     const Vector2d X(std::cos(middle), std::sin(middle)), rate = disc.field(X);
-    fastest = std::max(fastest, rate.norm());
     arrows.arrows.push_back({{X[0], X[1]}, {rate[0], rate[1]}});
   }
-  constexpr double still = 1e-9;
-  const double size = disc.plain(Vector2d(1, 0)).norm() + disc.plain(Vector2d(0, 1)).norm();
-  const bool rests = !(fastest > still * size);
-  if (!rests) layers.panel().arrows.push_back(std::move(arrows));
-  layers.panel().lines.push_back(
-      {{circle(1)}, {palette.invariant, rests ? 4 : 1.6, false, rests}, rests ? "equilibria at infinity" : ""});
+  layers.panel().arrows.push_back(std::move(arrows));
+  layers.panel().lines.push_back({{circle(1)},
+                                  {palette.invariant, disc.rests ? 4 : 1.6, false, disc.rests},
+                                  disc.rests ? "equilibria at infinity" : ""});
   const double golden = disc.onto({disc.radius, 0})[0];
   layers.panel().lines.push_back({{circle(golden)},
                                   {palette.theme.faint, 1.2, false, true},
@@ -431,6 +427,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     values += (values.empty() ? Text() : Text(", ")) + math(letter) + fmt::format(" = {}", value);
   }
   if (!values.empty()) figure.subtitle = values + "; " + figure.subtitle;
+  if (portrait.disc && !portrait.equilibria.complete) figure.subtitle += "; some equilibria may be missing";
   if (has_gaps) figure.subtitle += "; grey: the field has no value";
   figure.size = size;
   figure.theme = look.palette.theme;

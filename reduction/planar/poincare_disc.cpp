@@ -20,6 +20,7 @@
 // Source: L. Perko, Differential Equations and Dynamical Systems, section 3.10.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -135,6 +136,20 @@ std::vector<Equilibrium> on_circle(const SmoothField& field, double unit, double
   return all;
 }
 
+/// Returns true if the terms of degree d have no part across any direction. Their part across is a polynomial of degree
+/// d + 1 in the tangent of the angle, so d + 2 directions decide.
+bool rests_on_circle(const HomogeneousField& f) {
+  constexpr double rounding = 1e-12;
+  double largest = 0, across = 0;
+  for (int i = 0; i < f.degree + 2; ++i) {
+    const double angle = std::numbers::pi * (i + 0.3) / (f.degree + 2);
+    const Vector2d n(std::cos(angle), std::sin(angle)), at = f(n[0], n[1], 0);
+    largest = std::max(largest, at.norm());
+    across = std::max(across, std::abs(n[0] * at[1] - n[1] * at[0]));
+  }
+  return across <= rounding * largest;
+}
+
 /// Returns true if f is 0 at x except for rounding: beside the circle, the field of the disc is small in many places.
 bool vanishes(const SmoothField& field, const Vector2d& x) {
   HomogeneousField sizes(field, 1);
@@ -175,7 +190,7 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
     return slopes - 2 / one * (inner * Matrix2d::Identity() + X * (g + slopes.transpose() * X).transpose()) +
            4 * inner / (one * one) * X * X.transpose();
   };
-  PoincareDisc disc{f.degree, radius, SmoothField(value, jacobian), SmoothField(plain), {}, {}};
+  PoincareDisc disc{f.degree, radius, SmoothField(value, jacobian), SmoothField(plain), rests_on_circle(f), {}, {}};
 
   constexpr double around = 1.05;
   disc.equilibria = find_equilibria(disc.field, Vector2d::Constant(-around), Vector2d::Constant(around));
@@ -192,14 +207,19 @@ PoincareDisc poincare_disc(const SmoothField& field, double radius) {
     hasten(each, std::pow(w, 1 - f.degree));  // ds/dt
     disc.equilibria.points.push_back(each);
   }
+  // The field of the disc is small beside the circle, where the field of the plane is not.
+  const Vector2d corner = Vector2d::Constant(2 * radius);
+  std::optional<Vector2d>& curve = disc.equilibria.on_curve = find_equilibria(field, -corner, corner).on_curve;
+  if (curve) curve = disc.onto(*curve);
   const std::optional<int> finite = sum;
   for (const double length : {1., 1. / 8, 8.}) {
     std::vector<Equilibrium> found = on_circle(field, radius, length);
     sum = finite;
     for (const Equilibrium& each : found) count(each, 1);
-    disc.equilibria.complete = sum == 2 || disc.equilibria.on_curve;
-    if (disc.equilibria.complete || found.size() > disc.at_infinity.size()) disc.at_infinity = std::move(found);
-    if (disc.equilibria.complete) break;
+    const bool enough = disc.rests || curve || sum == 2;
+    if (enough || found.size() > disc.at_infinity.size()) disc.at_infinity = std::move(found);
+    if (!disc.rests && !curve) disc.equilibria.complete = enough && f.degree < TaylorPolynomial::degree;
+    if (enough) break;
   }
   return disc;
 }

@@ -223,7 +223,7 @@ class PortraitCommand final : public Verb {
     if (request_.view) field.polynomials = typed.formulas.polynomials();
     if (request_.view && field.polynomials.empty()) {
       throw BadInput(
-          "--view disc: the right sides are no polynomials, so that the field has no values at infinity. Leave --view out, "
+          "--view disc: the right sides are no polynomials of degree 24 or less, so that nothing is known at infinity. Leave --view out, "
           "and choose a large --window");
     }
     // Sample the field about a point of the window, or, without a window, at the distance of the start from 0.

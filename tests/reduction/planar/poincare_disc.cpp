@@ -41,7 +41,7 @@ SmoothField field_of(const std::vector<Monomial>& monomials) {
         }
         return slopes;
       });
-  constexpr int most = 6;
+  constexpr int most = 12;
   field.polynomials.assign(2, MatrixXd::Zero(most, most));
   for (const auto& [c, a, i, j] : monomials) field.polynomials[static_cast<std::size_t>(c)](i, j) += a;
   return field;
@@ -196,6 +196,22 @@ TEST_CASE("motions that start beside the circle begin with short steps", "[plana
       CHECK(1 - orbit.at(s)[0] == Approx(grown).epsilon(2 * grown + 1e-12 / away));
     }
   }
+}
+
+TEST_CASE("a field that is small is no curve of equilibria", "[planar]") {
+  // u' = u^11, v' = -v: next to the circle the field of the disc is below 1e-6 of its largest value.
+  const PoincareDisc small = poincare_disc(field_of({{0, 1, 11, 0}, {1, -1, 0, 1}}), 2);
+  CHECK_FALSE(small.rests);
+  CHECK_FALSE(small.equilibria.on_curve);
+  CHECK_FALSE(small.equilibria.complete);
+  // u' = u v, v' = u^2: the axis u = 0 consists of equilibria, the circle does not.
+  const PoincareDisc axis = poincare_disc(field_of({{0, 1, 1, 1}, {1, 1, 2, 0}}), 2);
+  CHECK_FALSE(axis.rests);
+  CHECK(axis.equilibria.on_curve);
+  // u' = u + u^2, v' = v + u v: the leading terms u (u, v) have no part across.
+  const PoincareDisc circle = poincare_disc(field_of({{0, 1, 1, 0}, {0, 1, 2, 0}, {1, 1, 0, 1}, {1, 1, 1, 1}}), 2);
+  CHECK(circle.rests);
+  CHECK(poincare_disc(field_of({{0, 1, 1, 0}, {1, 1, 0, 1}}), 2).rests);
 }
 
 TEST_CASE("the disc needs a polynomial field and a radius", "[planar]") {

@@ -436,10 +436,11 @@ struct PoincareDisc {
   SmoothField field;  ///< dX/ds with ds = (1 - |X|^2)^(1 - d) dt, smooth also on the circle and beyond it
   SmoothField plain;  ///< (1 - |X|^2)^d f: the components vanish where those of f vanish
 
+  bool rests;  ///< true if the circle consists of equilibria
+
   /// The equilibria in the finite plane, as points X. Eigenvalues and `slopes` belong to dX/dt; so the eigenvalues are
-  /// those of the plane. `on_curve` can be a point of the circle, which can consist of equilibria. Unless there is such
-  /// a curve, `complete` is true if the theorem of Poincaré and Hopf holds: twice the sum of the indices here plus
-  /// their sum in `at_infinity` is 2.
+  /// those of the plane. `on_curve` lies in the plane. Without curves, `complete` is true if the theorem of Poincaré
+  /// and Hopf holds: twice the sum of the indices here plus their sum in `at_infinity` is 2.
   Equilibria equilibria;
   /// The equilibria on the circle. Eigenvalues and slopes belong to dX/ds.
   std::vector<Equilibrium> at_infinity;
