@@ -307,12 +307,12 @@ void CycleSearch::about(const Vector2d& centre, double reach) {
   constexpr double nearest = 1e-4;
   // Orbits that are stiff far outside must not use up the values of the others.
   constexpr int most_values = 600'000, most_of_sample = 50'000, halvings = 5, sections = 8;
-  int left = most_values;
+  int remaining = most_values;
   const ReturnMap map(field_, centre, half_, rough);
   const auto sample = [&](double place) {
-    const int allowed = *left_ = std::min(left, most_of_sample);
+    const int allowed = *left_ = std::min(remaining, most_of_sample);
     const Sample made{place, map.growth(place)};
-    left -= allowed - *left_;
+    remaining -= allowed - *left_;
     return made;
   };
   // Every stride halves the distances, so that the values of the field last for a search that is at least coarse.
@@ -323,7 +323,7 @@ void CycleSearch::about(const Vector2d& centre, double reach) {
   };
   constexpr int count = 48, first = 8;
   for (int stride = first; stride > 0; stride /= 2) {
-    for (int i = 0; i <= count && left > 0; i += stride) {
+    for (int i = 0; i <= count && remaining > 0; i += stride) {
       if (stride == first || i % (2 * stride) != 0) insert(sample(reach * std::pow(nearest, 1 - 1. * i / count)));
     }
   }
