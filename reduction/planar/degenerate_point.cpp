@@ -377,9 +377,9 @@ std::optional<Local> local_polynomial(const PlanarField& field, const Vector2d& 
   for (; radius > smallest; radius /= 2) {
     auto t = taylor(field, x, radius * radii);
     if (!t || t->misfit > accurate * t->size) continue;
-    if (linear_part(*t).norm() <= zero * t->size) return Local{std::move(*t), {}, radius};
+    if (linear_part(*t).norm() <= zero * t->size) return Local{*t, {}, radius};
     AlongCurve curve = along_curve(*t);
-    if (curve.wide <= steepest) return Local{std::move(*t), std::move(curve), radius};
+    if (curve.wide <= steepest) return Local{*t, std::move(curve), radius};
   }
   return std::nullopt;
 }

@@ -18,7 +18,10 @@ struct TaylorPolynomial {
   static constexpr int degree = 8, terms = (degree + 1) * (degree + 2) / 2;
 
   /// Returns the place of the coefficient of z1^i z2^j.
-  static constexpr std::size_t place(int i, int j) { return static_cast<std::size_t>((i + j) * (i + j + 1) / 2 + j); }
+  static constexpr std::size_t place(int i, int j) {
+    const int place = (i + j) * (i + j + 1) / 2 + j;
+    return static_cast<std::size_t>(place);
+  }
 
   double& operator()(int i, int j) { return coefficients[place(i, j)]; }
   double operator()(int i, int j) const { return coefficients[place(i, j)]; }
