@@ -410,14 +410,10 @@ class Surroundings {
   }
 
   Passage passage(double angle) const {
-    constexpr double outside = 1.5, arrived = 1e-3, widest = 0.4, first = 0.1;
-    constexpr int most = 600;
+    constexpr double outside = 1.5, arrived = 1e-3;
     Passage passage{Passage::End::unknown, angle};
     try {
-      const Vector2d start = point(angle);
-      const double speed = steps_.field()(start).cwiseQuotient(half_).norm();
-      if (!(speed > 0)) return passage;
-      Winding winding(steps_.part_of_orbit(start), start, centre_, half_, widest, first / speed);
+      Winding winding = motion(angle);
       for (int i = 0; i < most && winding.advance(); ++i) {
         const double distance = winding.here().norm();
         passage.angle = angle + winding.angle();
@@ -429,9 +425,22 @@ class Surroundings {
         }
       }
     } catch (const std::domain_error&) {
-      // The field has no value at the start.
+      // No motion begins at the start.
     }
     return passage;
+  }
+
+  /// Returns the angle at which a motion comes to a smaller ellipse; NaN if it does not.
+  /// @param part  ratio of the two ellipses
+  double angle_at(double part, double angle) const {
+    Winding winding = motion(angle);
+    for (int i = 0; winding.here().norm() > part; ++i) {
+      if (i == most || !winding.advance()) return std::numeric_limits<double>::quiet_NaN();
+    }
+    const auto place = [&](double time) { return winding.scaled(winding.orbit().at(time)); };
+    const Vector2d there =
+        place(last_where([&](double t) { return place(t).norm() > part; }, winding.before(), winding.time()));
+    return std::atan2(there[1], there[0]);
   }
 
   /// Returns the angles at which separatrices start.
@@ -484,6 +493,17 @@ class Surroundings {
   }
 
  private:
+  static constexpr int most = 600;  // steps along a motion
+
+  /// @throws std::domain_error  if the field is 0 or has no value at the start
+  Winding motion(double angle) const {
+    constexpr double widest = 0.4, first = 0.1;
+    const Vector2d start = point(angle);
+    const double speed = steps_.field()(start).cwiseQuotient(half_).norm();
+    if (!(speed > 0)) throw std::domain_error("Surroundings: the start is at rest");
+    return {steps_.part_of_orbit(start), start, centre_, half_, widest, first / speed};
+  }
+
   const PlanarReduction& steps_;
   Vector2d centre_, half_;
 };
@@ -538,9 +558,18 @@ std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, c
   for (const bool stable : {true, false}) {
     const PlanarReduction& steps = stable ? forth : back;
     const Surroundings wide(steps, centre, radius * sides), narrow(steps, centre, smaller * radius * sides);
-    const std::vector<double> angles = wide.separatrices();
-    if (narrow.separatrices().size() != angles.size()) return {};
-    for (const double angle : angles) points.push_back({wide.point(angle), stable});
+    const std::vector<double> angles = wide.separatrices(), inner = narrow.separatrices();
+    if (inner.size() != angles.size()) return {};
+    for (const double angle : angles) {
+      // Motions that arrive are told from motions that turn away at a distance that is not 0. If motions turn away
+      // slowly, like a logarithm, this finds an ordinary orbit, which depends on the ellipse.
+      const double there = wide.angle_at(smaller, angle);
+      constexpr double same = 2e-3;
+      if (std::ranges::none_of(inner,
+                               [&](double each) { return std::abs(std::remainder(each - there, 2 * pi)) < same; }))
+        return {};
+      points.push_back({wide.point(angle), stable});
+    }
   }
   return points;
 }

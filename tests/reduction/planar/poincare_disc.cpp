@@ -214,6 +214,21 @@ TEST_CASE("a field that is small is no curve of equilibria", "[planar]") {
   CHECK(poincare_disc(field_of({{0, 1, 1, 0}, {1, 1, 0, 1}}), 2).rests);
 }
 
+TEST_CASE("motions that turn away like a logarithm hide separatrices", "[planar]") {
+  // u' = u^2, v' = -v: near the end (0, inf) of the axis u = 0, the chart (u/v, 1/v) has p' = p^2 + p z, z' = z^2. The
+  // axis is the only separatrix there. Beside it 1/u = c + ln v, so that motions turn away slowly.
+  const PoincareDisc disc = poincare_disc(field_of({{0, 1, 2, 0}, {1, -1, 0, 1}}), 2);
+  int ends = 0;
+  for (const Equilibrium& each : disc.at_infinity) {
+    if (std::abs(each.x[0]) > 0.5) continue;
+    ++ends;
+    for (const SeparatrixPoint& point : degenerate_separatrices(disc.field, each.x, {1, 1})) {
+      CHECK(std::abs(point.x[0]) < 1e-5);
+    }
+  }
+  CHECK(ends == 2);
+}
+
 TEST_CASE("the disc needs a polynomial field and a radius", "[planar]") {
   CHECK_THROWS_WITH(poincare_disc(SmoothField([](const Vector2d& x) { return x; }), 1), Contains("polynomials"));
   CHECK_THROWS_WITH(poincare_disc(field_of({{0, 1, 1, 0}}), 0), Contains("positive and finite, got 0"));

@@ -241,6 +241,9 @@ class PlanarOrbit {
   /// Returns the reason why the end is not decided; empty if the end is decided.
   const std::string& undecided() const;
 
+  /// Returns false if the field determines no single motion after the last time of `at`; undecided() says where.
+  bool unique() const;
+
   /// Returns the limits of the coordinates at the end, such as (inf, -5.718) for an end at infinity: infinite, finite,
   /// or NaN if unknown. At infinity they have 9 digits. At a border two sequences of states give them, and digits in
   /// which the two differ are rounded away.
@@ -423,7 +426,7 @@ struct SeparatrixPoint {
 /// Accuracy  1e-5 of the sides
 /// Cost      some 100 000 values of the field
 /// @param sides  the half axes of the ellipse are 1 % of them
-/// @return empty if a smaller ellipse has other numbers of separatrices
+/// @return empty if a smaller ellipse has other separatrices
 std::vector<SeparatrixPoint> degenerate_separatrices(const SmoothField& field, const Eigen::Vector2d& centre,
                                                      const Eigen::Vector2d& sides);
 
