@@ -201,6 +201,7 @@ PlanarEnd PlanarOrbit::end() const { return motion_->end; }
 std::optional<double> PlanarOrbit::period() const { return motion_->period(); }
 double PlanarOrbit::first_slide() const { return motion_->first_slide(); }
 const std::string& PlanarOrbit::undecided() const { return motion_->undecided; }
+bool PlanarOrbit::unique() const { return motion_->unique; }
 Vector2d PlanarOrbit::limit() const {
   switch (motion_->end) {
     case PlanarEnd::centre:

@@ -41,6 +41,7 @@ struct OpenMotion final : PlanarOrbit::Motion {
   explicit OpenMotion(const Vector2d& from) : x(from) {
     end = PlanarEnd::undecided;
     end_time = std::numeric_limits<double>::quiet_NaN();
+    unique = false;
   }
   Vector2d at(double time) const override {
     if (time == 0) return x;
@@ -57,6 +58,7 @@ struct MotionThroughCentre final : PlanarOrbit::Motion {
     end = from.end();
     end_time = to.end_time() + from.end_time();
     undecided = from.undecided();
+    unique = from.unique();
     limit = from.limit();
   }
   Vector2d at(double time) const override { return time < to.end_time() ? to.at(time) : from.at(time - to.end_time()); }
@@ -147,15 +149,16 @@ void ScalingSolution::leave_doubtful_open() {
       return side.ray() && side.angular().order < 1 && side.angular().factor < 0 && side.radial().order == 0;
     };
     const auto leaves = [](const Approach& side) { return side.angular().order < 1 && side.angular().factor > 0; };
-    const auto branches = [&](const Approach& side, const Approach& other) {
+    const auto divides = [&](const Approach& side, const Approach& other) {
       const double along = side.radial().factor;
       const bool continues = end.rates && std::abs(end.rates->radial - along) <= close * std::abs(along);
       return joins(side) && (!other.exists() || leaves(other) || !continues);
     };
-    const bool before = branches(end.before, end.after), after = branches(end.after, end.before);
+    const bool before = divides(end.before, end.after), after = divides(end.after, end.before);
     if (before) end.before.leave_open();
     if (after) end.after.leave_open();
     if (before || after) {
+      branches = true;
       undecided = fmt::format(
           "orbits come to the angle {:.6g} in finite time, and the field determines no single motion from there on",
           angle_of(end.n));
@@ -517,6 +520,7 @@ PlanarOrbit ScalingSolution::orbit(const Vector2d& start) const {
   motion->border_time_known = motion->place.strip != nullptr && motion->place.strip->timed();
   if (motion->end == PlanarEnd::undecided) {
     motion->undecided = undecided;
+    motion->unique = !branches;
     motion->end_time = std::numeric_limits<double>::quiet_NaN();
   }
   const bool goes_on = motion->end == PlanarEnd::centre && std::isfinite(motion->end_time) && passes_centre();

@@ -58,6 +58,7 @@ struct PlanarReduction::Solution {
   std::vector<PlanarSector> sectors;
   std::optional<PlanarTurn> turn;
   std::string undecided;
+  bool branches = false;  ///< true if an undecided end is a place that motions leave in several ways
   std::string_view kind;
 };
 
@@ -114,6 +115,7 @@ struct PlanarOrbit::Motion {
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< for an end at infinity
   bool border_time_known = false;  ///< false: PlanarOrbit::end_time returns infinity at a border
   std::string undecided = {};
+  bool unique = true;  ///< false if several motions go on after the last time of at()
 };
 
 }  // namespace contensou::reduction

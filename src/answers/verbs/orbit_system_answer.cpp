@@ -49,8 +49,8 @@ class HalfOrbit {
     if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
     if (solved_) {
       if (const auto x = by_quadrature(time)) return ComputedState{*x, true};
-      // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier.
-      if (!goes_on(time)) return std::nullopt;
+      // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier or divides.
+      if (!goes_on(time) || !orbit_.unique()) return std::nullopt;
     }
     const auto x = state(steps_, time);
     return x ? std::optional(ComputedState{*x, false}) : std::nullopt;
@@ -64,6 +64,7 @@ class HalfOrbit {
 
   /// Returns the reason why neither a quadrature nor steps reach a time.
   std::string why_not(double time) const {
+    if (!orbit_.unique()) return orbit_.undecided();
     try {
       steps_.at(time);
     } catch (const std::domain_error& stopped) {
