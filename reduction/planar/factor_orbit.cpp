@@ -219,7 +219,7 @@ class Follower {
     const Vector2d at = motion_.unit * x_;
     constexpr double vast = 1e100;
     if (at.lpNorm<Eigen::Infinity>() > vast) reason = "formulas overflow";
-    motion_.undecided = fmt::format("{} about ({:.6g}, {:.6g})", reason, at[0], at[1]);
+    motion_.undecided = fmt::format("{} near ({:.6g}, {:.6g})", reason, at[0], at[1]);
   }
 
   /// Returns true if the orbit tends to a zero of the field, so near that the linear flow is exact except for rounding.
