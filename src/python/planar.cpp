@@ -174,7 +174,7 @@ void bind_planar(py::module_& module) {
              return at_points(u, v, [&](const Vector2d& x) { return stop_time_of(plane.orbit(x)); });
            })
       .def("orbit", [](const Planar& planar, double u, double v) {
-        return interruptible([&] { return planar.solved().orbit({u, v}); });
+        return interruptible([&] { return planar.plane.orbit({u, v}); });
       });
 
   py::class_<PlanarOrbit>(module, "PlanarOrbit")

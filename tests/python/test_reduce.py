@@ -12,6 +12,7 @@ import subprocess
 import contensou as ct
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 PROGRAM = os.environ.get("CONTENSOU")
 SLIDING = "u' = -u/hypot(u, v); v' = -v/hypot(u, v) - a"
@@ -201,11 +202,17 @@ def test_a_portrait_is_refused_in_the_librarys_words(asked, words):
         ct.reduce(twisting, u=1, v=1).portrait(**asked)
 
 
-def test_what_is_not_solved_has_portraits_but_no_orbits_and_ctrl_c_ends_them():
-    drag = ct.reduce(lambda u, v: (-u, -v / math.hypot(u, v)), u=1, v=1)
-    with pytest.raises(ValueError, match="not solved"):
-        drag.orbit(1, 1)
-    portrait = ct.reduce("x'' = (1 - x^2)*x' - x", u=2, v=0).portrait(orbits=4, nullclines=True)
+def test_what_is_not_solved_has_portraits_and_orbits_by_steps_and_ctrl_c_ends_them():
+    oscillator = ct.reduce("x'' = (1 - x^2)*x' - x", u=2, v=0)
+    assert not oscillator.solved
+    motion = oscillator.orbit(2, 0)
+    assert motion.end is None and motion.period is None
+    times = np.array([0.0, 1.0, 10.0])
+    other = solve_ivp(lambda t, x: (x[1], (1 - x[0] ** 2) * x[1] - x[0]), (0, 10), (2, 0), "DOP853", times,
+                      rtol=1e-12, atol=1e-13)
+    states = motion.at(times)
+    assert np.allclose((states["u"], states["v"]), other.y, rtol=0, atol=1e-9)
+    portrait = oscillator.portrait(orbits=4, nullclines=True)
     assert portrait.data["variables"] == ["x", "x'"] and len(portrait.data["u_nullclines"]) > 0
     [cycle] = portrait.data["cycles"]
     # The period of van der Pol's oscillator with mu = 1, known to all digits shown (10.1137/0708026).

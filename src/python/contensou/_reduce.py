@@ -230,7 +230,7 @@ class Reduction:
         return self._core.stop_time(*together(u=u, v=v))[()]
 
     def orbit(self, u: float, v: float) -> PlanarOrbit:
-        """Returns the motion from one start."""
+        """Returns the motion from one start. Without a solution it is followed by steps in time, of an error of 1e-12."""
         return PlanarOrbit(self, number("u", u), number("v", v))
 
     def portrait(
@@ -284,7 +284,7 @@ class PlanarOrbit:
 
     end:        centre, infinity, rest (another point with a field of 0), border (a jump or end of values), periodic,
                 equilibrium or cycle (approached for ever); None if it is not decided
-    end_time:   time of the end, by quadrature, relative 1e-12; inf if it takes for ever, or is not known
+    end_time:   time of the end, relative 1e-12; inf if it takes for ever, or is not known
     stop_time:  time at the centre; inf if it is never reached; NaN if the motion ends at a border
     period:     period of a motion that returns; else None
     """
