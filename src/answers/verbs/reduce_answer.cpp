@@ -216,22 +216,29 @@ std::pair<std::string, std::array<Vector2d, 2>> words_of(const portraits::Switch
   return {kind, {part.points.front(), part.points.back()}};
 }
 
-/// Returns a text on the equilibria near the start, the part of the plane in which they were sought, and the reversors.
-std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
-  const auto part = [&](double x) { return digits(x == 0 ? 0 : x); };  // x == 0: avoids a minus sign before 0
+/// Returns the number of equilibria, and the part of the plane in which they were sought.
+/// @param letters  names of the coordinates
+std::string count_of(const reduction::Equilibria& equilibria, const std::array<std::string, 2>& letters,
+                     const Digits& digits) {
+  const auto part = [&](double x) { return digits(x + 0.0); };  // the addition turns -0 into 0
   const auto& [points, low, high, complete, on_curve, reversors] = equilibria;
-  const std::string within =
-      fmt::format("{} <= u <= {}, {} <= v <= {}", part(low[0]), part(high[0]), part(low[1]), part(high[1]));
   const std::string curve =
       on_curve ? fmt::format("{} a curve of them through ({}, {})", points.empty() && complete ? ", but" : ", and",
                              part((*on_curve)[0]), part((*on_curve)[1]))
                : "";
-  std::string text =
-      fmt::format("equilibria  {}{}, within {}\n",
-                  points.empty() ? std::string(complete ? "no isolated one" : "none found, and there may be some")
-                  : complete     ? fmt::format("{}", points.size())
-                                 : fmt::format("at least {}", points.size()),
-                  curve, within);
+  return fmt::format("{}{}, within {} <= {} <= {}, {} <= {} <= {}",
+                     points.empty() ? std::string(complete ? (on_curve ? "no isolated one" : "none")
+                                                           : "none found, and there may be some")
+                     : complete     ? fmt::format("{}", points.size())
+                                    : fmt::format("at least {}", points.size()),
+                     curve, part(low[0]), letters[0], part(high[0]), part(low[1]), letters[1], part(high[1]));
+}
+
+/// Returns a text on the equilibria near the start, and the reversors.
+std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
+  const auto part = [&](double x) { return digits(x + 0.0); };
+  const auto& [points, low, high, complete, on_curve, reversors] = equilibria;
+  std::string text = fmt::format("equilibria  {}\n", count_of(equilibria, {"u", "v"}, digits));
   for (const reduction::Equilibrium& each : points) {
     text += fmt::format("equilibrium ({}, {}): {}", part(each.x[0]), part(each.x[1]), each.kind);
     if (each.eigenvalues) {
@@ -591,8 +598,10 @@ class Blackboard {
   void add_equilibria(const reduction::Equilibria& equilibria) {
     if (type_ == FormulaField::Equations::first) return;
     constexpr std::size_t most = 9;
-    const std::size_t count = equilibria.points.size();
-    if (count > most) return add("equilibria", fmt::format("{}; --details lists them", count));
+    const bool lists = equilibria.points.size() <= most;
+    add("equilibria",
+        count_of(equilibria, {steps_.names[0], steps_.names[1]}, digits_) + (lists ? "" : "; --details lists them"));
+    if (!lists) return;
     for (const reduction::Equilibrium& each : equilibria.points) {
       add("equilibrium", fmt::format("{}: {}", place(each.x), each.kind));
     }
