@@ -174,7 +174,9 @@ std::string opening(const Roll& roll) {
   };
   const bool moves = slips || velocity.norm() > 0 || ours.rolls.t > 0;
   if (flat) {
-    if (moves) add("rests", ours.rolls, theirs.rolls);
+    // A flat body rests when slip and spin have ended. In the uncoupled model the two end at different times.
+    const auto last = [](const si::Events& of) { return of.spin_ends.t > of.rolls.t ? of.spin_ends : of.rolls; };
+    if (moves) add("rests", last(ours), last(theirs));
   } else if (ours.rolls.t > 0) {
     add("rolls", ours.rolls, theirs.rolls);
   } else if (moves || (slopes && !ours.rest)) {
