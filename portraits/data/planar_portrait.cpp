@@ -717,8 +717,8 @@ Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
-/// Returns a chosen view, wider by a margin, by the separatrices and by the orbit of the start. Lines that leave the
-/// surroundings of the view do not count.
+/// Returns a chosen view, wider by a margin, by the separatrices and by the orbit of the start. Lines that go far from
+/// the view do not count.
 Window widened(const PlanarReduction& plane, const PlanarView& view, const PortraitRequest& request) {
   const Vector2d sides = view.window.sides();
   const Window room{view.window.low - sides, view.window.high + sides};
@@ -728,19 +728,22 @@ Window widened(const PlanarReduction& plane, const PlanarView& view, const Portr
   const reduction::Equilibria equilibria = reduction::find_equilibria(plane.field(), view.window.low, view.window.high);
   for (SaddleBranch& branch : branches_of(tracer, plane.field(), equilibria, room))
     lines.push_back(std::move(branch.line));
-  if (request.highlight && tracer.sector(vector_of(*request.highlight))) {
-    lines.push_back(tracer.branch(vector_of(*request.highlight), false));
-  }
   Window window = view.window;
-  for (const Polyline& line : lines) {
+  const auto include = [&](const Polyline& line, const Window& within) {
     Window around{window};
     for (const Point& at : line) around = united(around, vector_of(at));
     bool stays = true;
     for (int axis = 0; axis < 2; ++axis) {
       stays &= view.periodic[static_cast<std::size_t>(axis)] ||
-               (around.low[axis] >= room.low[axis] && around.high[axis] <= room.high[axis]);
+               (around.low[axis] >= within.low[axis] && around.high[axis] <= within.high[axis]);
     }
     if (stays) window = around;
+  };
+  for (const Polyline& line : lines) include(line, room);
+  if (request.highlight && tracer.sector(vector_of(*request.highlight))) {
+    constexpr double farther = 30;
+    const Window wide{view.window.low - farther * sides, view.window.high + farther * sides};
+    include(TimedTracer(steps, wide, view.cycles).branch(vector_of(*request.highlight), false), wide);
   }
   constexpr double margin = 0.08;
   for (int axis = 0; axis < 2; ++axis) {

@@ -150,8 +150,9 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
     const double product = each.slopes(0, 1) * each.slopes(1, 0);
     if (product < 0) ratio = std::sqrt(std::abs(each.slopes(1, 0) / each.slopes(0, 1)));
   }
-  std::ranges::for_each(points, include);
   constexpr double tiny = 1e-9;
+  const bool of_points = size.norm() < tiny;  // a start near the only equilibrium says nothing about limit cycles
+  std::ranges::for_each(points, include);
   bool without_size = size.norm() < tiny;
   if (without_size) size[0] = 1;
   if (const std::vector<double> levels = slope_zeros(field); !levels.empty()) {
@@ -171,8 +172,9 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
   if (plane.form() != "constant") {
     constexpr double reach = 8;
     reduction::Equilibria about = equilibria;
-    about.low = middle - size;
-    about.high = middle + size;
+    const Vector2d sought = of_points ? Vector2d(size.cwiseMax(Vector2d(1, ratio))) : size;
+    about.low = middle - sought;
+    about.high = middle + sought;
     view.cycles = find_limit_cycles(field, about, reach);
     if (population) {
       std::erase_if(view.cycles, [](const reduction::LimitCycle& cycle) { return cycle.x.minCoeff() < 0; });
