@@ -1081,7 +1081,8 @@ Formulas Formulas::of_equations(const FormulaShape& shape, const std::string& te
       by[0] = std::exchange(by[1], {});
     }
     const std::size_t which = by[0].steps.empty() ? 1 : 0;
-    if (by.at(which).steps.empty()) reject("no derivative stands in this equation; one is needed");
+    if (by.at(which).steps.empty())
+      reject("no derivative stands in this equation; one is needed, and a start is no equation but an option");
     if (!by.at(1 - which).steps.empty()) reject(names + " both stand in this equation; one is needed");
     if (!compiled.formulas.at(which).empty()) reject("a second equation of " + shape.derivatives[which]);
     if (rest.steps.empty()) rest.steps = {{.kind = formula_parts::Kind::number, .number = 0}};

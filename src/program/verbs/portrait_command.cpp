@@ -32,7 +32,7 @@ using reduction::State;
 /// Reads a window: "U,V" or "U1:U2,V1:V2".
 void read_window(const std::string& typed, portraits::PortraitRequest& request) {
   if (typed.find(':') == std::string::npos) {
-    const std::vector<double> sides = numbers(typed, 2, "U,V");
+    const std::vector<double> sides = numbers(typed, 2, "U,V, or U1:U2,V1:V2");
     if (!(sides[0] > 0 && sides[1] > 0)) throw NotAllowed("both sides of the window must be positive");
     request.sides = Vector2d(sides[0], sides[1]);
     return;
@@ -214,6 +214,7 @@ class PortraitCommand final : public Verb {
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
+    if (request_.view == View::uv) request_.view = {};  // the plane itself
     if (request_.view && request_.view != View::disc) {
       throw BadInput(
           "--view {}: only (2.6) has this view. With --system the plane of u and v is drawn, or give --view disc",

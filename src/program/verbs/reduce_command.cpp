@@ -48,6 +48,11 @@ class ReduceCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     if (system_.given()) return run_system(output);
+    if (!start_.given()) {
+      throw BadInput(
+          "--system missing: give equations, such as --system \"x' = y; y' = -x\", or a body, by --ball NAME|FILE.toml "
+          "or --mu M --u0 U --v0 V");
+    }
     const GivenStart start = start_.read(law_.read(start_.standard_law()));
     if (!output.picture) return output.write(reduce_answer(start));
     return draw(reduction::reduced(start.system), {start.state.u, start.state.v}, {"(2.6)"}, output, nullptr);
@@ -68,6 +73,11 @@ class ReduceCommand final : public Verb {
     const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
     const reduction::PlanarReduction plane = reduction::reduce(field, start, found);
     portraits::ReducedNames names{system_.text(), typed.variables()};
+    if (plane.scaling() && plane.kind() == "bordered") {
+      throw BadInput(
+          "the picture of reduce shows the sectors of a field without borders and jumps, and this field has some: "
+          "'contensou portrait --system' draws its plane");
+    }
     if (plane.scaling()) return draw(plane, start, names, output, nullptr);
     const auto equation = equation_of(typed.formulas, reduction::sampled_about(field, start));
     const auto coordinates = equation ? coordinates_of(*equation, found) : std::nullopt;
