@@ -6,6 +6,7 @@
 #include "contensou/reduction/detail/similarity_solution.hpp"
 #include "contensou/reduction/friction_law.hpp"
 #include "contensou/reduction/reduced_system.hpp"
+#include "numerics/later.hpp"
 
 namespace contensou::reduction {
 
@@ -45,13 +46,17 @@ class PadeCurve final : public SimilarityCurve {
  private:
   double A_, B_, a_, e_;
   double log_ratio_;           ///< ln(B/A)
-  double half_beta_;           ///< integral of (R43) from 1/2 to 1
   double sliding_connection_;  ///< constant of (R55) for the sliding coefficient m
   double angle_connection_;    ///< constant of (R55) for the angle coefficient o
 
-  /// Terms 2, 3, ... of the integral from x = B k/(A + B k) to 1/2 in (R43): x^a far_beta_ - sum beta_terms_[n] x^n.
-  std::array<double, terms> beta_terms_{};
-  double far_beta_ = 0;
+  /// Parts of the integral of (R43). From x = B k/(A + B k) to 1/2, its terms 2, 3, ... are x^a far - sum terms[n] x^n.
+  struct BetaIntegral {
+    BetaIntegral(double a, double e);
+    double half;  ///< integral from 1/2 to 1
+    double far = 0;
+    std::array<double, PadeCurve::terms> terms{};
+  };
+  Later<BetaIntegral> beta_integral_;  ///< stop times do not need it; it takes as long as one
 };
 
 /// The similarity curve of any friction law, by quadrature of the separated equation (theory.md (R2)).

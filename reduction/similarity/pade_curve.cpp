@@ -177,19 +177,22 @@ PadeCurve::PadeCurve(double r)
       a_(r / (2 - r)),
       e_(r / (5 - r)),
       log_ratio_(std::log(B_ / A_)),
-      half_beta_(std::exp2(a_ - e_) * 0.5 / (e_ + 1) * gauss_series(1 - a_ + e_, e_ + 2, 0.5)),
       sliding_connection_(powers_of(sliding_connection, 2 * (r / max_r) - 1)),
       angle_connection_(powers_of(angle_connection, 2 * (r / max_r) - 1)) {
   if (!(r > 0 && r <= max_r)) {
     throw std::domain_error(fmt::format("PadeCurve: r = gamma mu^2/chi must be in (0, {}], got {}", max_r, r));
   }
-  double coefficient = -e_;
-  double half_power = 0.5 * std::exp2(a_);
-  for (int n = 2; n < terms; ++n) {
-    coefficient *= (n - 1 - e_) / n;
+}
+
+PadeCurve::BetaIntegral::BetaIntegral(double a, double e)
+    : half(std::exp2(a - e) * 0.5 / (e + 1) * gauss_series(1 - a + e, e + 2, 0.5)) {
+  double coefficient = -e;
+  double half_power = 0.5 * std::exp2(a);
+  for (int n = 2; n < PadeCurve::terms; ++n) {
+    coefficient *= (n - 1 - e) / n;
     half_power *= 0.5;
-    beta_terms_[n] = coefficient / (n - a_);
-    far_beta_ += beta_terms_[n] * half_power;
+    terms[n] = coefficient / (n - a);
+    far += terms[n] * half_power;
   }
 }
 
@@ -230,11 +233,12 @@ double PadeCurve::beta_coefficient(double ln_k) const {
   const double x_to_a = std::exp(a_ * at.ln_x);
   const double s = 1 - a_;
   const double first = s * to_half < 1 ? at.x * expm1_over(s, to_half) : (x_to_a * std::exp2(-s) - at.x) / s;
+  const BetaIntegral& integral = beta_integral_.made([this] { return BetaIntegral(a_, e_); });
   double rest = 0;
-  for (int n = terms_for(at.x) - 1; n >= 2; --n) rest = rest * at.x + beta_terms_[n];
+  for (int n = terms_for(at.x) - 1; n >= 2; --n) rest = rest * at.x + integral.terms[n];
   const double sum = expm1_over(-a_, to_half) - e_ * first - at.x * at.x * rest;
   const double unit = (1 + std::exp(ln_k)) / (3 * pi * A_);
-  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * (far_beta_ + half_beta_));
+  return unit * std::exp(-e_ * at.ln_y) * (sum + x_to_a * (integral.far + integral.half));
 }
 
 double PadeCurve::time_rate(double ln_k) const {
