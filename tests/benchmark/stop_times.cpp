@@ -180,9 +180,10 @@ int main() {
   methods.emplace_back("table of the system, one start", [&](const Start& s) {
     return contensou::rivals::RivalResult{tables.at(s.mu)(s.u0, s.v0), 0};
   });
-  const auto by_route = [](Route route) {
-    return [route](const Start& s) {
-      const StopTime stop = stop_time(ReducedSystem(PadeLaw{}, s.mu), {s.u0, s.v0}, route);
+  const Law pade_law{PadeLaw{}};
+  const auto by_route = [&pade_law](Route route) {
+    return [&pade_law, route](const Start& s) {
+      const StopTime stop = stop_time(ReducedSystem(pade_law, s.mu), {s.u0, s.v0}, route);
       return contensou::rivals::RivalResult{stop.tau, stop.evaluations};
     };
   };
