@@ -136,13 +136,17 @@ std::vector<double> Fit::other_spins(std::size_t track) const {
   return spins;
 }
 
-Fit fit(const FitRequest& asked) {
+namespace {
+
+/// @param starts  guesses, of which the first is nearly the solution; without guesses the search finds its own
+Fit fit_from(std::vector<VectorXd> starts, const FitRequest& asked) {
   require(asked);
   FitRequest request = asked;
   const std::vector<Turns> turns = set_turns(request);
   Search search(request);
   require_limits(search, false);
-  VectorXd solution = search.solve();
+  search.guesses = std::move(starts);
+  VectorXd solution = search.guesses.empty() ? search.solve() : search.settled(search.guesses.front());
   constexpr int most = 10;  // largest number of restarts from a better solution that a likelihood profile found
   for (int i = 0;; ++i) {
     Report report = Reporter(search, with_signs(request, solution), false).report();
@@ -157,7 +161,7 @@ Fit fit(const FitRequest& asked) {
     if (report.fit.patch_seen && request.free.patch_if_seen && turning) {
       FitRequest with_patch = asked;
       with_patch.free.patch_radius = true;
-      Fit other = fit(with_patch);
+      Fit other = fit_from(std::move(report.with_patch), with_patch);
       if (other.estimates[1].standard_error < unknown * other.estimates[1].value) {
         other.patch_seen = report.fit.patch_seen;
         return other;
@@ -166,6 +170,10 @@ Fit fit(const FitRequest& asked) {
     return std::move(report.fit);
   }
 }
+
+}  // namespace
+
+Fit fit(const FitRequest& asked) { return fit_from({}, asked); }
 
 std::vector<Fit> fit_laws(const FitRequest& request, const std::vector<reduction::Law>& laws) {
   std::vector<Fit> fits;

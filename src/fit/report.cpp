@@ -52,7 +52,7 @@ Report Reporter::report() {
   if (!planned_ && !search_.resisted && !flat) set_rolling_friction_seen();
   if ((!fit_.fits() || fit_.widened) && flat && !planned_ && !request_.free.patch_radius) set_patch_seen();
   require_numbers();
-  return {std::move(fit_), std::move(better_)};
+  return {std::move(fit_), std::move(better_), std::move(with_patch_)};
 }
 
 void Reporter::set_size() {

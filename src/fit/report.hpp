@@ -32,6 +32,8 @@ struct Inverse {
 struct Report {
   Fit fit;
   std::optional<Eigen::VectorXd> better = {};
+  /// Starts for a fit in which the patch radius is free, its solution first; empty if no patch is seen.
+  std::vector<Eigen::VectorXd> with_patch = {};
 };
 
 /// Computes the report from a solution.
@@ -129,6 +131,7 @@ class Reporter {
   double quantile_ = normal_quantile;
   Fit fit_;
   std::optional<Eigen::VectorXd> better_;
+  std::vector<Eigen::VectorXd> with_patch_;
 };
 
 }  // namespace contensou::fit

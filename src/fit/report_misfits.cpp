@@ -121,8 +121,10 @@ void Reporter::set_patch_seen() {
     const VectorXd found = search.solve();
     constexpr double far_better = 12, whole = 0.99;
     const double radius = std::exp(found[1]), less = fit_.aic - search.criterion(found);
-    if (less > far_better && radius < whole * request_.ball.ball.radius)
-      fit_.patch_seen = {radius, std::exp(found[0]), less};
+    if (!(less > far_better && radius < whole * request_.ball.ball.radius)) return;
+    fit_.patch_seen = {radius, std::exp(found[0]), less};
+    with_patch_ = std::move(search.guesses);
+    with_patch_.insert(with_patch_.begin(), found);
   } catch (const std::runtime_error&) {
     // No patch is proposed if the search for one does not converge.
   }
