@@ -26,12 +26,14 @@ constexpr Colour slip_colour{0x8c0f35};
 constexpr Colour rim_colour{0x2f7fc1};
 constexpr Colour speed_colour{0xe0a030};
 constexpr Colour ball_colour{0xf3efe6};
+constexpr Colour shade_colour{0xf2f2f2};
 
 constexpr PaperSize usual{290, 125};
 
 /// A path that bends by less than this fraction of its length is drawn as straight.
 constexpr double straight = 0.01;
-/// The time axis is logarithmic if the last time divided by the time of rolling exceeds this ratio.
+/// The time axis is compressed after the begin of rolling if the last time divided by that of rolling exceeds this
+/// ratio.
 constexpr double long_spin = 6;
 
 void require_columns(const RollCurve& curve) {
@@ -110,6 +112,15 @@ Panel path_panel(const RollPicture& picture) {
   panel.title = "the path on the table";
   const double shown = shown_time(picture);
   if (shown < picture.ball.t[picture.ball.t.size() - 1]) panel.title += fmt::format(", the first {:.3g} s", shown);
+  const Eigen::ArrayXd& t = picture.ball.t;
+  double apart = 0;
+  for (Eigen::Index i = 0; i < t.size() && t[i] <= shown; ++i) {
+    const Point ball{picture.ball.x[i], picture.ball.y[i]}, textbook = at_time(picture.textbook, t[i]);
+    apart = std::max(apart, std::hypot(ball.x - textbook.x, ball.y - textbook.y));
+  }
+  constexpr double visible = 0.01, exact = 1e-5;
+  if (apart < visible * std::max(panel.x.high - panel.x.low, panel.y.high - panel.y.low))
+    panel.title += apart < exact ? "; both models agree" : fmt::format("; the models differ by {:.2g} mm", 1e3 * apart);
   return panel;
 }
 
@@ -167,15 +178,21 @@ Panel distance_panel(RollPicture picture, Point along) {
 
 Panel speed_panel(const RollPicture& picture) {
   const double last = picture.ball.t[picture.ball.t.size() - 1];
-  const auto [first, rolls] = std::minmax(picture.ball.rolls, picture.textbook.rolls);
-  const bool logarithmic = picture.slow == 0 && first > 0 && last > long_spin * rolls;
+  const double rolls = std::max(picture.ball.rolls, picture.textbook.rolls);
+  const bool compressed = picture.slow == 0 && rolls > 0 && last > long_spin * rolls;
+  // The compressed part takes about 0.6 times as much paper as the part before.
+  const double step = round_step(compressed ? 1.3 * rolls : last, 4);
+  const double knee = compressed ? step * std::ceil(1.3 * rolls / step) : last;
+  const double times = compressed ? round_down((last - knee) / (0.6 * knee)) : 1;
+  const auto place = [=](double t) { return t <= knee ? t : knee + (t - knee) / times; };
   Panel panel;
   panel.title = "speeds; dashed: textbook, slip and spin uncoupled";
-  panel.x = {logarithmic ? math("t") + ", s (logarithmic)" : math("t") + ", s",
-             logarithmic ? round_down(first / 10) : 0,
-             last,
-             logarithmic,
-             {}};
+  panel.x = {math("t") + ", s", 0, place(last), false, {}};
+  if (compressed) {
+    panel.x.name += "  (shaded part compressed " + number(times) + " times)";
+    for (double t : multiples(-step, knee + step / 2, step)) panel.x.ticks.push_back({t, number(t)});
+    for (double t : multiples(knee, last, round_step(last - knee, 5))) panel.x.ticks.push_back({place(t), number(t)});
+  }
   // A fast spin is divided by a round number, so that the slip remains visible on the axis.
   const double fastest = std::max(picture.ball.slip.maxCoeff(), picture.ball.speed.maxCoeff());
   const double spin_to_slip = fastest > 0 ? picture.ball.rim.maxCoeff() / fastest : 1;
@@ -188,8 +205,7 @@ Panel speed_panel(const RollPicture& picture) {
       const bool dashed = curve == &picture.textbook;
       Polyline line;
       for (Eigen::Index i = 0; i < curve->t.size(); ++i) {
-        if (curve->t[i] < panel.x.low || curve->t[i] > last) continue;
-        line.push_back({curve->t[i], (curve->*column)[i] / scale});
+        if (curve->t[i] <= last) line.push_back({place(curve->t[i]), (curve->*column)[i] / scale});
       }
       top = std::max(top, (curve->*column).maxCoeff() / scale);
       if (!dashed) {
@@ -214,6 +230,10 @@ Panel speed_panel(const RollPicture& picture) {
       spin_scale);
   if (!picture.lies_flat) add(&RollCurve::speed, speed_colour, Marks::Shape::square, "speed of the centre");
   panel.y = {"m/s", 0, top > 0 ? 1.08 * top : 1, false, {}};
+  if (compressed) {
+    const auto [right, high] = std::pair(panel.x.high, panel.y.high);
+    panel.regions.push_back({{{knee, 0}, {right, 0}, {right, high}, {knee, high}}, shade_colour});
+  }
   return panel;
 }
 

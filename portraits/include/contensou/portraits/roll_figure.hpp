@@ -35,9 +35,10 @@ struct RollPicture {
 /// Draws the path until a little after the ball rolls, and the speeds against time up to the stop. Curves of the
 /// uncoupled model are dashed.
 ///
-/// The time axis is logarithmic if the spin lasts much longer than the slip. The path is to scale unless it is too
-/// flat; then the figure states how it is stretched or cut. A straight path is drawn against time. A ball that stays in
-/// place has no path.
+/// If the spin lasts much longer than the slip, the time axis is compressed a round number of times after rolling
+/// begins; its x coordinate is then no time. The path is to scale unless it is too flat; then the figure states how it
+/// is stretched or cut. Paths that coincide have their distance as a title. A straight path is drawn against time. A
+/// ball that stays in place has no path.
 ///
 /// @throws std::domain_error  if a column has fewer than 2 rows or columns differ in length
 Figure roll_figure(const RollPicture& picture);
