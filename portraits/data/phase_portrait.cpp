@@ -430,10 +430,11 @@ std::vector<Window> windows_of(const std::vector<Flow>& flows, View view, const 
   if (request.highlight) shown.push_back(*request.highlight);
   for (const Flow& flow : flows) sides.push_back(default_sides(flow.system(), view, shown));
   const auto largest = [&](double State::*side) { return std::ranges::max(sides, {}, side).*side; };
-  // Without points to show, except in the view patch, take the smallest v: no plane is filled with mere sliding.
+  // Without points to show, except in the view patch, take the median of v: the smallest shows nothing of a large mu.
   const bool rims = view == View::patch;
-  const double u = largest(&State::u);
-  const double v = shown.empty() && !rims ? std::ranges::min(sides, {}, &State::v).v : largest(&State::v);
+  const double u = largest(&State::u), highest = largest(&State::v);
+  std::ranges::sort(sides, {}, &State::v);
+  const double v = shown.empty() && !rims ? sides[(sides.size() - 1) / 2].v : highest;
   std::vector<Window> windows;
   for (const Flow& flow : flows) {
     const Vector2d of = request.sides.value_or(Vector2d(rims ? v / flow.system().mu() : u, v));

@@ -207,7 +207,8 @@ Point panel_size(const PaperSize& figure, int panels) {
 
 namespace {
 
-/// Breaks a text into lines whose width is at most a limit, in letter sizes.
+/// Breaks a text into as few lines as possible whose width is at most a limit, in letter sizes. Lines are about equally
+/// long, so that no word stands alone.
 std::vector<Text> broken(const Text& text, double width) {
   std::vector<Text> lines, words(1);
   for (const Run& run : text.runs()) {
@@ -220,14 +221,24 @@ std::vector<Text> broken(const Text& text, double width) {
       begin = end + 1;
     }
   }
-  for (const Text& word : words) {
-    const Text longer = lines.empty() ? word : lines.back() + " " + word;
-    if (!lines.empty() && text_width(longer) <= width)
-      lines.back() = longer;
-    else
-      lines.push_back(word);
+  const auto fill = [&words](double limit) {
+    std::vector<Text> filled;
+    for (const Text& word : words) {
+      const Text longer = filled.empty() ? word : filled.back() + " " + word;
+      if (!filled.empty() && text_width(longer) <= limit)
+        filled.back() = longer;
+      else
+        filled.push_back(word);
+    }
+    return filled;
+  };
+  if (!text.empty()) lines = fill(width);
+  for (double limit = width; lines.size() > 1; limit -= 0.5) {
+    std::vector<Text> narrower = fill(limit);
+    if (narrower.size() > lines.size() || limit < 1) break;
+    lines = std::move(narrower);
   }
-  return text.empty() ? std::vector<Text>{} : lines;
+  return lines;
 }
 
 /// Height of a line of text. This and the following lengths are in letter sizes.
@@ -346,7 +357,8 @@ class Compositor {
     // Heights come first, because the ticks of y axes follow from heights, and the margins from these ticks.
     double above = 0.5, below = 0.5;
     for (const Panel& panel : figure_.panels) {
-      above = std::max(above, 0.7 + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
+      above = std::max(
+          above, (rows > 1 ? 1.1 : 0.7) + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
       if (!panel.bare) below = std::max(below, panel.x.name.empty() ? 2.4 : 3.8);
     }
     const double height = (top_ - bottom_) / rows - above - below;
@@ -359,7 +371,7 @@ class Compositor {
         if (panel.bare) continue;
         place.y = ticks(panel.y, height, true);
         const double names = line_height * static_cast<double>(broken(panel.y.name, height + 2).size());
-        before = std::max(before, 0.4 + names + widest(place.y) + 1.3);
+        before = std::max(before, 0.4 + names + widest(place.y) + 1.5);
         const std::vector<Axis::Tick> under = ticks(panel.x, strip - before, false);
         if (!under.empty() && panel.x.high > panel.x.low) {
           const Axis::Tick& last = under.back();
@@ -413,7 +425,7 @@ class Compositor {
     place.x = ticks(panel.x, box.width, false);
     text(panel.x.name, middle, box.bottom - 3);
     const std::vector<Text> name = broken(panel.y.name, box.height + 2);
-    double x = box.left - 1.3 - widest(place.y) - line_height * (static_cast<double>(name.size()) - 0.5);
+    double x = box.left - 1.5 - widest(place.y) - line_height * (static_cast<double>(name.size()) - 0.5);
     for (const Text& line : name) {
       text(line, x, box.bottom + box.height / 2, 1, Label::Align::centre, false, true);
       x += line_height;

@@ -91,11 +91,13 @@ double text_width(const Text& text) {
   constexpr double small = 0.8;  // size of an index or a power
   double width = 0;
   for (const Run& run : text.runs()) {
-    for (const std::string_view character : characters(run.words)) {
+    const std::string words = with_minus_signs(run.words);
+    for (const std::string_view character : characters(words)) {
       const char c = character == no_break_space ? ' ' : character.front();
       const bool narrow = std::string_view(" .,;:|'!()[]/ijlftr").find(c) != std::string_view::npos;
       width += (narrow                 ? 0.36
                 : c == 'm' || c == 'w' ? 0.95
+                : character == "−"     ? 0.84
                 : c >= 'A' && c <= 'Z' ? 0.7
                                        : 0.62) *
                (run.level == 0 ? 1 : small);

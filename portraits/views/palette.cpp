@@ -127,7 +127,8 @@ TimeBands logarithmic_bands(double shortest, double longest, double unit, const 
 }
 
 ColourBar colour_bar(const TimeBands& bands, const PortraitCaption& caption) {
-  ColourBar bar{time_left(caption), bands.colours, {}};
+  const std::string& unit = caption.time_unit_name;
+  ColourBar bar{caption.time_symbol + " left" + (unit.empty() ? "" : " (" + unit + ")"), bands.colours, {}};
   std::vector<double> begins;
   for (std::size_t band : bands.marked) begins.push_back(bands.begin(band) / caption.time_unit);
   const bool equal = begins.front() == 0;

@@ -72,7 +72,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     const Text exponent = math("s = ") + number(scale.exponent, 3), power = math("v") + sup(math("s"));
     // A panel beside others is small, and has a title.
     const bool beside_others = !drawing.caption.panel.empty();
-    panel.y.name += beside_others ? "  (shaded: " + power + ")" : "  (shaded part: " + power + ", " + exponent + ")";
+    panel.y.name += beside_others ? "  (shaded: " + power + ")" : "  (shaded: " + power + ", " + exponent + ")";
     if (beside_others) panel.title = exponent;
     panel.y.ticks = speed_ticks(scale, !drawing.caption.speed_unit.empty());
     std::erase_if(panel.y.ticks, [&](const Axis::Tick& tick) { return tick.at < bottom; });

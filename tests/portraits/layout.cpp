@@ -159,6 +159,19 @@ TEST_CASE("Nothing on the page overlaps or leaves it, in a column or on a page",
   }
 }
 
+TEST_CASE("A title of several lines leaves no word alone", "[limit]") {
+  Figure figure;
+  figure.title = "a title of a few words that fill a line of a column, and a bit of one more";
+  figure.panels = {square()};
+  figure.size = {85, 85};
+  std::vector<double> widths;
+  for (const PlacedText& text : lay_out(figure).texts) {
+    if (text.size > 1) widths.push_back(text_width(text.text));
+  }
+  REQUIRE(widths.size() == 2);
+  for (double width : widths) CHECK(width > 0.75 * std::ranges::max(widths));
+}
+
 TEST_CASE("A figure without room for its panels is refused, with a way out", "[domain]") {
   Figure figure;
   figure.title = "title";

@@ -107,6 +107,17 @@ TEST_CASE("The border is filled evenly: neighbours are equally far apart across 
   });
 }
 
+TEST_CASE("Planes side by side have the height of the median plane", "[table]") {
+  const auto height = [](const std::vector<double>& all) {
+    std::vector<reduction::Flow> flows;
+    for (double mu : all) flows.emplace_back(reduction::ReducedSystem{reduction::HertzLaw{}, mu});
+    return portraits::phase_portraits(flows, {}).back().window.v();
+  };
+  // Each plane alone: 0.2, 2, 5 and 2.
+  CHECK(height({0.01, 0.1, 0.3, 1}) == height({1}));
+  CHECK(height({0.01, 0.3}) == height({0.01}));
+}
+
 TEST_CASE("The time left at each point is that point's stop time", "[route]") {
   for_each_portrait([](const ReducedSystem& system, const PhasePortrait& portrait) {
     const auto flow = Flow::by_quadrature(system);

@@ -677,7 +677,7 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
 TEST_CASE("The axis says that it is bent, whatever the title", "[table]") {
   const portraits::SpeedScale scale = portrait_of(0.3).scale;
   CHECK_THAT(figure_of(0.3).panels[0].y.name.words(),
-             Catch::Contains(fmt::format("shaded part: vs, s = {:.3g}", scale.exponent)));
+             Catch::Contains(fmt::format("shaded: vs, s = {:.3g}", scale.exponent)));
   CHECK_THAT(figure_of(1).panels[0].y.name.words(), !Catch::Contains("shaded"));
 }
 
@@ -882,7 +882,7 @@ TEST_CASE("Times of a colour bar are all written in one way, under the name of t
       CAPTURE(portraits::name(view), mu);
       CHECK((figure.colour_bar || view == View::log));
       if (!figure.colour_bar) continue;
-      CHECK(figure.colour_bar->name == "time left " + portraits::math("τ*"));
+      CHECK(figure.colour_bar->name == portraits::math("τ*") + " left");
       const auto& ticks = figure.colour_bar->ticks;
       CHECK((std::ranges::all_of(ticks, [](const auto& tick) { return tick.text.runs().back().level == 1; }) ||
              std::ranges::none_of(ticks, [](const auto& tick) { return tick.text.runs().back().level == 1; })));

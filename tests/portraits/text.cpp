@@ -52,6 +52,9 @@ TEST_CASE("The width of a text is that of its characters, an index is smaller", 
   CHECK(text_width("10" + sup("−3")) == Approx(text_width("10") + 0.8 * text_width("−3")));
   CHECK(text_width("10" + sub("−3")) == text_width("10" + sup("−3")));
   CHECK(text_width("") == 0);
+  // A minus sign, which a hyphen before a number becomes, is wider than a digit.
+  CHECK(text_width("-1") == text_width("−1"));
+  CHECK(text_width("-1") > text_width("11"));
 }
 
 TEST_CASE("A hyphen before a number is a minus sign, one within a word is none", "[table]") {
