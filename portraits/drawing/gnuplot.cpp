@@ -89,12 +89,14 @@ Canvas canvas(const Figure& figure, double letter, PictureFormat format) {
   const bool vector = format == PictureFormat::pdf || format == PictureFormat::eps;
   const std::string size = vector ? fmt::format("{}cm,{}cm", width / 10, height / 10)
                                   : fmt::format("{:.0f},{:.0f}", width * per_mm, height * per_mm);
-  constexpr double dash = 0.6;  // in widths of a line, as in SVG, whose dashes are longer for wider lines
+  // In widths of a line, as in SVG, whose dashes are longer for wider lines. Dashes of few pixels would look grey.
+  constexpr double dash = 0.6, pixels = 0.7;
+  const double dash_unit = format == PictureFormat::png ? std::max(dash * line, pixels) : dash * line;
   return {
       fmt::format("set terminal {} size {} enhanced rounded background '#{:06x}' font '{},{:.4g}' linewidth {:.4g}{}",
                   terminal.name, size, figure.theme.ground.rgb, figure.font.empty() ? terminal.font : figure.font,
                   letter * per_mm / terminal.letter, line / terminal.line,
-                  terminal.dash > 0 ? fmt::format(" dashlength {:.4g}", dash * line / terminal.dash) : ""),
+                  terminal.dash > 0 ? fmt::format(" dashlength {:.4g}", dash_unit / terminal.dash) : ""),
       terminal.symbol > 0 ? terminal.symbol / per_mm : 0.75 * letter};
 }
 
