@@ -72,7 +72,7 @@ MappedPanel half_plane(const Drawing& drawing, double unit, const Text& name) {
     const Text exponent = math("s = ") + number(scale.exponent, 3), power = math("v") + sup(math("s"));
     // A panel beside others is small, and has a title.
     const bool beside_others = !drawing.caption.panel.empty();
-    panel.y.name += beside_others ? "  (shaded: " + power + ")" : "  (shaded: " + power + ", " + exponent + ")";
+    panel.y.name += "  (shaded: " + power + (beside_others ? ")" : ", " + exponent + ")");
     if (beside_others) panel.title = exponent;
     panel.y.ticks = speed_ticks(scale, !drawing.caption.speed_unit.empty());
     std::erase_if(panel.y.ticks, [&](const Axis::Tick& tick) { return tick.at < bottom; });
@@ -237,6 +237,12 @@ std::vector<MappedPanel> log_view(const Drawing& drawing) {
   panel.y.low = std::min(panel.y.low, panel.y.high - width / broad);
   panel.x.name = "ln(" + math("μ|u|/V") + "),  " + math("V = ") + number(V, 4) + " " + drawing.caption.speed_unit;
   panel.y.name = "ln(" + math("v/V") + ")";
+  constexpr double steep = 1 / 12.0;
+  const double power = 1 / (1 + portrait.plane.tangents.front().contact_order);
+  if (spins_last && rays.empty() && power < steep) {
+    panel.title = (drawing.caption.panel.empty() ? "orbits are nearly vertical: at the stop " : "") + math("u ∝ v") +
+                  sup(math("s")) + ",  " + math("s = ") + number(power, 3);
+  }
   // A value of -infinity becomes a point far beyond the borders.
   const Point nowhere{11 * panel.x.low - 10 * panel.x.high, 11 * panel.y.low - 10 * panel.y.high};
   const PanelMap map{

@@ -681,6 +681,16 @@ TEST_CASE("The axis says that it is bent, whatever the title", "[table]") {
   CHECK_THAT(figure_of(1).panels[0].y.name.words(), !Catch::Contains("shaded"));
 }
 
+TEST_CASE("On logarithmic axes vertical orbits are explained by their power", "[limit]") {
+  const auto title = [](double mu) {
+    return draw(portrait_of(mu, {.view = View::log}), {}, plain).panels.at(0).title.words();
+  };
+  // s = 5 mu^2/14 for a ball.
+  CHECK_THAT(title(0.1), Catch::StartsWith("orbits are nearly vertical") &&
+                             Catch::EndsWith("u\u00A0∝\u00A0vs,  s\u00A0=\u00A00.00357"));
+  CHECK(title(1).empty());
+}
+
 TEST_CASE("Isochrones of the law that a portrait is compared with have their legend", "[table]") {
   const Panel panel = draw(portrait_of(0.3, {.comparison = reduction::PadeLaw()}), {}, plain).panels.front();
   const Lines& its_isochrones = layer(panel, "time left τ*, law pade");
