@@ -37,7 +37,7 @@ StopTimeMap stop_time_map(const reduction::Flow& flow, const MapAxes& axes, doub
 struct MapCaption {
   Text title = {};  ///< if empty, mu and the law
   Text subtitle = "stop time " + math("τ*") + " of every start, in the unit of the speeds";
-  Text u = math("u") + sub("0") + ",  pivoting at the start", v = math("v") + sub("0") + ",  sliding at the start";
+  Text u = math("u") + sub("0") + ",  spin at the start", v = math("v") + sub("0") + ",  slip at the start";
   Text time = math("τ*");
   double u_unit = 1;     ///< number of u in one unit of the axes
   double time_unit = 1;  ///< number of tau in one unit of time
