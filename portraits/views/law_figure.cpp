@@ -42,6 +42,7 @@ Polyline curve(const reduction::Law& law, double reduction::Resistance::*part) {
 }  // namespace
 
 Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size) {
+  const bool of_paper = laws.size() == 2 && laws[0].as<reduction::HertzLaw>() && laws[1].as<reduction::PadeLaw>();
   Panel panel;
   panel.x = {math("k = v/(ε|ω") + sub(math("z")) + "|)", 0, max_k, false, {}};
   panel.y = {math("Φ = F/(N f)") + ",   " + math("Ψ = M/(N f ε)"), 0, 1.05, false, {}};
@@ -49,17 +50,21 @@ Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size
   for (const reduction::Law& law : laws) {
     const std::string name = shortened(law.name(), 20);
     const Text force = math("Φ") + ", " + name, moment = math("Ψ") + ", " + name;
-    panel.lines.push_back({{curve(law, &reduction::Resistance::force)}, stroke_of(law, law_force), force});
-    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)}, stroke_of(law, law_moment), moment});
+    // Laws beside others have a colour each. A law alone, or the two of the paper, have a colour for each part.
+    const bool by_law = laws.size() > 1 && !of_paper;
+    const Colour its = viridis(0.4 * static_cast<double>(panel.lines.size() - 1) / static_cast<double>(laws.size()));
+    const Colour of_force = by_law ? its : law_force, of_moment = by_law ? its : law_moment;
+    panel.lines.push_back({{curve(law, &reduction::Resistance::force)}, stroke_of(law, of_force), force});
+    panel.lines.push_back({{curve(law, &reduction::Resistance::moment)}, stroke_of(law, of_moment), moment});
     // Circles distinguish moments from forces.
     const Polyline& line = panel.lines.back().lines.front();
-    Marks circles{{}, law_moment, 0.7, Marks::Shape::circle, moment};
+    Marks circles{{}, of_moment, 0.7, Marks::Shape::circle, moment};
     for (std::size_t i = line.size() / 16; i < line.size(); i += line.size() / 8) circles.points.push_back(line[i]);
     panel.marks.push_back(std::move(circles));
   }
   Figure figure;
   figure.title = "Combined dry friction of a circular patch";
-  if (laws.size() == 2) {
+  if (of_paper) {
     figure.subtitle = "Zhuravlev 1998, Fig. 2: the exact law (1.3), (1.5) and its Padé approximation (1.4), (1.6)";
     panel.labels = {
         {{0.5, 0.82}, "force  " + math("Φ"), law_force, Label::Align::centre},

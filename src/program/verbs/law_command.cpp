@@ -57,7 +57,7 @@ std::vector<FieldText> contact_texts() { return texts_of(contact_fields); }
 class LawCommand final : public Verb {
  public:
   void add_options(CLI::App& app) override {
-    law_.add(app);
+    law_.add(app, ". Several names, between commas, give one picture");
     app.option_defaults()->group("Ratios");
     k_.add(app, "--k", "K1,K2,...", "list of ratios k, each from 0 to inf", parse_ratios);
     batch_.add(app, "--batch", "FILE", "table with a column k, instead of --k; - is standard input");
@@ -72,7 +72,10 @@ class LawCommand final : public Verb {
   ExitStatus run() override {
     const Output output = output_.read();
     if (surface_) require_picture("--surface", output);
-    const reduction::Law law = law_.read(start_.standard_law());
+    const std::vector<reduction::Law> asked = law_.read_several(start_.standard_law());
+    const reduction::Law& law = asked.front();
+    if (asked.size() > 1 && !output.picture)
+      law_.argument().reject("several laws give a picture: add -o FILE, such as law.svg, or give one law");
     if (start_.ball_given()) {
       if (output.picture) throw BadInput("a picture needs no --ball: leave it out");
       return output.write(contact_answer(law));
@@ -81,9 +84,13 @@ class LawCommand final : public Verb {
       if (k_.given() || batch_.given()) throw BadInput("a picture needs no --k or --batch: leave them out");
       std::vector<reduction::Law> laws = reduction::paper_laws();
       if (surface_) laws.insert(laws.end(), {*reduction::find_law("uniform"), *reduction::find_law("ring")});
-      if (std::ranges::find(laws, law.name(), &reduction::Law::name) == laws.end()) {
-        if (!surface_) laws.clear();  // Fig. 2 of the paper compares only the two laws of the paper
-        laws.push_back(law);
+      const auto is_drawn = [&](const reduction::Law& of) {
+        return std::ranges::find(laws, of.name(), &reduction::Law::name) != laws.end();
+      };
+      // Fig. 2 of the paper compares only the two laws of the paper.
+      if (!surface_ && !std::ranges::all_of(asked, is_drawn)) laws.clear();
+      for (const reduction::Law& of : asked) {
+        if (!is_drawn(of)) laws.push_back(of);
       }
       const auto draw = surface_ ? portraits::limit_surface_figure : portraits::law_figure;
       return output_.write({draw(laws, output_.size())}, output);
