@@ -163,7 +163,8 @@ void Reporter::set_noise() {
     const bool is_film = std::sqrt(squares / n) > sharpest_film * range;
     const double far = is_film ? far_from_most({residuals.begin(), residuals.end()}, least) : 0;
     fit_.noise.push_back({observable, static_cast<Index>(rows.size()), std::sqrt(squares / n), std::sqrt(variances / n),
-                          search_.estimated[place], std::move(outliers), far});
+                          search_.estimated[place], std::move(outliers), far,
+                          neighbours_depend(observable) ? dependence_[place].neighbours : 0});
   }
 }
 

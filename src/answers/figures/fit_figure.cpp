@@ -97,6 +97,8 @@ Pair panels_of(const fit::Fit& fit, const reduction::Law& law, const std::vector
   const auto& [observable, name, si_unit, meaning] = fit::kind_of(noise.observable);
   const auto [unit, factor] = shown_unit(fit, tracks, noise);
   Pair pair{empty("", fmt::format("{}, {}", name, unit)), empty("", fmt::format("{}: residual / sd", name))};
+  if (noise.neighbours > 0)
+    pair.residuals.title = fmt::format("residuals depend on each other: correlation {:.2f}", noise.neighbours);
   double last = 0, first = INFINITY;
   portraits::Lines curves{{}, {fit_colour, 3}, "fitted motion"};
   portraits::Lines textbook{{}, {textbook_colour, 1.6, true}, "textbook (uncoupled)"};
@@ -198,6 +200,12 @@ Panel confidence_panel(const fit::Fit& fit) {
   return panel;
 }
 
+/// Returns true if the error of a number is large enough for an axis. The error is too small if data have no noise.
+bool has_width(const fit::Estimate& estimate) {
+  constexpr double least = 1e-6;
+  return std::isfinite(estimate.standard_error) && estimate.standard_error > least * estimate.value;
+}
+
 /// Returns a number with its standard error as text, or with its interval if the interval is skewed.
 std::string with_error(const fit::Estimate& estimate, double scale, std::string_view unit = "") {
   if (!estimate.determined()) return "not determined";
@@ -205,7 +213,12 @@ std::string with_error(const fit::Estimate& estimate, double scale, std::string_
   if (!estimate.free) return fmt::format("{:.4g}{}", estimate.value * scale, of);
   const auto& [low, high] = estimate.interval;
   if (estimate.skewed()) return fmt::format("{:.3g} to {:.3g}{}", low * scale, high * scale, of);
-  return fmt::format("{:.4g} ± {:.2g}{}", estimate.value * scale, estimate.standard_error * scale, of);
+  const double value = estimate.value * scale, error = estimate.standard_error * scale;
+  if (!has_width(estimate)) return fmt::format("{:.4g} ± {:.2g}{}", value, error, of);
+  // Both numbers end with the first digit of the error, or with its second digit after a 1.
+  const std::string first = fmt::format("{:.0e}", error);
+  const int decimals = std::max(0, (first.front() == '1' ? 1 : 0) - std::stoi(first.substr(first.find('e') + 1)));
+  return fmt::format("{:.{}f} ± {:.{}f}{}", value, decimals, error, decimals, of);
 }
 
 /// Returns a panel that contains the results in words.
@@ -237,12 +250,6 @@ Panel numbers_panel(const fit::Fit& fit, std::size_t tracks) {
   return panel;
 }
 
-/// Returns true if the error of a number is large enough for an axis. The error is too small if data have no noise.
-bool has_width(const fit::Estimate& estimate) {
-  constexpr double least = 1e-6;
-  return std::isfinite(estimate.standard_error) && estimate.standard_error > least * estimate.value;
-}
-
 }  // namespace
 
 portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::Law>& laws,
@@ -257,6 +264,7 @@ portraits::Figure fit_figure(const fit::Fit& fit, const std::vector<reduction::L
   if (fit.only)
     figure.subtitle = fmt::format("the data do not determine friction and patch radius, only {}",
                                   portraits::shortened(fit.only->name()));
+  if (!fit.fits()) figure.subtitle += "; this does not fit: the errors do not count";
   std::vector<Panel> below;  // the panels of residuals, and the panel of results in words
   for (const fit::Noise& noise : fit.noise) {
     Pair pair = panels_of(fit, law, tracks, noise);

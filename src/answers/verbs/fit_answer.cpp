@@ -364,7 +364,7 @@ constexpr Field<FitReport> answer_fields[]{
      "[{`file`, `t`}] lists the outliers (s)",
      [](const FitReport& r) {
        Json noise = Json::object();
-       for (const auto& [observable, values, rms, sd, estimated, outliers, far] : r.best.noise) {
+       for (const auto& [observable, values, rms, sd, estimated, outliers, far, dependent] : r.best.noise) {
          Json places = Json::array();
          for (const auto& [track, t] : outliers) places.push_back({{"file", r.tracks[track].name}, {"t", t}});
          noise[std::string(fit::kind_of(observable).name)] = {

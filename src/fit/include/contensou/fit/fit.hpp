@@ -99,6 +99,7 @@ struct Noise {
   /// Share of the values farther than 4 standard deviations from most values. Many outliers increase the standard
   /// deviation and shift the fit, and then none of them is farther than 6 standard deviations from the fit.
   double far_from_most = 0;
+  double neighbours = 0;  ///< correlation of a residual with the next one; 0 if it may be due to chance
 
   /// Returns true if far_from_most is larger than normal errors make it by chance in one of a thousand films.
   bool hides_outliers() const { return far_from_most > 0.08; }
