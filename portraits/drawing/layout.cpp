@@ -207,10 +207,21 @@ Point panel_size(const PaperSize& figure, int panels) {
 
 namespace {
 
-/// Breaks a text into as few lines as possible whose width is at most a limit, in letter sizes. Lines are about equally
-/// long, so that no word stands alone.
+/// Returns as few rows as fill(limit) gives, but about equally long ones, so that nothing stands alone in the last row.
+template <class Fill>
+auto balanced(const Fill& fill, double limit) {
+  auto rows = fill(limit);
+  while (rows.size() > 1 && (limit -= 0.5) > 1) {
+    auto narrower = fill(limit);
+    if (narrower.size() > rows.size()) break;
+    rows = std::move(narrower);
+  }
+  return rows;
+}
+
+/// Breaks a text into balanced lines whose width is at most a limit, in letter sizes.
 std::vector<Text> broken(const Text& text, double width) {
-  std::vector<Text> lines, words(1);
+  std::vector<Text> words(1);
   for (const Run& run : text.runs()) {
     for (std::size_t begin = 0; begin <= run.words.size();) {
       std::size_t end = std::min(run.words.find(' ', begin), run.words.size());
@@ -232,13 +243,7 @@ std::vector<Text> broken(const Text& text, double width) {
     }
     return filled;
   };
-  if (!text.empty()) lines = fill(width);
-  for (double limit = width; lines.size() > 1; limit -= 0.5) {
-    std::vector<Text> narrower = fill(limit);
-    if (narrower.size() > lines.size() || limit < 1) break;
-    lines = std::move(narrower);
-  }
-  return lines;
+  return text.empty() ? std::vector<Text>{} : balanced(fill, width);
 }
 
 /// Height of a line of text. This and the following lengths are in letter sizes.
@@ -331,12 +336,16 @@ class Compositor {
       double width = -between;
     };
     const auto length = [&](const LegendEntry& entry) { return sample + gap + text_width(entry.text) + between; };
-    std::vector<Row> rows;
-    for (const LegendEntry& entry : legend_entries(figure_)) {
-      if (rows.empty() || rows.back().width + length(entry) > width_ - 1.5) rows.emplace_back();
-      rows.back().width += length(entry);
-      rows.back().entries.push_back(entry);
-    }
+    const auto fill = [&, entries = legend_entries(figure_)](double limit) {
+      std::vector<Row> filled;
+      for (const LegendEntry& entry : entries) {
+        if (filled.empty() || filled.back().width + length(entry) > limit) filled.emplace_back();
+        filled.back().width += length(entry);
+        filled.back().entries.push_back(entry);
+      }
+      return filled;
+    };
+    const std::vector<Row> rows = balanced(fill, width_ - 1.5);
     bottom_ = 0.5 + line_height * static_cast<double>(rows.size()) + (rows.empty() ? 0 : 0.3);
     double y = bottom_ - 0.3 + line_height / 2;
     for (const Row& row : rows) {
