@@ -334,12 +334,12 @@ const std::vector<Engine>& engines() {
        "mu, mu2 and coefficient the smaller of the two surfaces, patch_radius the larger: set both;\n"
        "use_patch_radius must be true on both",
        {"3 pi/16 is Psi(0) of Hertz's pressure: for it patch_radius is the radius of the patch itself.",
-        "The tutorial writes mu3 inside <ode> and takes use_patch_radius true for surface_radius. The source\n"
-        "reads <torsional><coefficient>, and use_patch_radius true takes patch_radius.",
-        "The radius is sqrt(surface_radius depth) if use_patch_radius is false, with the depth of the simulated\n"
-        "contact.",
-        "Friction is limited by mu N along each of two axes, unless friction_model is cone: for a slip between\n"
-        "them it is up to 1.41 times as large. Shown for a slip along an axis.",
+        ("The tutorial writes mu3 inside <ode> and takes use_patch_radius true for surface_radius. The source\n"
+         "reads <torsional><coefficient>, and use_patch_radius true takes patch_radius."),
+        ("The radius is sqrt(surface_radius depth) if use_patch_radius is false, with the depth of the simulated\n"
+         "contact."),
+        ("Friction is limited by mu N along each of two axes, unless friction_model is cone: for a slip between\n"
+         "them it is up to 1.41 times as large. Shown for a slip along an axis."),
         "Gazebo Sim (gz-sim), its successor, was not read."},
        {"deps/opende/src/joints/contact.cpp (dxJointContact::getInfo2)",
         "gazebo/physics/ode/ODEPhysics.cc (ODEPhysics::Collide)",
