@@ -306,6 +306,13 @@ TEST_CASE("the window of a planar portrait shows what the system has", "[output]
   const Window cycle = stepped_portrait(van_der_pol).window;
   CHECK(-cycle.low[0] == Approx(2.5).epsilon(0.2));
   CHECK(cycle.high[1] == Approx(3.3).epsilon(0.2));
+  // Also about a start near the equilibrium.
+  CHECK(stepped_portrait(van_der_pol, {.highlight = {{0.1, 0}}}).window.high[1] == Approx(3.3).epsilon(0.2));
+  // An epidemic, at its peak: i = 1 - (1 + ln(3 s))/3 at s = 1/3, after i = 0.01.
+  const PlanarField epidemic = [](const Vector2d& x) { return Vector2d(-3 * x[0] * x[1], (3 * x[0] - 1) * x[1]); };
+  const Window wave = stepped_portrait(epidemic, {.highlight = {{0.99, 0.01}}}).window;
+  CHECK(wave.high[1] > 1 - (1 + std::log(3 * 0.99)) / 3);
+  CHECK(wave.high[1] < 1);
   // One and a half periods, and the orbits that turn over.
   const Window periods = stepped_portrait(pendulum).window;
   CHECK(periods.low[0] == Approx(-1.5 * std::numbers::pi));
