@@ -836,6 +836,48 @@ PlanarView view_of(const PlanarReduction& plane, const PortraitRequest& request)
 
 namespace {
 
+/// Returns the invariant curves V = 0 in a window. An invariant curve ends at the border, at an equilibrium, at a jump,
+/// or where the field has no value. Lines that end elsewhere are left out: either V is another one beyond, as V that is
+/// quadratic in y may be, or rounding made V = 0.
+std::vector<Polyline> invariant_lines(const PlanarReduction& plane, const Window& window,
+                                      const reduction::Equilibria& equilibria) {
+  std::vector<Polyline> lines;
+  for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high))
+    std::ranges::move(zero_lines(piece, window.sides()), std::back_inserter(lines));
+  constexpr double near = 0.01, alike = 0.5;
+  const auto at_one_place = [&](const Vector2d& a, const Vector2d& b) {
+    return (a - b).cwiseQuotient(window.sides()).norm() < near;
+  };
+  // The other end of a closed curve is at its end.
+  const auto ends_well = [&](const Vector2d& end, const Vector2d& before) {
+    const Vector2d ahead = (end - before).cwiseQuotient(window.sides()).stableNormalized();
+    const Vector2d beyond = end + near * ahead.cwiseProduct(window.sides());
+    if (!window.contains({beyond[0], beyond[1]})) return true;
+    for (const reduction::Equilibrium& each : equilibria.points) {
+      if (at_one_place(end, each.x)) return true;
+    }
+    const auto meets = [&](const Point& other) { return at_one_place(end, vector_of(other)); };
+    if (std::ranges::count_if(lines, [&](const Polyline& line) { return meets(line.front()); }) +
+            std::ranges::count_if(lines, [&](const Polyline& line) { return meets(line.back()); }) >
+        1)
+      return true;
+    const auto here = rate_of(plane.field(), before), there = rate_of(plane.field(), beyond);
+    return !here || !there || here->normalized().dot(there->normalized()) < alike;
+  };
+  for (bool removed = true; std::exchange(removed, false);) {
+    for (std::size_t k = lines.size(); k-- > 0;) {
+      const Polyline& line = lines[k];
+      const std::size_t last = line.size() - 1;
+      if (ends_well(vector_of(line[0]), vector_of(line[1])) &&
+          ends_well(vector_of(line[last]), vector_of(line[last - 1])))
+        continue;
+      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(k));
+      removed = true;
+    }
+  }
+  return lines;
+}
+
 /// Computes the portrait in a view.
 /// @param disc  the Poincaré disc, if the field is that of the disc; else null
 PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::string name,
@@ -884,11 +926,8 @@ PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::s
       };
       portrait.lines_of_equilibria = curves_of_equilibria(reduction::SmoothField(inside), window);
     }
-    for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high)) {
-      for (const Polyline& line : zero_lines(piece, window.sides())) {
-        portrait.invariant.push_back(columns(line, infinity));
-      }
-    }
+    for (const Polyline& line : invariant_lines(plane, window, portrait.equilibria))
+      portrait.invariant.push_back(columns(line, infinity));
     traced = std::move(timed);
   }
   const PlanarTracer& tracer = *traced;

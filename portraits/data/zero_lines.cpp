@@ -57,7 +57,7 @@ std::vector<Polyline> zero_lines(const reduction::FactorPiece& piece, const Vect
     return values[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns + 1) + static_cast<std::size_t>(i)];
   };
   // On a border at which the function is 0, rounding decides the sign. The value gets the sign opposite to that inside.
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-8;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
       const double inside = value(std::clamp(i, 1, columns - 1), std::clamp(j, 1, rows - 1));
