@@ -755,6 +755,22 @@ Window widened(const PlanarReduction& plane, const PlanarView& view, const Portr
   return window;
 }
 
+/// Adds the parts of a line on which a condition holds.
+/// @param holds  function of the index of a point
+template <class Holds>
+void add_parts(std::vector<Polyline>& lines, const Polyline& line, const Holds& holds) {
+  Polyline part;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && holds(i)) {
+      part.push_back(line[i]);
+    } else if (part.size() > 1) {
+      lines.push_back(std::exchange(part, {}));
+    } else {
+      part.clear();
+    }
+  }
+}
+
 /// Returns the parts of a window's curves f = 0 on which a condition holds, for one component of the field.
 template <class Holds>
 std::vector<PortraitOrbit> zero_curves(const reduction::SmoothField& field, int component, const Window& window,
@@ -763,20 +779,21 @@ std::vector<PortraitOrbit> zero_curves(const reduction::SmoothField& field, int 
     const auto rate = rate_of(field, x);
     return rate ? (*rate)[component] : std::numeric_limits<double>::quiet_NaN();
   };
+  std::vector<Polyline> parts;
+  for (const Polyline& line : zero_lines({window.low, window.high, value}, window.sides()))
+    add_parts(parts, line, [&](std::size_t i) { return holds(vector_of(line[i])); });
   std::vector<PortraitOrbit> curves;
-  for (const Polyline& line : zero_lines({window.low, window.high, value}, window.sides())) {
-    Polyline part;
-    for (std::size_t i = 0; i <= line.size(); ++i) {
-      if (i < line.size() && holds(vector_of(line[i]))) {
-        part.push_back(line[i]);
-      } else if (part.size() > 1) {
-        curves.push_back(columns(std::exchange(part, {}), infinity));
-      } else {
-        part.clear();
-      }
-    }
-  }
+  for (const Polyline& part : parts) curves.push_back(columns(part, infinity));
   return curves;
+}
+
+/// Returns true if the motion at a point of a line runs along the line, as on a curve V = 0. Where such curves are
+/// closer together than the grid that finds them, a line joins points of several curves.
+bool runs_along(const reduction::SmoothField& field, const Polyline& line, std::size_t i) {
+  constexpr double steepest = 0.2;
+  const Vector2d way = vector_of(line[std::min(i + 1, line.size() - 1)]) - vector_of(line[i == 0 ? 0 : i - 1]);
+  const auto rate = rate_of(field, vector_of(line[i]));
+  return !rate || std::abs(way[0] * (*rate)[1] - way[1] * (*rate)[0]) <= steepest * way.norm() * rate->norm();
 }
 
 /// Returns the curves of equilibria in a window.
@@ -843,7 +860,8 @@ std::vector<Polyline> invariant_lines(const PlanarReduction& plane, const Window
                                       const reduction::Equilibria& equilibria) {
   std::vector<Polyline> lines;
   for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high))
-    std::ranges::move(zero_lines(piece, window.sides()), std::back_inserter(lines));
+    for (const Polyline& line : zero_lines(piece, window.sides()))
+      add_parts(lines, line, [&](std::size_t i) { return runs_along(plane.field(), line, i); });
   constexpr double near = 0.01, alike = 0.5;
   const auto at_one_place = [&](const Vector2d& a, const Vector2d& b) {
     return (a - b).cwiseQuotient(window.sides()).norm() < near;
