@@ -74,7 +74,9 @@ void bind_planar(py::module_& module) {
       .def_static("of_text",
                   [](const std::string& text, const std::map<std::string, double>& parameters, double u, double v) {
                     const answers::FormulaField field = answers::parse_planar_system(text, parameters);
-                    Planar planar(with_signals(field, std::make_shared<Interruption>()), {u, v});
+                    reduction::SmoothField typed = with_signals(field, std::make_shared<Interruption>());
+                    typed.polynomials = field.polynomials();
+                    Planar planar(std::move(typed), {u, v});
                     planar.variables = {field.variables.at(0), field.variables.at(1)};
                     planar.parameters = parameters;
                     planar.answer = [=, smooth = planar.field] {

@@ -160,7 +160,11 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
   const auto title = argument<std::optional<std::string>>(asked, "title");
   const PortraitStyle looks = style_of(asked, {{"none", Field::none}, {"motion", Field::motion}});
   return interruptible([&]() -> Portrait {
-    portraits::PlanarPortrait data = portraits::planar_portrait(planar.plane, system, request_of(asked));
+    portraits::PortraitRequest request = request_of(asked);
+    const bool disc = request.view == portraits::View::disc;
+    if (disc) request.view.reset();
+    portraits::PlanarPortrait data =
+        (disc ? portraits::portrait_on_disc : portraits::planar_portrait)(planar.plane, system, request);
     data.variables = planar.variables;
     data.parameters = planar.parameters;
     Figure figure = finished(portraits::draw(data, looks), title, looks.size);

@@ -167,6 +167,18 @@ def test_a_portrait_is_the_programs(asked, options, looks):
     assert [portrait.render("gp"), portrait._core.json().encode()] == theirs
 
 
+@pytest.mark.skipif(not PROGRAM, reason="the program is not built")
+def test_the_disc_is_the_programs():
+    text = "u' = u^2+v^2-1; v' = 5*(u*v-1)"
+    command = [PROGRAM, "portrait", "--system", text, "--u0", "1", "--v0", "1", "--view", "disc", "-o", "-", "--format"]
+    portrait = ct.reduce(text, u=1, v=1).portrait(view="disc")
+    assert [portrait.render("gp"), portrait._core.json().encode()] == [
+        subprocess.run([*command, form], capture_output=True, check=True).stdout for form in ("gp", "json")]
+    assert portrait.data["degree"] == 2 and len(portrait.data["at_infinity"]) == 6
+    with pytest.raises(ValueError, match="the Poincaré disc needs a field whose components are polynomials"):
+        ct.reduce("x'' = -sin(x)", u=1, v=0).portrait(view="disc")
+
+
 def test_a_portrait_of_a_function():
     from matplotlib import pyplot
 

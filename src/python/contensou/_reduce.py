@@ -238,6 +238,7 @@ class Reduction:
         *,
         u: Optional[float] = None,
         v: Optional[float] = None,
+        view: Optional[str] = None,
         window: Union[None, tuple[float, float], tuple[tuple[float, float], tuple[float, float]]] = None,
         orbits: Optional[int] = None,
         through: Iterable[tuple[float, float]] = (),
@@ -258,6 +259,7 @@ class Reduction:
         Orbits of a field that is not solved are followed by steps in time.
 
         u, v:        start of an orbit to highlight; by default the start given to reduce
+        view:        disc for the whole plane with infinity as a circle, if the system is typed polynomials
         window:      (U, V), about the centre, or ((U1, U2), (V1, V2)); by default equilibria, limit cycles and the points
         orbits:      number of orbits; by default enough to fill the window
         through:     points (u, v) whose orbits are shown, too
