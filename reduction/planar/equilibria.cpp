@@ -6,6 +6,14 @@
 // by at most e = d |J'|. Thus trace and determinant have the errors 2 e and 2 |J| e, and a number below its error has
 // no sign. At a multiple zero s and the determinant vanish, and Taylor's polynomial decides (degenerate_point.cpp).
 //
+// Flat zeros. Newton's steps to an m-fold zero shrink by the factor 1 - 1/m, so m steps at once lead to it. At an order
+// above that of the polynomial the place counts if the field is not 0 on a circle of radius 1e-6 about it, nor there on
+// the curve on which the component across the flat direction is 0. "Not 0" means that a component of g is larger than
+// its own rounding: x^12 is not 0 at 1e-6, but an expanded (x - 1)^12 is 0 within 0.05 of 1. If one eigenvalue is not
+// 0, the index decides the kind by the reduction to the centre manifold: 0 saddle-node, 1 node, -1 saddle. If both are
+// 0 and the Jacobian is not, the index -1 is that of a saddle (A. Andreev 1958). A curve of zeros is one only if the
+// field vanishes far from the point, too.
+//
 // Sides. At small distances r in several directions, the increments of g are compared with the linear map that fits
 // best. For a smooth field the misfit divided by r is proportional to r. At a kink it is constant; at a jump it grows.
 //
@@ -38,7 +46,8 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double same = 2e-6;  ///< two zeros that are closer count as one, in half sides
+constexpr double same = 2e-6;      ///< two zeros that are closer count as one, in half sides
+constexpr double explained = 0.1;  ///< a flat place this near to a zero belongs to it
 
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -159,7 +168,7 @@ Sides compare_sides(const ScaledField& field, const Vector2d& x) {
 
 /// Returns the turns of the field on a circle; empty if they are not known.
 std::optional<int> turns(const ScaledField& field, const Vector2d& x, double radius) {
-  constexpr int pieces = 32, deepest = 40;
+  constexpr int pieces = 32, deepest = 50;
   const auto at = [&](double angle) -> std::optional<Vector2d> {
     const auto g = field(field.moved(x, radius * direction(angle)));
     return g && g->norm() > 0 ? std::optional<Vector2d>(g->stableNormalized()) : std::nullopt;
@@ -221,10 +230,11 @@ bool vanishes_on_circle(const ScaledField& field, const Vector2d& x, double radi
 }
 
 /// Returns true if Newton's method finds another zero beside `zero`, in the direction in which the field is constant.
-bool on_simple_curve_of_zeros(const ScaledField& field, const Vector2d& zero, const Matrix2d& slopes) {
-  // Newton's method reaches a simple zero in a few steps, but a multiple zero only in many.
-  constexpr int steps = 3;
-  constexpr double left = 1e-12, apart = 0.5, beside = 0.04;
+/// @param beside  distance at which the method begins; its sign is the side
+/// @param steps   Newton's method reaches a simple zero in a few steps, but a multiple zero only in many
+bool on_simple_curve_of_zeros(const ScaledField& field, const Vector2d& zero, const Matrix2d& slopes, double beside,
+                              int steps) {
+  constexpr double left = 1e-12, apart = 0.5;
   const bool first = slopes.row(0).squaredNorm() >= slopes.row(1).squaredNorm();
   const Vector2d row = slopes.row(first ? 0 : 1);
   const Vector2d along = beside * (row.isZero(0) ? Vector2d(0, 1) : Vector2d(-row[1], row[0]).normalized());
@@ -275,7 +285,8 @@ class ZeroSearch {
   void follow(Vector2d x, double reach);
   void examine(Vector2d x);
   std::optional<Equilibrium> simple(const Vector2d& x, const ScaledField::Linear& at) const;
-  double rounding(const Vector2d& x, const ScaledField::Linear& at) const;
+  Vector2d rounding(const Vector2d& x, const ScaledField::Linear& at) const;
+  bool is_alone(const Vector2d& x, const ScaledField::Linear& at) const;
   void add(const Equilibrium& point, double radius) { zeros_.push_back({point, radius}); }
   void divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth);
   void find_indices();
@@ -286,6 +297,7 @@ class ZeroSearch {
   std::vector<Zero> zeros_;
   std::vector<Vector2d> others_;  ///< zeros on curves of zeros, jumps, and points that look like zeros
   std::vector<Vector2d> curves_;  ///< multiple zeros on curves of zeros
+  std::vector<Vector2d> flats_;   ///< points next to which rounding hides where the field is 0
   std::vector<Cell> unexplained_;
   int cells_ = 0;
   std::optional<Vector2d> on_curve_ = {};
@@ -296,12 +308,25 @@ class ZeroSearch {
 /// @param reach  largest distance from x; zeros farther away are found from the cells in which they lie
 void ZeroSearch::follow(Vector2d x, double reach) {
   constexpr int most = 100, quick = 12;  // near a multiple zero a step only halves the distance
-  constexpr double exact = 2e-13, multiple = 1e-3;
+  constexpr double exact = 2e-13, multiple = 1e-3, slow = 0.8, steady = 0.01, tiny = 1e-12;
   const Vector2d from = x;
+  Vector2d last(0, 0), before(0, 0);  // steps
   for (int step = 0; step < most; ++step) {
     const auto here = field_.linear(x, false);
     if (!here) return;
-    const Vector2d way = here->g.isZero(0) ? Vector2d(0, 0) : Vector2d(here->slopes.fullPivLu().solve(here->g));
+    // Beside a flat zero a component and its slopes are tiny, but right except for their own rounding.
+    const Vector2d rows = here->slopes.rowwise().norm();
+    const bool flat = rows.minCoeff() > 0 && rows.minCoeff() < tiny * rows.maxCoeff();
+    const Vector2d unit = flat ? rows : Vector2d(1, 1);
+    const auto lu = (unit.cwiseInverse().asDiagonal() * here->slopes).eval().fullPivLu();
+    Vector2d way = here->g.isZero(0) ? Vector2d(0, 0) : Vector2d(lu.solve(here->g.cwiseQuotient(unit)));
+    const auto shrinks = [&](const Vector2d& a, const Vector2d& b) { return a.dot(b) / b.squaredNorm(); };
+    const double factor = shrinks(way, last);
+    const bool steadily = factor > slow && factor < 1 && (way - factor * last).norm() <= steady * way.norm() &&
+                          std::abs(shrinks(last, before) - factor) <= steady * (1 - factor);
+    before = steadily ? Vector2d(0, 0) : last;
+    last = steadily ? before : way;
+    if (steadily) way /= 1 - factor;
     const Vector2d next = field_.moved(x, -way);
     if (!(field_.distance(next, from) <= reach)) {
       if (step <= quick) return;
@@ -314,19 +339,42 @@ void ZeroSearch::follow(Vector2d x, double reach) {
   examine(x);
 }
 
-/// Returns the rounding of g near a zero: the deviations from linearity at a distance at which these are tiny.
-double ZeroSearch::rounding(const Vector2d& x, const ScaledField::Linear& at) const {
+/// Returns the rounding of the components of g: their second differences at a distance at which these are tiny.
+Vector2d ZeroSearch::rounding(const Vector2d& x, const ScaledField::Linear& at) const {
   constexpr double near = 1e-9;
-  double largest = eps * at.slopes.norm() * x.cwiseQuotient(field_.half()).norm();
+  Vector2d largest = eps * at.slopes.cwiseAbs() * x.cwiseQuotient(field_.half()).cwiseAbs();
   for (int i = 0; i < 8; ++i) {
-    const Vector2d z = near * direction(2 * pi * (i + 0.37) / 8);
-    const auto there = field_(field_.moved(x, z));
-    if (!there) continue;
-    // The step itself is rounded.
-    const Vector2d made = (field_.moved(x, z) - x).cwiseQuotient(field_.half());
-    largest = std::max(largest, (*there - at.g - at.slopes * made).norm() - near * at.error);
+    const Vector2d z = near * direction(2 * pi * (i + 0.37) / 16), ahead = field_.moved(x, z),
+                   behind = field_.moved(x, -z);
+    const auto there = field_(ahead), back = field_(behind);
+    if (!there || !back) continue;
+    // The steps themselves are rounded.
+    const Vector2d made = ((ahead - x) + (behind - x)).cwiseQuotient(field_.half());
+    largest = largest.cwiseMax((*there + *back - 2 * at.g - at.slopes * made).cwiseAbs());
   }
   return largest;
+}
+
+/// Returns true if the field is certainly not 0 close around a zero, also where its larger part is 0.
+bool ZeroSearch::is_alone(const Vector2d& x, const ScaledField::Linear& at) const {
+  constexpr int around = 16, steps = 3;
+  constexpr double beside = 1e-6, roundings = 8, tiny = 1e-3;
+  const SingularValues svd(at.slopes);
+  Vector2d largest(0, 0);
+  for (int i = 0; i < around + 2; ++i) {
+    const bool flat = i >= around;
+    Vector2d z = beside * (flat ? Vector2d((2 * (i - around) - 1) * svd.V.col(1)) : direction(2 * pi * i / around));
+    for (int step = 0; flat && step < steps && svd.values[0] > 0; ++step) {
+      const auto g = field_(field_.moved(x, z));
+      if (g) z -= svd.U.col(0).dot(*g) / svd.values[0] * svd.V.col(0);
+    }
+    const Vector2d there = field_.moved(x, z);
+    const auto beyond = field_.linear(there, true);
+    if (!beyond) return false;
+    if (!(beyond->g.cwiseAbs().array() > roundings * rounding(there, *beyond).array()).any()) return false;
+    largest = largest.cwiseMax(beyond->g.cwiseAbs());
+  }
+  return (at.g.cwiseAbs().array() <= tiny * largest.array()).all();
 }
 
 /// Returns the equilibrium if x is a simple zero by the bounds of its errors, else nothing.
@@ -343,7 +391,7 @@ std::optional<Equilibrium> ZeroSearch::simple(const Vector2d& x, const ScaledFie
     if (there) change = std::max(change, (there->slopes - slopes).norm() / step);
   }
   if (change < 0) return std::nullopt;
-  const double away = 2 * (at.g.norm() + rounding(x, at)) / least;
+  const double away = 2 * (at.g.norm() + rounding(x, at).norm()) / least;
   if (!(4 * away * change < least)) return std::nullopt;
   const double error = change * away + roundings * eps * norm + at.error;
   const double of_determinant = 2 * norm * error, of_trace = 2 * error;
@@ -373,7 +421,8 @@ void ZeroSearch::name_curve(const Vector2d& x) {
 
 /// Finds out whether Newton's method has ended at a zero, and of which kind.
 void ZeroSearch::examine(Vector2d x) {
-  constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, roundings = 64, slack = 1e-9;
+  constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, roundings = 64, slack = 1e-9, near = 0.04,
+                   far = 0.5;
   const auto inside = [&](const Vector2d& at) {
     return place(at).minCoeff() >= -slack && place(at).maxCoeff() <= 1 + slack;
   };
@@ -400,18 +449,24 @@ void ZeroSearch::examine(Vector2d x) {
   const auto at = field_.linear(x, true);
   if (!at) return add({x, none}, same);
   if (const auto point = simple(x, *at)) return add(*point, same);
-  if (on_simple_curve_of_zeros(field_, x, at->slopes)) {
+  const auto meets_curve = [&](double distance, int steps) {
+    return on_simple_curve_of_zeros(field_, x, at->slopes, distance, steps);
+  };
+  const bool near_curve = meets_curve(near, 3);
+  if (near_curve && (meets_curve(far, 8) || meets_curve(-far, 8))) {
     name_curve(x);
     return others_.push_back(x);
   }
   const auto of_multiple = [&](const Zero& zero) { return field_.distance(x, zero.point.x) < zero.radius; };
-  const auto on_curve = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
-  if (std::ranges::any_of(zeros_, of_multiple) || std::ranges::any_of(curves_, on_curve)) return others_.push_back(x);
+  const auto beside_it = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
+  if (std::ranges::any_of(zeros_, of_multiple) || std::ranges::any_of(curves_, beside_it)) return others_.push_back(x);
+  if (std::ranges::any_of(flats_, beside_it)) return;
   // Newton's method halves the distance to a multiple zero only. If there is a point of few decimals at which the field
   // is smaller, it is the better zero.
   const auto better = few_decimals(field_.unscaled(), x, field_.half(), coarse);
   if (better && *better != x) return examine(*better);
-  if (vanishes_on_circle(field_, x, 0.05) && vanishes_on_circle(field_, x, 0.02)) {
+  const auto vanishes = [&](double radius) { return vanishes_on_circle(field_, x, radius); };
+  if ((near_curve || (vanishes(0.05) && vanishes(0.02))) && vanishes(far) && vanishes(0.7 * far)) {
     curves_.push_back(x);
     name_curve(x);
     return others_.push_back(x);
@@ -427,8 +482,8 @@ void ZeroSearch::examine(Vector2d x) {
       point.slopes = field_.half().asDiagonal() * there->slopes * field_.half().cwiseInverse().asDiagonal();
     }
   } else {
-    // No polynomial describes the field. The point counts if the field vanishes within rounding.
-    if (!(g.norm() <= roundings * rounding(x, *at))) return unexplained_.push_back({x, apart});
+    // No polynomial describes the field. The point counts if the field vanishes within rounding, and not beside it.
+    if (!(g.norm() <= roundings * rounding(x, *at).norm()) || !is_alone(x, *at)) return flats_.push_back(x);
     const double determinant = at->slopes.determinant(), trace = at->slopes.trace(), norm = at->slopes.norm();
     if (std::abs(determinant) > small * norm * norm) return add({x, none}, same);
     point.eigenvalues = {std::min(trace, 0.), std::max(trace, 0.)};
@@ -515,20 +570,38 @@ void ZeroSearch::divide(const Cell& cell, const std::array<std::optional<Vector2
 
 /// Finds the index of each zero that is not simple, and compares the index with the kind.
 void ZeroSearch::find_indices() {
-  constexpr double widest = 0.1, part = 0.3, smaller = 0.5;
+  constexpr double usual = 0.1, widest = 0.4, part = 0.3, smaller = 0.5;
   for (Zero& zero : zeros_) {
     Equilibrium& point = zero.point;
     if (point.index) continue;
-    double radius = widest;
+    double allowed = widest;
     for (const Zero& other : zeros_) {
-      if (&other != &zero) radius = std::min(radius, part * field_.distance(point.x, other.point.x));
+      if (&other != &zero) allowed = std::min(allowed, part * field_.distance(point.x, other.point.x));
     }
-    const auto index = turns(field_, point.x, radius), again = turns(field_, point.x, smaller * radius);
-    if (index == again) point.index = index;
+    for (const Vector2d& flat : flats_) {
+      if (const double away = field_.distance(point.x, flat); away > explained)
+        allowed = std::min(allowed, part * away);
+    }
+    // On a small circle a flat field is only rounding.
+    const double last = point.kind == "degenerate" ? widest : usual;
+    for (double radius = usual; !point.index && radius <= last; radius *= 2) {
+      const double used = std::min(radius, allowed);
+      const auto index = turns(field_, point.x, used), again = turns(field_, point.x, smaller * used);
+      if (index == again) point.index = index;
+    }
     if (point.kind == "not smooth") continue;
     const bool none = point.kind == "cusp" || point.kind == "saddle-node";
     const bool known = point.kind == "saddle" || none || point.kind.ends_with("node") || point.kind.ends_with("focus");
     if (known && point.index != (none ? 0 : point.kind == "saddle" ? -1 : 1)) point.kind = planar_kind("degenerate");
+    if (point.kind != "degenerate" || !point.eigenvalues || !point.index || point.slopes.isZero(0)) continue;
+    const double rate = (point.eigenvalues->first + point.eigenvalues->second).real();
+    if (*point.index == -1) {
+      point.kind = planar_kind("saddle");
+    } else if (rate != 0 && *point.index == 0) {
+      point.kind = planar_kind("saddle-node");
+    } else if (rate != 0 && *point.index == 1) {
+      point.kind = rate < 0 ? planar_kind("stable node") : planar_kind("unstable node");
+    }
   }
 }
 
@@ -552,9 +625,14 @@ Equilibria ZeroSearch::run() {
   Equilibria result{{}, low_, high_};
   for (const Zero& zero : zeros_) result.points.push_back(zero.point);
   result.on_curve = on_curve_;
-  result.complete = complete_ && std::ranges::all_of(unexplained_, [&](const Cell& cell) {
-                      return found_near(cell.x, near * cell.half);
-                    });
+  // Beside a multiple zero a cell in which the field is nearly constant, or not linear, is farther away.
+  const auto belongs = [&](const Cell& cell) {
+    return found_near(cell.x, near * cell.half) || std::ranges::any_of(zeros_, [&](const Zero& zero) {
+             return field_.distance(cell.x, zero.point.x) < 2 * zero.radius;
+           });
+  };
+  result.complete = complete_ && std::ranges::all_of(unexplained_, belongs) &&
+                    std::ranges::all_of(flats_, [&](const Vector2d& x) { return found_near(x, explained); });
   return result;
 }
 
@@ -608,13 +686,16 @@ void compare_kinds(Equilibria& equilibria, const PlanarReduction& plane) {
                                      : kind;
   };
   for (Equilibrium& each : equilibria.points) {
-    if (each.kind == "not smooth" || each.kind == "degenerate") continue;
+    if (each.kind == "not smooth") continue;
     if (plane.scaling() != nullptr) {
       const double size = (equilibria.high - equilibria.low).norm();
       const std::string_view kind = without_star(plane.kind());
       if ((each.x - plane.centre()).norm() > same * size) continue;
       if (kind.empty() || kind == "bordered" || kind == "degenerate" || kind == each.kind) continue;
-      if (!turning(each.kind) || !turning(kind)) {
+      if (each.kind == "degenerate") {
+        const bool none = kind == "cusp", saddle = kind == "saddle";
+        if (kind != "mixed" && each.index == (none ? 0 : saddle ? -1 : 1)) each.kind = kind;
+      } else if (!turning(each.kind) || !turning(kind)) {
         each.kind = planar_kind("degenerate");
       } else if (each.kind != "center or focus" || kind == "center") {
         each.kind = each.kind == "center or focus" ? planar_kind("center") : planar_kind("center or focus");

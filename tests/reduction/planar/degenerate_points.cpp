@@ -209,6 +209,73 @@ TEST_CASE("multiple zeros, kinks and jumps at simple places, in every unit", "[p
   }
 }
 
+// The motion along the flat direction is s (x-a)^m or s exp(-1/(x-a)^2), so exact knowledge is the sign of s and the
+// parity of m. Rounding hides the place of a zero in an expanded power, in turned coordinates, and without a Jacobian.
+TEST_CASE("zeros of high order have the kind by construction, or none", "[planar]") {
+  std::mt19937_64 random(20261128);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  enum class Writing { power, turned, expanded, flat };
+  int found_known = 0, all_known = 0;
+  constexpr int fields = 80;
+  for (int i = 0; i < fields; ++i) {
+    const int m = 8 + static_cast<int>(random() % 13), cell = static_cast<int>(random() % 3);
+    const Writing writing = static_cast<Writing>(i % 4);
+    const bool nilpotent = random() % 3 == 0, odd = writing != Writing::flat && m % 2 == 1;
+    const double s = between(0.3, 2) * (random() % 2 == 0 ? 1 : -1), r = between(0.3, 2) * (random() % 2 == 0 ? 1 : -1);
+    const double a = cell == 0 ? 0 : cell == 1 ? 0.25 : between(-0.5, 0.5), b = cell == 0 ? 0 : between(-0.5, 0.5);
+    const double c = between(-0.3, 0.3), d = between(-0.3, 0.3), bend = between(-0.5, 0.5), turn = between(0.2, 1.3);
+    const auto along = [=](Dual x) {
+      if (writing == Writing::flat) {
+        const double p = x.value - a, value = std::exp(-1 / (p * p));
+        return p == 0 ? Dual(0) : (x - a).chain(value, 2 * value / (p * p * p));
+      }
+      if (writing != Writing::expanded) return power(x - a, m);
+      Dual sum = 0;
+      double binomial = 1;
+      for (int k = 0; k <= m; ++k) {
+        sum = sum + binomial * power(-a, m - k) * power(x, k);
+        binomial = binomial * (m - k) / (k + 1);
+      }
+      return sum;
+    };
+    const Formulas straight = [=](Dual x, Dual y) {
+      const Dual p = x - a, q = y - b, slow = s * along(x) * (1 + c * p + d * q);
+      return nilpotent ? Pair(q, slow) : Pair(slow, r * q + bend * p * p);
+    };
+    // Turned coordinates have their zero at (a, b), too.
+    const Dual e = std::cos(turn), f = std::sin(turn);
+    const Formulas turned = [=](Dual x, Dual y) {
+      const Dual p = x - a, q = y - b;
+      const auto [first, second] = straight(a + (e * p + f * q), b + (e * q - f * p));
+      return Pair(e * first - f * second, f * first + e * second);
+    };
+    const bool with_jacobian = random() % 2 == 0;
+    const double size = std::pow(10, static_cast<int>(random() % 7) - 3);
+    const SmoothField field = field_of(writing == Writing::turned ? turned : straight, size, with_jacobian);
+    const Equilibria found = find_equilibria(field, Vector2d(-size, -size), Vector2d(size, size));
+    CAPTURE(i, m, static_cast<int>(writing), nilpotent, s, r, a, b, c, d, bend, turn, with_jacobian, size);
+    CHECK_FALSE(found.on_curve);
+    CHECK((found.points.size() == 1 || !found.complete));
+    CHECK(found.points.size() <= 1);
+    const bool known = writing == Writing::power && with_jacobian;
+    all_known += known;
+    for (const Equilibrium& point : found.points) {
+      CAPTURE(point.x[0] / size, point.x[1] / size, point.kind, point.index.value_or(9));
+      CHECK((point.x / size - Vector2d(a, b)).norm() < 1e-5);
+      const std::string_view node = r < 0 ? "stable node" : "unstable node";
+      const int index = !odd ? 0 : (nilpotent ? -s : s * r) > 0 ? 1 : -1;
+      if (point.index) CHECK(*point.index == index);
+      if (nilpotent && index == 1) {
+        CHECK((point.kind == "degenerate" || point.kind.starts_with("center")));
+      } else if (point.kind != "degenerate") {
+        CHECK(point.kind == (index == -1 ? "saddle" : index == 1 ? node : nilpotent ? "cusp" : "saddle-node"));
+      }
+      found_known += known && found.complete && (nilpotent || point.kind != "degenerate");
+    }
+  }
+  CHECK(found_known == all_known);
+}
+
 TEST_CASE("the search says how far its list goes", "[planar]") {
   const auto count = [](double start) {
     const Formulas pendulum = [](Dual u, Dual v) { return Pair(v, -sin(u)); };
