@@ -22,10 +22,16 @@
 // A principal part is invariant under the scaling of its weights, so PlanarReduction classifies it. If all its rays are
 // simple and points move on them, or if orbits turn and a turn multiplies by a factor other than 1, the terms of higher
 // weight do not change the kind.
+//
+// Imaginary eigenvalues. Let J q = i omega q, J^T p = -i omega p and conj(p) . q = 1. The coordinate z = conj(p) . x
+// has z' = i omega z + g20 z^2/2 + g11 z conj(z) + ... + g21 z^2 conj(z)/2. On a turn |z| grows by the rate l |z|^2
+// with l = omega l1 > 0 or < 0, l1 = Re(i g20 g11 + omega g21)/(2 omega^2): the first Lyapunov coefficient. Source:
+// Y. Kuznetsov, Elements of Applied Bifurcation Theory, section 3.5.
 #include "planar/degenerate_point.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
@@ -419,6 +425,39 @@ DegeneratePoint classified(const Local& local, const Vector2d& x, const Multiple
 }
 
 }  // namespace
+
+int lyapunov_sign(const PlanarField& field, const Vector2d& x, const Vector2d& radii) {
+  using Eigen::Vector2cd;
+  constexpr double accurate = 1e-12, largest = 0.2, smallest = 1e-3;
+  for (double radius = largest; radius > smallest; radius /= 2) {
+    const auto t = taylor(field, x, radius * radii);
+    if (!t || t->misfit > accurate * t->size) continue;
+    const Matrix2d slopes = linear_part(*t);
+    const double omega = std::sqrt(slopes.determinant());
+    const std::complex<double> i(0, 1);
+    const Vector2cd q(slopes(0, 1), i * omega - slopes(0, 0));
+    Vector2cd p(slopes(1, 0), -i * omega - slopes(0, 0));
+    p /= std::conj(p.dot(q));
+    // Q and C are the quadratic and cubic terms, as symmetric forms: Q(a, a)/2 and C(a, a, a)/6 are the terms at a.
+    const auto along = [&](const auto& form) { return p.dot(Vector2cd(form(t->g[0]), form(t->g[1]))); };
+    const auto quadratic = [&](const Vector2cd& a, const Vector2cd& b) {
+      return along([&](const TaylorPolynomial& g) {
+        return 2. * g(2, 0) * a[0] * b[0] + g(1, 1) * (a[0] * b[1] + a[1] * b[0]) + 2. * g(0, 2) * a[1] * b[1];
+      });
+    };
+    const Vector2cd r = q.conjugate();
+    const auto cubic = along([&](const TaylorPolynomial& g) {
+      return 6. * g(3, 0) * q[0] * q[0] * r[0] + 2. * g(2, 1) * q[0] * (q[0] * r[1] + 2. * q[1] * r[0]) +
+             2. * g(1, 2) * q[1] * (q[1] * r[0] + 2. * q[0] * r[1]) + 6. * g(0, 3) * q[1] * q[1] * r[1];
+    });
+    const double coefficient = (i * quadratic(q, q) * quadratic(q, r) + omega * cubic).real();
+    // Each form has at most 4 quadratic or 12 cubic terms.
+    const double a = p.norm() * q.squaredNorm(), wide = std::max(t->g[0].largest(2), t->g[1].largest(2));
+    const double error = 32 * a * a * wide * t->error(2) + 12 * omega * a * q.norm() * t->error(3);
+    return std::abs(coefficient) > significant * error ? (coefficient < 0 ? -1 : 1) : 0;
+  }
+  return 0;
+}
 
 std::optional<Vector2d> few_decimals(const PlanarField& field, const Vector2d& x, const Vector2d& radii, double known) {
   constexpr double rarely = 100;  // multiples of a step of `rarely` errors lie next to few points by chance

@@ -403,7 +403,9 @@ std::optional<Equilibrium> ZeroSearch::simple(const Vector2d& x, const ScaledFie
   Equilibrium point{x, field_.half().asDiagonal() * slopes * field_.half().cwiseInverse().asDiagonal()};
   point.eigenvalues = eigenvalues_of(true_trace, determinant, square);
   point.index = determinant > 0 ? 1 : -1;
+  const int turning = determinant > 0 && trace == 0 ? lyapunov_sign(field_.unscaled(), x, field_.half()) : 0;
   point.kind = determinant < 0   ? planar_kind("saddle")
+               : turning != 0    ? (turning < 0 ? planar_kind("stable focus") : planar_kind("unstable focus"))
                : true_trace == 0 ? planar_kind("center or focus")
                : square < 0      ? (trace < 0 ? planar_kind("stable focus") : planar_kind("unstable focus"))
                                  : (trace < 0 ? planar_kind("stable node") : planar_kind("unstable node"));

@@ -276,6 +276,55 @@ TEST_CASE("zeros of high order have the kind by construction, or none", "[planar
   CHECK(found_known == all_known);
 }
 
+// The reference follows a motion for one turn by Runge-Kutta steps, in coordinates in which the linear part is a
+// rotation. The library gets the field in other coordinates.
+TEST_CASE("the first Lyapunov coefficient decides between the foci", "[planar]") {
+  std::mt19937_64 random(20261129);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 60; ++i) {
+    double terms[2][7];
+    for (auto& of_component : terms) {
+      for (double& each : of_component) each = between(-1, 1);
+    }
+    const auto nonlinear = [=](int c, Dual x, Dual y) {
+      const auto& [a, b, d, e, f, g, h] = terms[c];
+      return x * x * a + x * y * b + y * y * d + power(x, 3) * e + x * x * y * f + x * y * y * g + power(y, 3) * h;
+    };
+    const Formulas plain = [=](Dual x, Dual y) { return Pair(nonlinear(0, x, y) - y, nonlinear(1, x, y) + x); };
+    // The trace stays 0 without rounding: axes are scaled by a power of 2 and exchanged.
+    const double wide = std::pow(2, static_cast<int>(random() % 3) - 1);
+    const bool exchanged = i % 2 == 0;
+    const Formulas scaled = [=](Dual u, Dual v) {
+      const auto [a, b] = exchanged ? plain(v * wide, u) : plain(u * wide, v);
+      return exchanged ? Pair(b, a / wide) : Pair(a / wide, b);
+    };
+    const auto rate = [&](const Vector2d& x) {
+      const auto [a, b] = plain(x[0], x[1]);
+      return Vector2d(a.value, b.value);
+    };
+    constexpr double radius = 0.01, step = 2e-3;
+    Vector2d x(radius, 0), before = x;
+    for (double t = 0; t < 3 || !(before[1] < 0 && x[1] >= 0); t += step) {
+      before = x;
+      const Vector2d k1 = rate(x), k2 = rate(x + step / 2 * k1), k3 = rate(x + step / 2 * k2), k4 = rate(x + step * k3);
+      x += step / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    }
+    const double grown = (before[0] * x[1] - x[0] * before[1]) / (x[1] - before[1]) / radius - 1;
+    CAPTURE(i, grown, wide, exchanged);
+    for (const double size : {1e-3, 1., 1e3}) {
+      const Vector2d corner = Vector2d::Constant(0.1 * size);
+      const Equilibria found = find_equilibria(field_of(scaled, size, true), -corner, corner);
+      REQUIRE(found.points.size() == 1);
+      if (std::abs(grown) > 1e-5) CHECK(found.points[0].kind == (grown < 0 ? "stable focus" : "unstable focus"));
+    }
+  }
+  // Damping that is smaller than rounding is not 0, and cubic terms do not outweigh it at the point.
+  const Formulas damped = [](Dual u, Dual v) { return Pair(v, 1e-17 * v - u - power(v, 3)); };
+  const auto tiny = find_equilibria(field_of(damped, 1, true), Vector2d(-1, -1), Vector2d(1, 1));
+  REQUIRE(tiny.points.size() == 1);
+  CHECK(tiny.points[0].kind == "center or focus");
+}
+
 TEST_CASE("the search says how far its list goes", "[planar]") {
   const auto count = [](double start) {
     const Formulas pendulum = [](Dual u, Dual v) { return Pair(v, -sin(u)); };
