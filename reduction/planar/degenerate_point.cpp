@@ -36,6 +36,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <Eigen/LU>
+
 #include "contensou/reduction/planar_reduction.hpp"
 #include "numerics/decomposition.hpp"
 #include "numerics/epsilon.hpp"
@@ -277,7 +279,9 @@ std::optional<Multiple> multiple_zero(const Taylor& t) {
         }
       }
       const SingularValues svd(slopes);
-      shift += svd.solution(values.col(0), (svd.values.array() > significant * error(m)).count());
+      // Terms of one variable do not fix the place along the other, which is flatter.
+      if (!(svd.values[1] > significant * error(m))) return std::nullopt;
+      shift += svd.solution(values.col(0), 2);
       there = {t.g[0].shifted(shift), t.g[1].shifted(shift)};
     }
     bool multiple = shift.norm() <= farthest;
@@ -497,13 +501,14 @@ std::optional<Vector2d> few_decimals(const PlanarField& field, const Vector2d& x
 }
 
 std::optional<DegeneratePoint> degenerate_point(const PlanarField& field, const Vector2d& near, const Vector2d& radii) {
-  constexpr double largest = 0.2;
+  constexpr double largest = 0.2, certain = 1e-5;
   const auto first = local_polynomial(field, near, radii, largest);
   if (!first) return std::nullopt;
   const auto zero = first->zero();
   if (!zero) return std::nullopt;
   const Vector2d moved = near + first->radius * radii.cwiseProduct(zero->shift);
   const double known = first->radius * std::max(zero->known, 4 * eps);
+  if (known > certain) return std::nullopt;
   const auto x = few_decimals(field, moved, radii, known);
   if (!x) return std::nullopt;
   // The kind must be the same in two discs.

@@ -103,6 +103,27 @@ class ScaledField {
     return result.slopes.allFinite() ? std::optional(result) : std::nullopt;
   }
 
+  /// Returns the rounding of the components of g: their second differences at a distance at which these are tiny.
+  Vector2d rounding(const Vector2d& x, const Linear& at) const {
+    constexpr double near = 1e-9;
+    Vector2d largest = eps * at.slopes.cwiseAbs() * x.cwiseQuotient(half_).cwiseAbs();
+    for (int i = 0; i < 8; ++i) {
+      const Vector2d z = near * direction(2 * pi * (i + 0.37) / 16), ahead = moved(x, z), behind = moved(x, -z);
+      const auto there = (*this)(ahead), back = (*this)(behind);
+      if (!there || !back) continue;
+      // The steps themselves are rounded.
+      const Vector2d made = ((ahead - x) + (behind - x)).cwiseQuotient(half_);
+      largest = largest.cwiseMax((*there + *back - 2 * at.g - at.slopes * made).cwiseAbs());
+    }
+    return largest;
+  }
+
+  /// Returns true if a component of g is certainly not 0, although it may be tiny.
+  bool differs_from_zero(const Vector2d& x, const Linear& at) const {
+    constexpr double roundings = 8;
+    return (at.g.cwiseAbs().array() > roundings * rounding(x, at).array()).any();
+  }
+
   /// Returns true if x lies on a switching curve, or if the field has no switching functions.
   bool may_switch(const Vector2d& x, double nearer) const {
     if (!field_.switches) return true;
@@ -201,7 +222,8 @@ std::optional<int> turns(const ScaledField& field, const Vector2d& x, double rad
   return before ? std::optional(static_cast<int>(std::lround(sum / (2 * pi)))) : std::nullopt;
 }
 
-/// Returns true if the field vanishes somewhere on a circle.
+/// Returns true if the field vanishes at two places of a circle, as where a curve of zeros enters and leaves it. One
+/// place suffices if the field has no value on a part of the circle.
 bool vanishes_on_circle(const ScaledField& field, const Vector2d& x, double radius) {
   constexpr int pieces = 64;
   constexpr double zero = 1e-12;
@@ -211,22 +233,27 @@ bool vanishes_on_circle(const ScaledField& field, const Vector2d& x, double radi
   };
   std::array<double, pieces> sizes;
   for (std::size_t i = 0; i < pieces; ++i) sizes[i] = size(2 * pi * static_cast<double>(i) / pieces);
-  const double largest = std::ranges::max(sizes);
-  for (std::size_t i = 0; i < pieces; ++i) {
+  double largest = 0;
+  int places = 0;
+  for (const double each : sizes) {
+    if (each < infinity) largest = std::max(largest, each);
+    if (each == infinity) places = 1;
+  }
+  for (std::size_t i = 0; i < pieces && places < 2; ++i) {
     const double here = sizes[i];
     if (here > sizes[(i + 1) % pieces] || here > sizes[(i + pieces - 1) % pieces]) continue;
     // Golden sections also find the least value of |g| at a simple zero, where |g| has a corner.
     double low = 2 * pi * (static_cast<double>(i) - 1) / pieces, high = low + 4 * pi / pieces;
-    double least = here;
-    for (int step = 0; step < 75 && least > zero * largest; ++step) {
+    for (int step = 0; step < 75; ++step) {
       const double part = (high - low) / (1 + std::numbers::phi), left = low + part, right = high - part;
-      const double at_left = size(left), at_right = size(right);
-      (at_left < at_right ? high : low) = at_left < at_right ? right : left;
-      least = std::min({least, at_left, at_right});
+      const bool nearer = size(left) < size(right);
+      (nearer ? high : low) = nearer ? right : left;
     }
-    if (least <= zero * largest) return true;
+    const Vector2d at = field.moved(x, radius * direction((low + high) / 2));
+    const auto there = field.linear(at, true);
+    if (there && there->g.norm() <= zero * largest && !field.differs_from_zero(at, *there)) ++places;
   }
-  return false;
+  return places > 1;
 }
 
 /// Returns true if Newton's method finds another zero beside `zero`, in the direction in which the field is constant.
@@ -237,7 +264,7 @@ bool on_simple_curve_of_zeros(const ScaledField& field, const Vector2d& zero, co
   constexpr double left = 1e-12, apart = 0.5;
   const bool first = slopes.row(0).squaredNorm() >= slopes.row(1).squaredNorm();
   const Vector2d row = slopes.row(first ? 0 : 1);
-  const Vector2d along = beside * (row.isZero(0) ? Vector2d(0, 1) : Vector2d(-row[1], row[0]).normalized());
+  const Vector2d along = beside * (row.isZero(0) ? Vector2d(0, 1) : Vector2d(-row[1], row[0]).stableNormalized());
   Vector2d z = along;
   for (int i = 0; i < steps; ++i) {
     const auto here = field.linear(field.moved(zero, z), false);
@@ -245,7 +272,11 @@ bool on_simple_curve_of_zeros(const ScaledField& field, const Vector2d& zero, co
     if (!here->g.isZero(0)) z -= least_squares(here->slopes, here->g);
   }
   const auto there = field.linear(field.moved(zero, z), false);
-  return there && z.norm() > apart * along.norm() && there->g.norm() <= left * there->slopes.norm() * along.norm();
+  if (!there || z.norm() <= apart * along.norm()) return false;
+  if (there->g.norm() > left * there->slopes.norm() * along.norm()) return false;
+  if (!there->g.isZero(0)) z -= least_squares(there->slopes, there->g);
+  const auto last = field.linear(field.moved(zero, z), true);
+  return last && !field.differs_from_zero(field.moved(zero, z), *last);
 }
 
 /// Returns the eigenvalues of a matrix with a trace and a determinant, the square root in them being real if square >
@@ -285,7 +316,6 @@ class ZeroSearch {
   void follow(Vector2d x, double reach);
   void examine(Vector2d x);
   std::optional<Equilibrium> simple(const Vector2d& x, const ScaledField::Linear& at) const;
-  Vector2d rounding(const Vector2d& x, const ScaledField::Linear& at) const;
   bool is_alone(const Vector2d& x, const ScaledField::Linear& at) const;
   void add(const Equilibrium& point, double radius) { zeros_.push_back({point, radius}); }
   void divide(const Cell& cell, const std::array<std::optional<Vector2d>, 4>& corners, int depth);
@@ -339,28 +369,11 @@ void ZeroSearch::follow(Vector2d x, double reach) {
   examine(x);
 }
 
-/// Returns the rounding of the components of g: their second differences at a distance at which these are tiny.
-Vector2d ZeroSearch::rounding(const Vector2d& x, const ScaledField::Linear& at) const {
-  constexpr double near = 1e-9;
-  Vector2d largest = eps * at.slopes.cwiseAbs() * x.cwiseQuotient(field_.half()).cwiseAbs();
-  for (int i = 0; i < 8; ++i) {
-    const Vector2d z = near * direction(2 * pi * (i + 0.37) / 16), ahead = field_.moved(x, z),
-                   behind = field_.moved(x, -z);
-    const auto there = field_(ahead), back = field_(behind);
-    if (!there || !back) continue;
-    // The steps themselves are rounded.
-    const Vector2d made = ((ahead - x) + (behind - x)).cwiseQuotient(field_.half());
-    largest = largest.cwiseMax((*there + *back - 2 * at.g - at.slopes * made).cwiseAbs());
-  }
-  return largest;
-}
-
 /// Returns true if the field is certainly not 0 close around a zero, also where its larger part is 0.
 bool ZeroSearch::is_alone(const Vector2d& x, const ScaledField::Linear& at) const {
   constexpr int around = 16, steps = 3;
-  constexpr double beside = 1e-6, roundings = 8, tiny = 1e-3;
+  constexpr double beside = 1e-6;
   const SingularValues svd(at.slopes);
-  Vector2d largest(0, 0);
   for (int i = 0; i < around + 2; ++i) {
     const bool flat = i >= around;
     Vector2d z = beside * (flat ? Vector2d((2 * (i - around) - 1) * svd.V.col(1)) : direction(2 * pi * i / around));
@@ -370,11 +383,9 @@ bool ZeroSearch::is_alone(const Vector2d& x, const ScaledField::Linear& at) cons
     }
     const Vector2d there = field_.moved(x, z);
     const auto beyond = field_.linear(there, true);
-    if (!beyond) return false;
-    if (!(beyond->g.cwiseAbs().array() > roundings * rounding(there, *beyond).array()).any()) return false;
-    largest = largest.cwiseMax(beyond->g.cwiseAbs());
+    if (!beyond || !field_.differs_from_zero(there, *beyond)) return false;
   }
-  return (at.g.cwiseAbs().array() <= tiny * largest.array()).all();
+  return true;
 }
 
 /// Returns the equilibrium if x is a simple zero by the bounds of its errors, else nothing.
@@ -391,7 +402,7 @@ std::optional<Equilibrium> ZeroSearch::simple(const Vector2d& x, const ScaledFie
     if (there) change = std::max(change, (there->slopes - slopes).norm() / step);
   }
   if (change < 0) return std::nullopt;
-  const double away = 2 * (at.g.norm() + rounding(x, at).norm()) / least;
+  const double away = 2 * (at.g.norm() + field_.rounding(x, at).norm()) / least;
   if (!(4 * away * change < least)) return std::nullopt;
   const double error = change * away + roundings * eps * norm + at.error;
   const double of_determinant = 2 * norm * error, of_trace = 2 * error;
@@ -423,8 +434,7 @@ void ZeroSearch::name_curve(const Vector2d& x) {
 
 /// Finds out whether Newton's method has ended at a zero, and of which kind.
 void ZeroSearch::examine(Vector2d x) {
-  constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, roundings = 64, slack = 1e-9, near = 0.04,
-                   far = 0.5;
+  constexpr double snap = 2e-9, coarse = 1e-5, apart = 0.02, beside = 0.05, slack = 1e-9, near = 0.04, far = 0.5;
   const auto inside = [&](const Vector2d& at) {
     return place(at).minCoeff() >= -slack && place(at).maxCoeff() <= 1 + slack;
   };
@@ -455,14 +465,14 @@ void ZeroSearch::examine(Vector2d x) {
     return on_simple_curve_of_zeros(field_, x, at->slopes, distance, steps);
   };
   const bool near_curve = meets_curve(near, 3);
-  if (near_curve && (meets_curve(far, 8) || meets_curve(-far, 8))) {
+  if (near_curve && meets_curve(far, 8) && meets_curve(-far, 8)) {
     name_curve(x);
     return others_.push_back(x);
   }
   const auto of_multiple = [&](const Zero& zero) { return field_.distance(x, zero.point.x) < zero.radius; };
   const auto beside_it = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
   if (std::ranges::any_of(zeros_, of_multiple) || std::ranges::any_of(curves_, beside_it)) return others_.push_back(x);
-  if (std::ranges::any_of(flats_, beside_it)) return;
+  if (std::ranges::any_of(flats_, beside_it) && (field_.differs_from_zero(x, *at) || !is_alone(x, *at))) return;
   // Newton's method halves the distance to a multiple zero only. If there is a point of few decimals at which the field
   // is smaller, it is the better zero.
   const auto better = few_decimals(field_.unscaled(), x, field_.half(), coarse);
@@ -485,7 +495,8 @@ void ZeroSearch::examine(Vector2d x) {
     }
   } else {
     // No polynomial describes the field. The point counts if the field vanishes within rounding, and not beside it.
-    if (!(g.norm() <= roundings * rounding(x, *at).norm()) || !is_alone(x, *at)) return flats_.push_back(x);
+    if (field_.differs_from_zero(x, *at)) return;
+    if (!is_alone(x, *at)) return flats_.push_back(x);
     const double determinant = at->slopes.determinant(), trace = at->slopes.trace(), norm = at->slopes.norm();
     if (std::abs(determinant) > small * norm * norm) return add({x, none}, same);
     point.eigenvalues = {std::min(trace, 0.), std::max(trace, 0.)};
@@ -581,7 +592,7 @@ void ZeroSearch::find_indices() {
       if (&other != &zero) allowed = std::min(allowed, part * field_.distance(point.x, other.point.x));
     }
     for (const Vector2d& flat : flats_) {
-      if (const double away = field_.distance(point.x, flat); away > explained)
+      if (const double away = field_.distance(point.x, flat); away > zero.radius)
         allowed = std::min(allowed, part * away);
     }
     // On a small circle a flat field is only rounding.

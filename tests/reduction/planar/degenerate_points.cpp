@@ -276,6 +276,39 @@ TEST_CASE("zeros of high order have the kind by construction, or none", "[planar
   CHECK(found_known == all_known);
 }
 
+TEST_CASE("flat zeros beside each other and in two flat components have no wrong place or kind", "[planar]") {
+  std::mt19937_64 random(1);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 120; ++i) {
+    const int m = 3 + static_cast<int>(random() % 15), n = 1 + static_cast<int>(random() % 12);
+    const double s = between(0.3, 2) * (random() % 2 == 0 ? 1 : -1), r = between(0.3, 2) * (random() % 2 == 0 ? 1 : -1);
+    const double a = between(-0.6, 0.6), b = between(-0.6, 0.6), a2 = a + std::pow(10, between(-1.3, 0));
+    const bool two = i % 2 == 0;
+    const Formulas formulas = [=](Dual x, Dual y) {
+      return two ? Pair(s * power(x - a, m) * power(x - a2, n), r * (y - b))
+                 : Pair(s * power(x - a, m), r * power(y - b, n));
+    };
+    const Vector2d low(a - between(0.1, 1), b - between(0.1, 1)), high(a + between(0.1, 1), b + between(0.1, 1));
+    const Equilibria found = find_equilibria(field_of(formulas, 1, true), low, high);
+    CAPTURE(i, m, n, s, r, a, b, a2, two);
+    CHECK_FALSE(found.on_curve);
+    const std::size_t all = two && a2 < high[0] ? 2 : 1;
+    CHECK((found.points.size() == all || (found.points.size() < all && !found.complete)));
+    for (const Equilibrium& point : found.points) {
+      CAPTURE(point.x[0], point.x[1], point.kind);
+      const bool second = two && std::abs(point.x[0] - a2) < std::abs(point.x[0] - a);
+      CHECK((point.x - Vector2d(second ? a2 : a, b)).norm() < 1e-5);
+      const double factor = !two ? 1 : std::pow(second ? a2 - a : a - a2, second ? m : n);
+      const bool even = (second ? n : m) % 2 == 0 || (!two && n % 2 == 0);
+      const int index = even ? 0 : s * r * factor > 0 ? 1 : -1;
+      if (point.index) CHECK(*point.index == index);
+      if ((!two && n > 1) || point.kind == "degenerate") continue;
+      const std::string_view node = r < 0 ? "stable node" : "unstable node";
+      CHECK(point.kind == (even ? "saddle-node" : index < 0 ? "saddle" : node));
+    }
+  }
+}
+
 // The reference follows a motion for one turn by Runge-Kutta steps, in coordinates in which the linear part is a
 // rotation. The library gets the field in other coordinates.
 TEST_CASE("the first Lyapunov coefficient decides between the foci", "[planar]") {

@@ -348,10 +348,10 @@ struct Equilibrium {
 
   /// One of planar_kinds. "not smooth": the field jumps at x, or its Jacobian differs between the sides of x.
   /// "degenerate": an eigenvalue is 0 within its error, and the terms of higher order do not decide. "center or focus":
-  /// motions turn about x, and nothing proves that they are closed. There are three proofs. First, x lies on the axis
-  /// of a reflection that is a reversor; then every motion that meets this axis twice is closed. Second, the inverse
-  /// integrating factor V is not 0 at x; then motions are level lines of the first integral H. Third, x is the centre
-  /// of a scaling, and a turn multiplies by 1.
+  /// motions turn about x, and neither the first Lyapunov coefficient proves a focus nor one of three proofs a center.
+  /// First, x lies on the axis of a reflection that is a reversor; then every motion that meets this axis twice is
+  /// closed. Second, the inverse integrating factor V is not 0 at x; then motions are level lines of the first integral
+  /// H. Third, x is the centre of a scaling, and a turn multiplies by 1.
   std::string_view kind = planar_kind("degenerate");
 
   /// The eigenvalues of the Jacobian, the one with the smaller real or imaginary part first. An eigenvalue or a part
@@ -367,7 +367,7 @@ struct Equilibria {
   std::vector<Equilibrium> points;  ///< in the order of u, then v
   Eigen::Vector2d low, high;        ///< corners of the rectangle
 
-  /// False if there might be more equilibria: the field changes much between neighbouring points of the search.
+  /// False if there might be more equilibria: the field changes much between points, or rounding hides where it is 0.
   bool complete = true;
 
   std::optional<Eigen::Vector2d> on_curve = {};  ///< a point of the rectangle on a curve of equilibria
