@@ -167,7 +167,7 @@ Sides compare_sides(const ScaledField& field, const Vector2d& x) {
       const Vector2d n = direction(2 * pi * (i + 0.37) / directions);
       const auto there = field(field.moved(x, radius * n));
       if (!there) return std::nullopt;
-      changes.push_back((*there - *here) / radius);
+      changes.emplace_back((*there - *here) / radius);
       linear += 2. / directions * changes.back() * n.transpose();
     }
     Scale scale{0, linear.norm(), 0};
@@ -567,14 +567,18 @@ void ZeroSearch::divide(const Cell& cell, const std::array<std::optional<Vector2
     const int column = j % 3, row = j / 3;
     auto& g = lattice[static_cast<std::size_t>(j)];
     if (column != 1 && row != 1) {
-      g = corners[static_cast<std::size_t>(column / 2 + row)];
+      const int corner = column / 2 + row;
+      g = corners[static_cast<std::size_t>(corner)];
     } else {
       g = field_(field_.moved(cell.x, cell.half * Vector2d(column - 1, row - 1)));
     }
   }
   for (int j = 0; j < 4; ++j) {
     const int column = j % 2, row = j / 2;
-    const auto at = [&](int i, int k) { return lattice[static_cast<std::size_t>(3 * (row + k) + column + i)]; };
+    const auto at = [&](int i, int k) {
+      const int place = 3 * (row + k) + column + i;
+      return lattice[static_cast<std::size_t>(place)];
+    };
     ++cells_;
     divide({field_.moved(cell.x, cell.half * Vector2d(column - 0.5, row - 0.5)), cell.half / 2},
            {at(0, 0), at(1, 0), at(0, 1), at(1, 1)}, depth + 1);
