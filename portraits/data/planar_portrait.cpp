@@ -791,9 +791,14 @@ std::vector<PortraitOrbit> zero_curves(const reduction::SmoothField& field, int 
 /// closer together than the grid that finds them, a line joins points of several curves.
 bool runs_along(const reduction::SmoothField& field, const Polyline& line, std::size_t i) {
   constexpr double steepest = 0.2;
-  const Vector2d way = vector_of(line[std::min(i + 1, line.size() - 1)]) - vector_of(line[i == 0 ? 0 : i - 1]);
-  const auto rate = rate_of(field, vector_of(line[i]));
-  return !rate || std::abs(way[0] * (*rate)[1] - way[1] * (*rate)[0]) <= steepest * way.norm() * rate->norm();
+  const Vector2d here = vector_of(line[i]);
+  const auto rate = rate_of(field, here);
+  const auto along = [&](std::size_t k) {
+    const Vector2d way = k < line.size() ? Vector2d(vector_of(line[k]) - here) : Vector2d(0, 0);
+    return std::abs(way[0] * (*rate)[1] - way[1] * (*rate)[0]) <= steepest * way.norm() * rate->norm();
+  };
+  // Two curves meet in an equilibrium, where a line turns.
+  return !rate || along(i + 1) || along(i - 1);
 }
 
 /// Returns the curves of equilibria in a window.
