@@ -797,8 +797,7 @@ bool runs_along(const reduction::SmoothField& field, const Polyline& line, std::
     const Vector2d way = k < line.size() ? Vector2d(vector_of(line[k]) - here) : Vector2d(0, 0);
     return std::abs(way[0] * (*rate)[1] - way[1] * (*rate)[0]) <= steepest * way.norm() * rate->norm();
   };
-  // Two curves meet in an equilibrium, where a line turns.
-  return !rate || along(i + 1) || along(i - 1);
+  return !rate || (along(i + 1) && along(i - 1));
 }
 
 /// Returns the curves of equilibria in a window.
@@ -867,7 +866,7 @@ std::vector<Polyline> invariant_lines(const PlanarReduction& plane, const Window
   for (const reduction::FactorPiece& piece : plane.factor_pieces(window.low, window.high))
     for (const Polyline& line : zero_lines(piece, window.sides()))
       add_parts(lines, line, [&](std::size_t i) { return runs_along(plane.field(), line, i); });
-  constexpr double near = 0.01, alike = 0.5;
+  constexpr double near = 0.02, alike = 0.5;
   const auto at_one_place = [&](const Vector2d& a, const Vector2d& b) {
     return (a - b).cwiseQuotient(window.sides()).norm() < near;
   };
