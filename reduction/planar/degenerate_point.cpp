@@ -232,9 +232,10 @@ AlongCurve along_curve(const Taylor& t) {
 /// A multiple zero of the Taylor polynomial.
 struct Multiple {
   int order;
-  Vector2d shift;  ///< from the centre of the disc, in radii
-  double known;    ///< error of the shift
-  double s = 0;    ///< place on the curve
+  Vector2d shift;     ///< from the centre of the disc, in radii
+  double known;       ///< error of the shift
+  double s = 0;       ///< place on the curve
+  bool fixed = true;  ///< false if the terms of least degree do not fix the place in both directions
 };
 
 std::optional<Multiple> multiple_zero(const Taylor& t, const AlongCurve& c) {
@@ -267,6 +268,7 @@ std::optional<Multiple> multiple_zero(const Taylor& t) {
     const double size = largest(t.g, m);
     if (!(size > significant * error(m))) continue;
     Vector2d shift(0, 0);
+    Eigen::Index rank = 2;
     std::array there = t.g;
     for (int step = 0; step < steps && shift.norm() <= farthest; ++step) {
       MatrixXd slopes(2 * m, 2), values(2 * m, 1);
@@ -279,14 +281,13 @@ std::optional<Multiple> multiple_zero(const Taylor& t) {
         }
       }
       const SingularValues svd(slopes);
-      // Terms of one variable do not fix the place along the other, which is flatter.
-      if (!(svd.values[1] > significant * error(m))) return std::nullopt;
-      shift += svd.solution(values.col(0), 2);
+      rank = (svd.values.array() > significant * error(m)).count();
+      shift += svd.solution(values.col(0), rank);
       there = {t.g[0].shifted(shift), t.g[1].shifted(shift)};
     }
     bool multiple = shift.norm() <= farthest;
     for (int k = 0; k < m; ++k) multiple &= largest(there, k) <= error(k);
-    if (multiple) return Multiple{m, shift, error(m - 1) / size};
+    if (multiple) return Multiple{m, shift, error(m - 1) / size, 0, rank == 2};
   }
   return std::nullopt;
 }
@@ -512,17 +513,19 @@ std::optional<DegeneratePoint> degenerate_point(const PlanarField& field, const 
   const auto x = few_decimals(field, moved, radii, known);
   if (!x) return std::nullopt;
   // The kind must be the same in two discs.
-  std::optional<DegeneratePoint> point;
+  DegeneratePoint point{*x, planar_kind("degenerate"), 0};
   double radius = first->radius;
   for (int disc = 0; disc < 2; ++disc, radius /= 2) {
     const auto local = local_polynomial(field, *x, radii, radius);
     const auto there = local ? local->zero() : std::nullopt;
-    if (!there || there->order != zero->order) return DegeneratePoint{*x, planar_kind("degenerate"), 0};
-    const DegeneratePoint found = classified(*local, *x, *there);
-    if (point && point->kind != found.kind) return DegeneratePoint{*x, planar_kind("degenerate"), 0};
-    point = found;
+    const DegeneratePoint found = there && there->order == zero->order
+                                      ? classified(*local, *x, *there)
+                                      : DegeneratePoint{*x, planar_kind("degenerate"), 0};
+    const bool agree = disc == 0 || point.kind == found.kind;
+    point = agree ? found : DegeneratePoint{*x, planar_kind("degenerate"), 0};
   }
-  return point;
+  // A principal part with a kind has powers of both variables, which fix the place.
+  return zero->fixed || point.kind != "degenerate" ? std::optional(point) : std::nullopt;
 }
 
 }  // namespace contensou::reduction

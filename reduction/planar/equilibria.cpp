@@ -118,10 +118,11 @@ class ScaledField {
     return largest;
   }
 
-  /// Returns true if a component of g is certainly not 0, although it may be tiny.
-  bool differs_from_zero(const Vector2d& x, const Linear& at) const {
-    constexpr double roundings = 8;
-    return (at.g.cwiseAbs().array() > roundings * rounding(x, at).array()).any();
+  /// Returns true if a component of g is certainly not 0, although it may be tiny, and exceeds its value elsewhere.
+  bool differs_from_zero(const Vector2d& x, const Linear& at, const Vector2d& elsewhere = {0, 0}) const {
+    constexpr double roundings = 8, times = 100;
+    const Vector2d least = (roundings * rounding(x, at)).cwiseMax(times * elsewhere.cwiseAbs());
+    return (at.g.cwiseAbs().array() > least.array()).any();
   }
 
   /// Returns true if x lies on a switching curve, or if the field has no switching functions.
@@ -383,7 +384,7 @@ bool ZeroSearch::is_alone(const Vector2d& x, const ScaledField::Linear& at) cons
     }
     const Vector2d there = field_.moved(x, z);
     const auto beyond = field_.linear(there, true);
-    if (!beyond || !field_.differs_from_zero(there, *beyond)) return false;
+    if (!beyond || !field_.differs_from_zero(there, *beyond, at.g)) return false;
   }
   return true;
 }
