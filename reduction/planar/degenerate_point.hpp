@@ -72,8 +72,8 @@ struct DegeneratePoint {
 std::optional<DegeneratePoint> degenerate_point(const PlanarField& field, const Eigen::Vector2d& near,
                                                 const Eigen::Vector2d& radii);
 
-/// Returns the sign of the first Lyapunov coefficient of a zero with the eigenvalues +-i omega: -1 for a stable focus, 1
-/// for an unstable one; 0 if the coefficient is 0 within its error, or not known.
+/// Returns the sign of the first Lyapunov coefficient of a zero with the eigenvalues +-i omega: -1 for a stable focus,
+/// 1 for an unstable one; 0 if the coefficient is 0 within its error, or not known.
 int lyapunov_sign(const PlanarField& field, const Eigen::Vector2d& x, const Eigen::Vector2d& radii);
 
 /// Returns the point of few decimals next to x, if it lies within `known` (in units of `radii`) and the field is 0
