@@ -864,6 +864,10 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
                                      std::isnan(cycle->multiplier) ? "" : "; multiplier " + digits(cycle->multiplier)));
     }
     board.add_equilibria(equilibria);
+    const bool named = !equilibria.points.empty() || equilibria.on_curve || !switching.empty();
+    if (!named && !equilibria.complete) {
+      board.add("equilibria", "none found, but some may be missing: the field is too flat, or changes too much");
+    }
     board.add_switching(switching);
     return board.text() + (details ? numbers(digits) : "");
   };
