@@ -661,10 +661,29 @@ void join_branches(std::vector<SaddleBranch>& branches, const reduction::Equilib
   std::erase_if(branches, [](const SaddleBranch& branch) { return branch.line.empty(); });
 }
 
+Vector2d middle_of(const PlanarReduction& plane) {
+  return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
+}
+
+/// Returns a point just beyond the end of an orbit at which the motion would turn back, because the field has a pole
+/// there, as y' = -x/y at y = 0. The orbit beyond continues the solution curve.
+std::optional<Vector2d> beyond_pole(const PlanarReduction& plane, const Window& window, Point end, Point before) {
+  constexpr double near = 0.004, opposite = -0.9;  // at a jump rates are opposite, too, but do not grow
+  const Vector2d sides = window.sides();
+  const Vector2d ahead = (vector_of(end) - vector_of(before)).cwiseQuotient(sides).stableNormalized();
+  const auto at = [&](double distance) -> Vector2d { return vector_of(end) + distance * ahead.cwiseProduct(sides); };
+  const Vector2d beyond = at(near);
+  const auto here = rate_of(plane.field(), at(-near)), there = rate_of(plane.field(), beyond);
+  const auto farther = rate_of(plane.field(), at(4 * near));
+  if (!window.contains({beyond[0], beyond[1]}) || !here || !there || !farther) return std::nullopt;
+  const bool turns = here->normalized().dot(there->normalized()) < opposite;
+  return turns && there->norm() > 2 * farther->norm() ? std::optional(beyond) : std::nullopt;
+}
+
 /// Returns orbits that fill the window. Each goes through the middle of the widest gap. If the mirror images of an
 /// orbit have as much room, they are added, too, because most systems have such a symmetry.
 /// @param drawn  other lines of the picture, which need room, too
-std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& window, const Vector2d& middle,
+std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const PlanarReduction& plane, const Window& window,
                                    std::optional<int> count, const std::vector<Polyline>& drawn) {
   const Panel panel = panel_of(window);
   constexpr double gap = 0.055;  // smallest gap that gets an orbit, as a fraction of the window's side
@@ -681,7 +700,16 @@ std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& win
   }
   std::vector<PortraitOrbit> orbits;
   std::vector<Point> mirrored;  // places to try first
+  const Vector2d middle = middle_of(plane);
   const Point centre = on_paper(panel, {middle[0], middle[1]});
+  const auto is_drawn_to = [&](const Vector2d& x) {
+    constexpr double near = 0.0045;  // a little more than in beyond_pole
+    return std::ranges::any_of(orbits, [&](const PortraitOrbit& orbit) {
+      const Eigen::Index last = orbit.rows() - 1;
+      return std::min(paper_distance(panel, {x[0], x[1]}, {orbit.u[0], orbit.v[0]}),
+                      paper_distance(panel, {x[0], x[1]}, {orbit.u[last], orbit.v[last]})) < near;
+    });
+  };
   for (int traced = 0; traced < count.value_or(most) && !gaps.empty();) {
     auto widest = &gaps.widest();
     bool from_mirror = false;
@@ -693,8 +721,7 @@ std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& win
     }
     if (!count && widest->gap < gap) break;
     const Point here = widest->place;
-    const std::size_t its_sector = widest->sector;
-    const Vector2d through = widest->state;
+    std::vector<Vector2d> open{widest->state};
     if (!from_mirror) {
       mirrored = {{here.x, 2 * centre.y - here.y},
                   {2 * centre.x - here.x, here.y},
@@ -702,19 +729,27 @@ std::vector<PortraitOrbit> filling(const PlanarTracer& tracer, const Window& win
     }
     ++traced;
     widest->gap = 0;
-    for (PortraitOrbit& piece : tracer.ordinary(through)) {
-      for (Eigen::Index row = 0; row < piece.u.size(); ++row) {
-        gaps.pass(its_sector, on_paper(panel, {piece.u[row], piece.v[row]}));
+    while (!open.empty()) {
+      const Vector2d through = open.back();
+      const auto its_sector = tracer.sector(through);
+      open.pop_back();
+      if (!its_sector) continue;
+      for (PortraitOrbit& piece : tracer.ordinary(through)) {
+        const auto at = [&](Eigen::Index row) { return Point{piece.u[row], piece.v[row]}; };
+        const Eigen::Index last = piece.rows() - 1;
+        for (Eigen::Index row = 0; row <= last; ++row) gaps.pass(*its_sector, on_paper(panel, at(row)));
+        for (const auto& [end, before] : {std::pair{Eigen::Index{0}, Eigen::Index{1}}, {last, last - 1}}) {
+          const auto beyond = beyond_pole(plane, window, at(end), at(before));
+          constexpr double crowded = 0.05;  // distance at which the turns of spirals would cover each other
+          const bool is_free = !plane.scaling() || paper_distance(panel, at(end), {middle[0], middle[1]}) > crowded;
+          if (beyond && is_free && !is_drawn_to(*beyond)) open.push_back(*beyond);
+        }
+        orbits.push_back(std::move(piece));
       }
-      orbits.push_back(std::move(piece));
     }
     gaps.drop_below(count ? 1e-9 : gap);
   }
   return orbits;
-}
-
-Vector2d middle_of(const PlanarReduction& plane) {
-  return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
 /// Returns a chosen view, wider by a margin, by the separatrices and by the orbit of the start. Lines that go far from
@@ -953,7 +988,7 @@ PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::s
     traced = std::move(timed);
   }
   const PlanarTracer& tracer = *traced;
-  portrait.orbits = filling(tracer, window, middle_of(plane), request.orbits, drawn);
+  portrait.orbits = filling(tracer, plane, window, request.orbits, drawn);
   const auto asked = [&](const State& x, bool from_here) {
     plane.end(vector_of(x));  // throws for a point without a value
     return tracer.orbit(vector_of(x), from_here);

@@ -137,6 +137,30 @@ TEST_CASE("the curves V = 0 are drawn where V changes its sign and where it only
   CHECK(lines_of([](const Vector2d& x) { return Vector2d(1 + x[0] * x[0], x[1] * x[1] + 1e-4); }).empty());
 }
 
+TEST_CASE("a solution curve goes on beyond a pole of the field, where its tangent is vertical", "[physics]") {
+  // W. E. Boyce, R. C. DiPrima, Elementary Differential Equations, section 2.2: y^2 - 2y = x^3 + 2x^2 + 2x + C.
+  const PlanarField field = [](const Vector2d& x) {
+    return Vector2d(1, (3 * x[0] * x[0] + 4 * x[0] + 2) / (2 * (x[1] - 1)));
+  };
+  PortraitRequest request;
+  request.window = Window{{-3, -3}, {3, 3}};
+  const PlanarPortrait portrait = planar_portrait(reduction::by_factor({field}, {0.3, 0.5}), "a system", request);
+  std::vector<Vector2d> ends;
+  for (const PortraitOrbit& orbit : portrait.orbits) {
+    for (const Eigen::Index row : {Eigen::Index{0}, orbit.rows() - 1}) {
+      const Vector2d end(orbit.u[row], orbit.v[row]);
+      if (std::abs(end[1] - 1) < 0.05 && std::abs(end[0]) < 2.9) ends.push_back(end);
+    }
+  }
+  REQUIRE(ends.size() >= 12);
+  for (const Vector2d& end : ends) {
+    CAPTURE(end.transpose());
+    // Where orbits are dense, the curve beyond may be that of an orbit so near that the eye sees one curve.
+    CHECK(std::ranges::count_if(
+              ends, [&](const Vector2d& other) { return (other - end).norm() < 0.015 && &other != &end; }) >= 1);
+  }
+}
+
 TEST_CASE("a planar portrait is refused where there is nothing to show", "[input]") {
   const PlanarField field = [](const Vector2d& x) { return Vector2d(std::sqrt(x[0]), -std::sqrt(x[0])); };
   CHECK_THROWS_WITH(portrait_of(field, {.window = Window{{0, 0}, {0, 1}}}), Contains("two positive sides"));
