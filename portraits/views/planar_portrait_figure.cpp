@@ -257,18 +257,20 @@ std::vector<Polyline> gaps_of(const std::function<bool(Point)>& holds) {
   const auto search = [&](double x) {
     Gaps gaps;
     bool before = true;
-    for (int i = 0; i <= lines; ++i) {
-      const double y = std::min(1.0, (i + 0.5) / lines);
-      const bool now = i == lines ? true : holds({x, y});
+    double from = 0;
+    for (int i = 0; i <= lines + 1; ++i) {
+      const double y = std::clamp((i - 0.5) / lines, 0.0, 1.0);
+      const bool now = holds({x, y});
       if (now != before) {
         const auto is_as_before = [&](double at) { return holds({x, at}) == before; };
-        const double edge = i == 0 ? 0 : i == lines ? 1 : border(y - 1.0 / lines, y, is_as_before).first;
+        const double edge = i == 0 ? 0 : border(from, y, is_as_before).first;
         if (before)
-          gaps.emplace_back(edge, edge);
+          gaps.emplace_back(edge, 1);
         else
           gaps.back().second = edge;
       }
       before = now;
+      from = y;
     }
     std::erase_if(gaps, [&](const auto& gap) { return gap.second - gap.first < thinnest; });
     return gaps;
