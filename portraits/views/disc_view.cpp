@@ -97,7 +97,8 @@ MappedPanel polar_panel(const Drawing& drawing, double hole) {
   const double letter = drawing.letter / std::min(drawing.panel_mm.x / 2.26, drawing.panel_mm.y / 1.26);
   const double off = std::max(0.075, 0.62 * letter), margin = std::max(0.13, off + 0.5 * letter);
   panel.x = {"", -1 - 0.13, 1 + 0.13, false, {}};
-  panel.y = {"", -margin, 1 + margin, false, {}};
+  // Beside the chart, the line v = 0 is level with an axis, and labels have the room of its numbers.
+  panel.y = {"", hole > 0 ? 0 : -margin, 1 + margin, false, {}};
   panel.to_scale = true;
   panel.bare = true;
   panel.regions.push_back({half_circle(1), drawing.palette.region});

@@ -106,7 +106,7 @@ inline const std::array view_layouts{
         [](const PhasePortrait& portrait) { return "canonical coordinates: " + one_curve(portrait); }},
     ViewLayout{View::blowup, "blowup",
                "plane in which the origin is drawn as a half-circle of directions, and plane (u, ln k)", blowup_view, 2,
-               280, 112, far_times,
+               280, 97, far_times,
                [](const PhasePortrait&) {
                  return Text("the origin as a half-circle: each half-line joins a saddle to a node");
                }},
