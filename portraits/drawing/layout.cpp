@@ -365,9 +365,10 @@ class Compositor {
     const double strip = width / columns;
     // Heights come first, because the ticks of y axes follow from heights, and the margins from these ticks.
     double above = 0.5, below = 0.5;
+    constexpr double high = 14;  // a row with room keeps its titles off the names of the row above
+    const double apart = rows > 1 && (top_ - bottom_) / rows > high ? 1.1 : 0.7;
     for (const Panel& panel : figure_.panels) {
-      above = std::max(
-          above, (rows > 1 ? 1.1 : 0.7) + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
+      above = std::max(above, apart + line_height * static_cast<double>(broken(panel.title, strip - 1).size()));
       if (!panel.bare) below = std::max(below, panel.x.name.empty() ? 2.4 : 3.8);
     }
     const double height = (top_ - bottom_) / rows - above - below;

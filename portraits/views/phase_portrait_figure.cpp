@@ -84,7 +84,7 @@ namespace {
 /// Returns the best size for a number of planes side by side.
 PaperSize usual_size(const ViewLayout& layout, std::size_t count) {
   if (count == 1) return {layout.width_mm, layout.height_mm};
-  const double width = count == 2 ? 250 : count == 4 ? 190 : 300;
+  const double width = count == 2 || count == 6 ? 250 : count == 4 ? 190 : 300;
   return fitted({layout.width_mm * static_cast<double>(count), layout.height_mm}, static_cast<int>(count),
                 {.width_mm = width});
 }

@@ -674,6 +674,16 @@ TEST_CASE("The disc holds everything; its singular points are those of the plane
   CHECK(std::hypot(stop[0].x, stop[0].y) == 0);
 }
 
+TEST_CASE("Two to six planes have room in the usual size", "[limit]") {
+  for (int count = 2; count <= 6; ++count) {
+    std::vector<reduction::Flow> flows;
+    for (int i = 1; i <= count; ++i) flows.emplace_back(reduction::ReducedSystem{reduction::HertzLaw{}, 0.15 * i});
+    const auto all = portraits::phase_portraits(flows, {.orbits = 4});
+    CAPTURE(count);
+    CHECK_NOTHROW(lay_out(draw_together(all, std::vector<portraits::PortraitCaption>(all.size()))));
+  }
+}
+
 TEST_CASE("The axis says that it is bent, whatever the title", "[table]") {
   const portraits::SpeedScale scale = portrait_of(0.3).scale;
   CHECK_THAT(figure_of(0.3).panels[0].y.name.words(),
