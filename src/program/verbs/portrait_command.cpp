@@ -227,8 +227,8 @@ class PortraitCommand final : public Verb {
           "--view disc: the right sides are no polynomials of degree 24 or less, so that nothing is known at infinity. Leave --view out, "
           "and choose a large --window");
     }
-    // Sample the field about a point of the window, or, without a window, at the distance of the start from 0. Fields of
-    // textbooks have no value at some round points.
+    // Sample the field about a point of the window, or, without a window, at the distance of the start from 0. Fields
+    // of textbooks have no value at some round points.
     Vector2d around = request_.window
                           ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
                           : request_.sides.value_or(Vector2d(1, 1));

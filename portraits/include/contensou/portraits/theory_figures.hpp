@@ -15,7 +15,8 @@ Figure patch_drawing(const AskedSize& size = {});
 /// Draws Fig. 3 of the same paper: the ball on the plane, its axes and its contact patch.
 Figure ball_drawing(const AskedSize& size = {});
 
-/// Draws friction force Phi and moment Psi against k from 0 to 4. The two laws of V. F. Zhuravlev, 1998, are his Fig. 2.
+/// Draws friction force Phi and moment Psi against k from 0 to 4. The two laws of V. F. Zhuravlev, 1998, are his
+/// Fig. 2.
 Figure law_figure(const std::vector<reduction::Law>& laws, const AskedSize& size = {});
 
 /// Draws the limit surfaces of laws (force and moment at which a patch slips), and the ellipse (F/F0)^2 + (M/M0)^2 = 1.
