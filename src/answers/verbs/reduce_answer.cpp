@@ -228,7 +228,7 @@ std::string count_of(const reduction::Equilibria& equilibria, const std::array<s
                : "";
   return fmt::format("{}{}, within {} <= {} <= {}, {} <= {} <= {}",
                      points.empty() ? std::string(complete ? (on_curve ? "no isolated one" : "none")
-                                                           : "none found, and there may be some")
+                                                           : "none found, but some may be missing")
                      : complete     ? fmt::format("{}", points.size())
                                     : fmt::format("at least {}", points.size()),
                      curve, part(low[0]), letters[0], part(high[0]), part(low[1]), letters[1], part(high[1]));
@@ -864,10 +864,6 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
                                      std::isnan(cycle->multiplier) ? "" : "; multiplier " + digits(cycle->multiplier)));
     }
     board.add_equilibria(equilibria);
-    const bool named = !equilibria.points.empty() || equilibria.on_curve || !switching.empty();
-    if (!named && !equilibria.complete) {
-      board.add("equilibria", "none found, but some may be missing: the field is too flat, or changes too much");
-    }
     board.add_switching(switching);
     return board.text() + (details ? numbers(digits) : "");
   };

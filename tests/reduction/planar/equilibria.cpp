@@ -114,9 +114,9 @@ TEST_CASE("a reflection that turns motions back proves a center, alone it proves
       names([](const Vector2d& x) { return Vector2d(x[0] - x[1] + x[0] * x[1] * x[1], x[0] - x[1]); }, {1, 1}).empty());
   CHECK(names([](const Vector2d& x) { return Vector2d(x[0] + x[1] * x[1], -x[1] - x[0] * x[0]); }, {1, 1}) ==
         Names{"(v, u)"});
-  // If eigenvalues are imaginary and there is no reversor, the cubic terms decide between center and focus.
+  // Without a reversor the cubic terms decide: the square of the distance falls at the rate 2 u^2 |x|^2.
   const auto turning = [](const Vector2d& x) { return Vector2d(-x[1] - x[0] * x.squaredNorm(), x[0]); };
-  CHECK(kinds(turning) == Names{"center or focus"});
+  CHECK(kinds(turning) == Names{"stable focus"});
   // The damping is small compared with the other terms of the field, but it is not 0.
   CHECK(names([](const Vector2d& x) { return Vector2d(x[1], -std::sin(x[0]) - 1e-11 * x[1]); }, {1, 1}).empty());
   // The field has values on one side of u = 0 only.
