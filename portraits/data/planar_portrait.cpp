@@ -844,8 +844,9 @@ std::vector<PortraitOrbit> curves_of_equilibria(const reduction::SmoothField& fi
     return rate ? rate->norm() : infinity;
   };
   for (int i = 0; i < across * across; ++i) {
-    const double at = speed(
-        window.low + Vector2d((i % across + 0.41) / across, (i / across + 0.43) / across).cwiseProduct(window.sides()));
+    const int column = i % across, row = i / across;
+    const double at =
+        speed(window.low + Vector2d((column + 0.41) / across, (row + 0.43) / across).cwiseProduct(window.sides()));
     if (std::isfinite(at)) largest = std::max(largest, at);
   }
   constexpr double zero = 1e-6;

@@ -32,7 +32,8 @@ bool maps_onto_itself(const reduction::SmoothField& field, const Vector2d& half,
   constexpr double rounding = 1e-9;
   int compared = 0;
   for (int i = 0; i < across * across; ++i) {
-    const Vector2d place(-0.93 + 0.37 * (i % across), -0.91 + 0.36 * (i / across));
+    const int column = i % across, row = i / across;
+    const Vector2d place(-0.93 + 0.37 * column, -0.91 + 0.36 * row);
     const Vector2d x = place.cwiseProduct(half);
     const auto here = rate_of(field, x), there = rate_of(field, map(x));
     if (here && there && !((sign.cwiseProduct(*here) - *there).norm() <= rounding * here->norm())) return false;

@@ -358,7 +358,8 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     bool slopes = true;
     constexpr int across = 5;
     for (int i = 0; i < across * across; ++i) {
-      const auto rate = rate_at(from_paper(layers.panel(), {(i % across + 0.5) / across, (i / across + 0.5) / across}));
+      const int column = i % across, row = i / across;
+      const auto rate = rate_at(from_paper(layers.panel(), {(column + 0.5) / across, (row + 0.5) / across}));
       slopes &= !rate || (*rate)[0] == 1;
     }
     layers.add_directions(drift, slopes ? "slopes" : "direction of the motion", !slopes);

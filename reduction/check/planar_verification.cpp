@@ -205,7 +205,7 @@ class PlanarExamination {
     std::vector<Vector2d> circle;
     const Box box = box_about(around_);
     for (const double u : {1, -1}) {
-      for (const double v : {u, -u}) circle.push_back(start_ + radius * box.radii.cwiseProduct(Vector2d(u, v)));
+      for (const double v : {u, -u}) circle.emplace_back(start_ + radius * box.radii.cwiseProduct(Vector2d(u, v)));
     }
     circle.push_back(circle.front());
     const std::vector<LevelPoint> levels = plane_.levels(circle);

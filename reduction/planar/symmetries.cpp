@@ -248,7 +248,7 @@ std::vector<Vector2d> points_at_switches(const SmoothField& field, const Vector2
       }
       const Vector2d normal = field.switches(x).row(k).tail<2>().normalized();
       if (!x.allFinite() || !normal.allFinite() || !(way.norm() <= near * x.norm())) continue;
-      for (const double side : {-aside, aside}) points.push_back((x + side * size * normal) / unit);
+      for (const double side : {-aside, aside}) points.emplace_back((x + side * size * normal) / unit);
     }
   }
   return points;

@@ -41,8 +41,8 @@ std::string with_semicolons(std::string text) {
   int depth = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
     depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
-    const std::size_t next = text[at] == ',' && depth == 0 ? text.find_first_of("=;,\n", at + 1) : text.npos;
-    if (text[at] == '\n' || (next != text.npos && text[next] == '=')) text[at] = ';';
+    const std::size_t next = text[at] == ',' && depth == 0 ? text.find_first_of("=;,\n", at + 1) : std::string::npos;
+    if (text[at] == '\n' || (next != std::string::npos && text[next] == '=')) text[at] = ';';
   }
   return text;
 }

@@ -319,7 +319,7 @@ std::string field_text(const std::array<E, 2>& X, const std::vector<std::string>
   for (const std::size_t i : {0U, 1U}) {
     if (X[i].is_zero()) continue;
     std::string factor = X[i].text(names);
-    if (X[i].is(Kind::sum)) factor = "(" + factor + ")";
+    if (X[i].is(Kind::sum)) factor = fmt::format("({})", factor);
     const bool minus = factor.starts_with('-');
     if (minus) factor.erase(0, 1);
     text += text.empty() ? (minus ? "-" : "") : minus ? " - " : " + ";

@@ -152,7 +152,7 @@ void CsvReader::find_separator() {
     const std::size_t end = buffer_.find_first_of("\r\n", begin);
     const std::string_view text = std::string_view(buffer_).substr(begin, end - begin);
     if (text.find(',') != std::string_view::npos) return;
-    const std::size_t found = text.starts_with('#') ? text.npos : without_spaces(text).find_first_of("\t;");
+    const std::size_t found = text.starts_with('#') ? std::string::npos : without_spaces(text).find_first_of("\t;");
     if (found != std::string_view::npos) {
       parser_.separate_by(without_spaces(text)[found]);
       decimal_commas_ = without_spaces(text)[found] == ';';

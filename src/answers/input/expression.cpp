@@ -242,7 +242,7 @@ bool Expression::is_constant() const { return node_->variables == 0; }
 
 std::weak_ordering operator<=>(const Expression& a, const Expression& b) {
   if (a.node_ == b.node_) return std::weak_ordering::equivalent;
-  if (const auto kinds = a.kind() <=> b.kind(); kinds != 0) return kinds;
+  if (const auto kinds = a.kind() <=> b.kind(); std::is_neq(kinds)) return kinds;
   if (a.is(Expression::Kind::number)) {
     if (a.number() == b.number()) return std::weak_ordering::equivalent;
     const double x = a.number().value(), y = b.number().value();
@@ -250,10 +250,10 @@ std::weak_ordering operator<=>(const Expression& a, const Expression& b) {
       return x < y ? std::weak_ordering::less : std::weak_ordering::greater;
     return std::pair(a.number().above(), a.number().below()) <=> std::pair(b.number().above(), b.number().below());
   }
-  if (const auto indices = a.index() <=> b.index(); indices != 0) return indices;
-  if (const auto counts = a.parts().size() <=> b.parts().size(); counts != 0) return counts;
+  if (const auto indices = a.index() <=> b.index(); std::is_neq(indices)) return indices;
+  if (const auto counts = a.parts().size() <=> b.parts().size(); std::is_neq(counts)) return counts;
   for (std::size_t i = 0; i < a.parts().size(); ++i) {
-    if (const auto parts = a.parts()[i] <=> b.parts()[i]; parts != 0) return parts;
+    if (const auto parts = a.parts()[i] <=> b.parts()[i]; std::is_neq(parts)) return parts;
   }
   return std::weak_ordering::equivalent;
 }
@@ -278,7 +278,7 @@ std::span<const Expression> terms_of(const Expression& e) {
   return e.is(Expression::Kind::sum) ? e.parts() : std::span(&e, 1);
 }
 
-Expression Expression::sum(std::vector<Expression> terms) {
+Expression Expression::sum(const std::vector<Expression>& terms) {
   using namespace expression_parts;
   std::map<Expression, Number> all;
   for (const Expression& each : terms) {
@@ -628,7 +628,7 @@ Fraction fraction_of(const Expression& e) {
   for (const auto& [base, exponent] : common) factors.push_back(power(base, exponent));
   const Expression below = Expression::product(factors);
   for (const auto& [above, under] : all) terms.push_back((above * (below / under)).expanded());
-  return {Expression::sum(std::move(terms)), below};
+  return {Expression::sum(terms), below};
 }
 
 std::optional<std::vector<Expression>> coefficients(const Expression& e, std::size_t variable, std::size_t degree) {
@@ -654,7 +654,7 @@ std::optional<std::vector<Expression>> coefficients(const Expression& e, std::si
     all[place].push_back(Expression::product(others));
   }
   std::vector<Expression> sums;
-  for (auto& terms : all) sums.push_back(Expression::sum(std::move(terms)));
+  for (const auto& terms : all) sums.push_back(Expression::sum(terms));
   return sums;
 }
 

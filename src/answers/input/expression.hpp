@@ -62,8 +62,8 @@ class Expression {
   static Expression variable(std::size_t index);
   /// @param name  a function of one argument that has a derivative, such as sin; also abs, sign, sqrt, log2 and log10
   /// @throws std::domain_error  for another name
-  static Expression function(std::string_view name, const Expression& argument);
-  static Expression sum(std::vector<Expression> terms);
+  static Expression function(std::string_view name, const Expression& x);
+  static Expression sum(const std::vector<Expression>& terms);
   static Expression product(const std::vector<Expression>& factors);
 
   Kind kind() const;

@@ -968,7 +968,7 @@ std::size_t read_name_of_equation(const FormulaShape& shape, std::string_view te
   for (const std::string_view sign :
        {std::string_view("("), std::string_view(shape.independent), std::string_view(")")}) {
     at = text.find_first_not_of(" \t", at);
-    if (at == text.npos || !text.substr(at).starts_with(sign)) return end - begin;
+    if (at == std::string_view::npos || !text.substr(at).starts_with(sign)) return end - begin;
     at += sign.size();
   }
   return at - begin;

@@ -70,7 +70,7 @@ class HalfOrbit {
     } catch (const std::domain_error& stopped) {
       const std::string words = stopped.what();
       constexpr std::string_view before = ", where ";
-      if (const auto at = words.rfind(before); at != words.npos) return words.substr(at + before.size());
+      if (const auto at = words.rfind(before); at != std::string::npos) return words.substr(at + before.size());
     }
     return "neither a quadrature nor steps in time follow it farther";
   }

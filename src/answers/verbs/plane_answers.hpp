@@ -27,10 +27,10 @@ Answer reduce_answer(const GivenStart& given);
 /// factor, nor a formula of H was found, or if steps in time contradict the solution.
 /// @param field    field of the system, perhaps with a basis
 /// @param text     formulas of the field, for the answer
-/// @param start    if empty, the answer explains the equation alone
+/// @param given    the start; if empty, the answer explains the equation alone
 /// @param details  true: the text also shows the numbers of the search
 Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& field, const std::string& text,
-                     const std::optional<Eigen::Vector2d>& start, bool details);
+                     const std::optional<Eigen::Vector2d>& given, bool details);
 
 /// Returns every name that the member `end` of an answer can contain. For an orbit whose end has no name, it is null.
 std::vector<std::string_view> named_ends();
@@ -63,7 +63,7 @@ struct StartedSystem {
 /// else by steps in time.
 /// @throws BadInput  for an instant beyond the end of the orbit, with the place of the end; if the orbit has no end and
 ///                   no instants are given
-Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& instants);
+Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& asked);
 
 /// Adds the state at one instant to the text and to the member `until` of an answer. Throws as orbit_system_answer.
 void add_state_at(Answer& answer, const StartedSystem& system, double until);
