@@ -97,7 +97,9 @@ class Expression {
   std::string text(std::span<const std::string> names, int digits = 0) const;
 
   friend std::weak_ordering operator<=>(const Expression& a, const Expression& b);
-  friend bool operator==(const Expression& a, const Expression& b) { return std::is_eq(a <=> b); }
+  friend bool operator==(const Expression& a, const Expression& b) {
+    return (a <=> b) == std::weak_ordering::equivalent;
+  }
 
   friend Expression operator+(const Expression& a, const Expression& b) { return sum({a, b}); }
   friend Expression operator-(const Expression& a) { return product({-1, a}); }
