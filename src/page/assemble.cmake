@@ -20,6 +20,14 @@ endforeach()
 file(READ ${ROOT}/LICENSE licence)
 file(READ ${ROOT}/.github/THIRD_PARTY.txt others)
 string(REGEX REPLACE "=+\nBSD-3-Clause\n=.*" "" others "${others}")
+# Leave out the libraries that are not inside the page, the explanation of the list, and the text of MIT, which is that of LICENSE.
+string(REGEX REPLACE "[^\n]+\n  Source:[^\n]*\n  Licence:[^\n]*\n  Inside:    (program|program, python|python|Windows|site)\n(  [^\n]+\n)+\n" ""
+  others "${others}")
+string(REGEX REPLACE "\n  Inside:[^\n]*" "" others "${others}")
+string(REGEX REPLACE "^.*mozilla.org/MPL/2.0.\n" "This page contains parts of the libraries in this list, compiled. The text of MIT stands above the list, those of the other licences below,
+those of Apache-2.0 and MPL-2.0 at apache.org/licenses/LICENSE-2.0 and at mozilla.org/MPL/2.0.\n" others "${others}")
+string(REGEX REPLACE "\n +" "\n" others "${others}")
+string(REGEX REPLACE "=+\nMIT\n=+\n[^=]*" "" others "${others}")
 string(REPLACE "</html>\n" "<!--\n${licence}\n${others}-->\n</html>\n" html "${html}")
 file(WRITE ${PAGE} "${html}")
 
