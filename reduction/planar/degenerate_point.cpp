@@ -381,13 +381,24 @@ struct Local {
   std::optional<Multiple> zero() const { return curve ? multiple_zero(taylor, *curve) : multiple_zero(taylor); }
 };
 
-/// Returns the polynomial in the largest disc, at most of the given radius, in which it is accurate.
+/// Returns the Taylor polynomial in the largest disc in which it is accurate.
+/// @param radius  the largest radius that is tried; afterwards the radius of the disc
+std::optional<Taylor> accurate_taylor(const PlanarField& field, const Vector2d& x, const Vector2d& radii,
+                                      double& radius) {
+  constexpr double accurate = 1e-12, smallest = 1e-3;
+  for (; radius > smallest; radius /= 2) {
+    const auto t = taylor(field, x, radius * radii);
+    if (t && !(t->misfit > accurate * t->size)) return t;
+  }
+  return std::nullopt;
+}
+
+/// Returns an accurate polynomial whose curve, if there is one, is not steep.
+/// @param radius  the largest radius of the disc
 std::optional<Local> local_polynomial(const PlanarField& field, const Vector2d& x, const Vector2d& radii,
                                       double radius) {
-  constexpr double accurate = 1e-12, zero = 1e-5, steepest = 2, smallest = 1e-3;
-  for (; radius > smallest; radius /= 2) {
-    auto t = taylor(field, x, radius * radii);
-    if (!t || t->misfit > accurate * t->size) continue;
+  constexpr double zero = 1e-5, steepest = 2;
+  for (; const auto t = accurate_taylor(field, x, radii, radius); radius /= 2) {
     if (linear_part(*t).norm() <= zero * t->size) return Local{*t, {}, radius};
     AlongCurve curve = along_curve(*t);
     if (curve.wide <= steepest) return Local{*t, std::move(curve), radius};
@@ -433,35 +444,32 @@ DegeneratePoint classified(const Local& local, const Vector2d& x, const Multiple
 
 int lyapunov_sign(const PlanarField& field, const Vector2d& x, const Vector2d& radii) {
   using Eigen::Vector2cd;
-  constexpr double accurate = 1e-12, largest = 0.2, smallest = 1e-3;
-  for (double radius = largest; radius > smallest; radius /= 2) {
-    const auto t = taylor(field, x, radius * radii);
-    if (!t || t->misfit > accurate * t->size) continue;
-    const Matrix2d slopes = linear_part(*t);
-    const double omega = std::sqrt(slopes.determinant());
-    const std::complex<double> i(0, 1);
-    const Vector2cd q(slopes(0, 1), i * omega - slopes(0, 0));
-    Vector2cd p(slopes(1, 0), -i * omega - slopes(0, 0));
-    p /= std::conj(p.dot(q));
-    // Q and C are the quadratic and cubic terms, as symmetric forms: Q(a, a)/2 and C(a, a, a)/6 are the terms at a.
-    const auto along = [&](const auto& form) { return p.dot(Vector2cd(form(t->g[0]), form(t->g[1]))); };
-    const auto quadratic = [&](const Vector2cd& a, const Vector2cd& b) {
-      return along([&](const TaylorPolynomial& g) {
-        return 2. * g(2, 0) * a[0] * b[0] + g(1, 1) * (a[0] * b[1] + a[1] * b[0]) + 2. * g(0, 2) * a[1] * b[1];
-      });
-    };
-    const Vector2cd r = q.conjugate();
-    const auto cubic = along([&](const TaylorPolynomial& g) {
-      return 6. * g(3, 0) * q[0] * q[0] * r[0] + 2. * g(2, 1) * q[0] * (q[0] * r[1] + 2. * q[1] * r[0]) +
-             2. * g(1, 2) * q[1] * (q[1] * r[0] + 2. * q[0] * r[1]) + 6. * g(0, 3) * q[1] * q[1] * r[1];
+  double radius = 0.2;
+  const auto t = accurate_taylor(field, x, radii, radius);
+  if (!t) return 0;
+  const Matrix2d slopes = linear_part(*t);
+  const double omega = std::sqrt(slopes.determinant());
+  const std::complex<double> i(0, 1);
+  const Vector2cd q(slopes(0, 1), i * omega - slopes(0, 0));
+  Vector2cd p(slopes(1, 0), -i * omega - slopes(0, 0));
+  p /= std::conj(p.dot(q));
+  // Q and C are the quadratic and cubic terms, as symmetric forms: Q(a, a)/2 and C(a, a, a)/6 are the terms at a.
+  const auto along = [&](const auto& form) { return p.dot(Vector2cd(form(t->g[0]), form(t->g[1]))); };
+  const auto quadratic = [&](const Vector2cd& a, const Vector2cd& b) {
+    return along([&](const TaylorPolynomial& g) {
+      return 2. * g(2, 0) * a[0] * b[0] + g(1, 1) * (a[0] * b[1] + a[1] * b[0]) + 2. * g(0, 2) * a[1] * b[1];
     });
-    const double coefficient = (i * quadratic(q, q) * quadratic(q, r) + omega * cubic).real();
-    // Each form has at most 4 quadratic or 12 cubic terms.
-    const double a = p.norm() * q.squaredNorm(), wide = std::max(t->g[0].largest(2), t->g[1].largest(2));
-    const double error = 32 * a * a * wide * t->error(2) + 12 * omega * a * q.norm() * t->error(3);
-    return std::abs(coefficient) > significant * error ? (coefficient < 0 ? -1 : 1) : 0;
-  }
-  return 0;
+  };
+  const Vector2cd r = q.conjugate();
+  const auto cubic = along([&](const TaylorPolynomial& g) {
+    return 6. * g(3, 0) * q[0] * q[0] * r[0] + 2. * g(2, 1) * q[0] * (q[0] * r[1] + 2. * q[1] * r[0]) +
+           2. * g(1, 2) * q[1] * (q[1] * r[0] + 2. * q[0] * r[1]) + 6. * g(0, 3) * q[1] * q[1] * r[1];
+  });
+  const double coefficient = (i * quadratic(q, q) * quadratic(q, r) + omega * cubic).real();
+  // Each form has at most 4 quadratic or 12 cubic terms.
+  const double a = p.norm() * q.squaredNorm(), wide = std::max(t->g[0].largest(2), t->g[1].largest(2));
+  const double error = 32 * a * a * wide * t->error(2) + 12 * omega * a * q.norm() * t->error(3);
+  return std::abs(coefficient) > significant * error ? (coefficient < 0 ? -1 : 1) : 0;
 }
 
 std::optional<Vector2d> few_decimals(const PlanarField& field, const Vector2d& x, const Vector2d& radii, double known) {
