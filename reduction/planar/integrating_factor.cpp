@@ -379,6 +379,10 @@ Vector2d sampled_about(const SmoothField& field, const Vector2d& start) {
   return size >= smallest ? start : Vector2d::Constant(size > 0 ? smallest : 1);
 }
 
+Vector2d valued_near(const SmoothField& field, const Vector2d& point) {
+  return value_of(field.value, point) ? point : Vector2d(0.83 * point[0], 1.27 * point[1]);
+}
+
 std::shared_ptr<PlanarReduction::Solution> solved_by_factor(const SmoothField& field, const Vector2d& start) {
   const auto value = value_of(field.value, start);
   if (!start.allFinite() || !value) {

@@ -413,7 +413,7 @@ val typed_portrait(const std::string& typed, const val& points, bool screen) {
     name.clear();
     request = {};
     field = answers::parse_planar_system(typed, {});
-    plane = reduction::reduce(*field, Eigen::Vector2d(1, 1));
+    plane = reduction::reduce(*field, reduction::valued_near(*field, {1, 1}));
     request.window = planar_portrait(*plane, typed, request).window;
     name = typed;
   }

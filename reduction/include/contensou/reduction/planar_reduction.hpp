@@ -263,6 +263,9 @@ class PlanarOrbit {
 /// f(0) by half of f(0).
 Eigen::Vector2d sampled_about(const SmoothField& field, const Eigen::Vector2d& start);
 
+/// Returns a point, or one near it if the field has no value there, as the fields of textbooks at some round points.
+Eigen::Vector2d valued_near(const SmoothField& field, const Eigen::Vector2d& point);
+
 /// Solves x' = f(x) by a scaling, else by an inverse integrating factor (by_factor), else by steps (by_steps).
 /// @param found  symmetries of the field, found about sampled_about(field, start)
 /// @throws std::domain_error  unless the start is finite and the field has a value there; as find_symmetries
