@@ -665,13 +665,18 @@ Vector2d middle_of(const PlanarReduction& plane) {
   return plane.scaling() ? plane.centre() : Vector2d(Vector2d::Zero());
 }
 
+/// Returns a point ahead of the end of a line.
+/// @param distance  in sides of the window
+Vector2d ahead_of(const Window& window, const Vector2d& end, const Vector2d& before, double distance) {
+  const Vector2d sides = window.sides();
+  return end + distance * (end - before).cwiseQuotient(sides).stableNormalized().cwiseProduct(sides);
+}
+
 /// Returns a point just beyond the end of an orbit at which the motion would turn back, because the field has a pole
 /// there, as y' = -x/y at y = 0. The orbit beyond continues the solution curve.
 std::optional<Vector2d> beyond_pole(const PlanarReduction& plane, const Window& window, Point end, Point before) {
   constexpr double near = 0.004, opposite = -0.9;  // at a jump rates are opposite, too, but do not grow
-  const Vector2d sides = window.sides();
-  const Vector2d ahead = (vector_of(end) - vector_of(before)).cwiseQuotient(sides).stableNormalized();
-  const auto at = [&](double distance) -> Vector2d { return vector_of(end) + distance * ahead.cwiseProduct(sides); };
+  const auto at = [&](double distance) { return ahead_of(window, vector_of(end), vector_of(before), distance); };
   const Vector2d beyond = at(near);
   const auto here = rate_of(plane.field(), at(-near)), there = rate_of(plane.field(), beyond);
   const auto farther = rate_of(plane.field(), at(4 * near));
@@ -856,9 +861,10 @@ std::vector<PortraitOrbit> curves_of_equilibria(const reduction::SmoothField& fi
 }
 
 /// Returns the requested window or the default window, and checks the request.
-PlanarView view_of(const PlanarReduction& plane, const PortraitRequest& request) {
-  if (request.view || request.comparison || request.uncoupled || request.stepped || request.linear ||
-      request.drawn_only || request.time_unit != 1) {
+/// @param shown  the view that may be requested, if any
+PlanarView view_of(const PlanarReduction& plane, const PortraitRequest& request, std::optional<View> shown = {}) {
+  if ((request.view && request.view != shown) || request.comparison || request.uncoupled || request.stepped ||
+      request.linear || request.drawn_only || request.time_unit != 1) {
     throw std::domain_error("portrait: views, laws, routes, scales and units of time are only for (2.6)");
   }
   PlanarView view{request.window.value_or(Window{})};
@@ -908,8 +914,7 @@ std::vector<Polyline> invariant_lines(const PlanarReduction& plane, const Window
   };
   // The other end of a closed curve is at its end.
   const auto ends_well = [&](const Vector2d& end, const Vector2d& before) {
-    const Vector2d ahead = (end - before).cwiseQuotient(window.sides()).stableNormalized();
-    const Vector2d beyond = end + near * ahead.cwiseProduct(window.sides());
+    const Vector2d beyond = ahead_of(window, end, before, near);
     if (!window.contains({beyond[0], beyond[1]})) return true;
     for (const reduction::Equilibrium& each : equilibria.points) {
       if (at_one_place(end, each.x)) return true;
@@ -1017,7 +1022,7 @@ PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::s
 }  // namespace
 
 PlanarPortrait portrait_on_disc(const PlanarReduction& plane, std::string name, const PortraitRequest& request) {
-  const PlanarView flat = view_of(plane, request);
+  const PlanarView flat = view_of(plane, request, View::disc);
   // The radius is a round number, and what the usual window shows lies well inside the circle.
   const Window& window = flat.window;
   constexpr double part = 1.5;

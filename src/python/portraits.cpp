@@ -160,11 +160,10 @@ Portrait portrait_of_plane(const Planar& planar, const std::string& system, cons
   const auto title = argument<std::optional<std::string>>(asked, "title");
   const PortraitStyle looks = style_of(asked, {{"none", Field::none}, {"motion", Field::motion}});
   return interruptible([&]() -> Portrait {
-    portraits::PortraitRequest request = request_of(asked);
-    const bool disc = request.view == portraits::View::disc;
-    if (disc) request.view.reset();
-    portraits::PlanarPortrait data =
-        (disc ? portraits::portrait_on_disc : portraits::planar_portrait)(planar.plane, system, request);
+    const portraits::PortraitRequest request = request_of(asked);
+    const auto compute =
+        request.view == portraits::View::disc ? portraits::portrait_on_disc : portraits::planar_portrait;
+    portraits::PlanarPortrait data = compute(planar.plane, system, request);
     data.variables = planar.variables;
     data.parameters = planar.parameters;
     Figure figure = finished(portraits::draw(data, looks), title, looks.size);

@@ -155,7 +155,7 @@ TEST_CASE("a solution curve goes on beyond a pole of the field, where its tangen
   REQUIRE(ends.size() >= 12);
   for (const Vector2d& end : ends) {
     CAPTURE(end.transpose());
-    // Where orbits are dense, the curve beyond may be that of an orbit so near that the eye sees one curve.
+    // The curve beyond may belong to another orbit, if it begins so near that the eye sees one curve.
     CHECK(std::ranges::count_if(
               ends, [&](const Vector2d& other) { return (other - end).norm() < 0.015 && &other != &end; }) >= 1);
   }

@@ -214,33 +214,32 @@ class PortraitCommand final : public Verb {
     if (style_.field == Style::Field::regularised) {
       throw BadInput("--field regularised shows (2.7); with --system give motion or none");
     }
-    if (request_.view == View::uv) request_.view = {};  // the plane itself
-    if (request_.view && request_.view != View::disc) {
+    if (request_.view == View::uv) request_.view.reset();  // the plane itself
+    const bool on_disc = request_.view == View::disc;
+    if (request_.view && !on_disc) {
       throw BadInput(
           "--view {}: only (2.6) has this view. With --system the plane of u and v is drawn, or give --view disc",
           name(*request_.view));
     }
     reduction::SmoothField field = typed.field;
-    if (request_.view) field.polynomials = typed.formulas.polynomials();
-    if (request_.view && field.polynomials.empty()) {
+    if (on_disc) field.polynomials = typed.formulas.polynomials();
+    if (on_disc && field.polynomials.empty()) {
       throw BadInput(
-          "--view disc: the right sides are no polynomials of degree 24 or less, so that nothing is known at infinity. Leave --view out, "
-          "and choose a large --window");
+          "--view disc: the right sides are no polynomials of degree 24 or less, so that nothing is known at infinity. "
+          "Leave --view out, and choose a large --window");
     }
-    // Sample the field about a point of the window, or, without a window, at the distance of the start from 0. Fields
-    // of textbooks have no value at some round points.
+    // Sample the field about a point of the window, or, without a window, at the distance of the start from 0.
     Vector2d around = request_.window
                           ? Vector2d(request_.window->low.cwiseAbs().cwiseMax(request_.window->high.cwiseAbs()))
                           : request_.sides.value_or(Vector2d(1, 1));
-    if (!field(around).allFinite()) around = around.cwiseProduct(Vector2d(0.83, 1.27));
+    around = reduction::valued_near(field, around);
     if (const auto start = system_.read_start(typed, start_)) {
       request_.highlight = {(*start)[0], (*start)[1]};
       if (!start->isZero(0)) around = *start;
     }
     request_.nullclines = nullclines_;
     const Output output = read_output();
-    const auto compute = request_.view ? portraits::portrait_on_disc : portraits::planar_portrait;
-    request_.view.reset();
+    const auto compute = on_disc ? portraits::portrait_on_disc : portraits::planar_portrait;
     portraits::PlanarPortrait portrait = compute(reduction::reduce(field, around), system_.text(), request_);
     portrait.variables = typed.variables();
     portrait.parameters = law_.parameters();

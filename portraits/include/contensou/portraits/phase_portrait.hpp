@@ -131,7 +131,7 @@ struct PhasePortrait : Portrait {
 
 /// The requested contents of a portrait. The default window follows from mu, and the default view is uv.
 struct PortraitRequest {
-  std::optional<View> view = {};  ///< only for (2.6)
+  std::optional<View> view = {};  ///< for another system than (2.6) only disc, in portrait_on_disc
   /// A rectangle of the plane. For (2.6) v >= 0, and the view must show the window. The orbits are those of the
   /// smallest half-plane window that contains the rectangle, as far as they enter the rectangle.
   std::optional<Window> window = {};
