@@ -230,7 +230,10 @@ class Reduction:
         return self._core.stop_time(*together(u=u, v=v))[()]
 
     def orbit(self, u: float, v: float) -> PlanarOrbit:
-        """Returns the motion from one start. Without a solution it is followed by steps in time, of an error of 1e-12."""
+        """Returns the motion from one start.
+
+        Without a solution the motion is followed by steps in time, each with a relative error of 1e-12.
+        """
         return PlanarOrbit(self, number("u", u), number("v", v))
 
     def portrait(
