@@ -330,7 +330,7 @@ Expression Expression::product(const std::vector<Expression>& factors) {
             const auto [by, rest] = term_of(term);
             terms.push_back(product({by / common, rest}));
           }
-          base = sum(std::move(terms));
+          base = sum(terms);
         }
       }
       const auto [at, is_new] = powers.try_emplace(base, exponent);
@@ -514,7 +514,7 @@ Expression Expression::derivative(std::size_t variable) const {
     case Kind::sum: {
       std::vector<Expression> terms;
       for (std::size_t i = 0; i < parts().size(); ++i) terms.push_back(slope(i));
-      return sum(std::move(terms));
+      return sum(terms);
     }
     default: {
       std::vector<Expression> terms;
@@ -524,7 +524,7 @@ Expression Expression::derivative(std::size_t variable) const {
         factors[i] = slope(i);
         terms.push_back(product(factors));
       }
-      return sum(std::move(terms));
+      return sum(terms);
     }
   }
 }
@@ -540,7 +540,7 @@ Expression Expression::replaced(const std::function<std::optional<Expression>(co
     case Kind::power:
       return power(others[0], others[1]);
     case Kind::sum:
-      return sum(std::move(others));
+      return sum(others);
     default:
       return product(others);
   }
@@ -562,7 +562,7 @@ Expression Expression::expanded() const {
     for (const Expression& left : terms_of(a)) {
       for (const Expression& right : terms_of(b)) terms.push_back(left * right);
     }
-    return sum(std::move(terms));
+    return sum(terms);
   };
   return replaced([&](const Expression& part) -> std::optional<Expression> {
     if (part.is(Kind::product)) {

@@ -22,20 +22,20 @@ double effective_modulus(const HertzModuli& moduli) {
   return 1 / (compliance(0) + compliance(1));
 }
 
-double hertz_patch_radius(double load, double radius, const HertzModuli& moduli) {
-  const double bend = 1 + radius / moduli.counter_radius;  // R/R'
+double hertz_patch_radius(double normal_force, double ball_radius, const HertzModuli& moduli) {
+  const double bend = 1 + ball_radius / moduli.counter_radius;  // R/R'
   if (!(bend > 0)) {
     throw std::domain_error(fmt::format(
         "counter_radius {} m is a dish no wider than the ball of radius {} m, which then touches it in no one "
         "patch: below {} it is wider",
-        moduli.counter_radius, radius, -radius));
+        moduli.counter_radius, ball_radius, -ball_radius));
   }
-  return std::cbrt(0.75 * load * (radius / bend) / effective_modulus(moduli));
+  return std::cbrt(0.75 * normal_force * (ball_radius / bend) / effective_modulus(moduli));
 }
 
-double patch_radius_of_deceleration(double radius, double deceleration, double friction, double gravity,
-                                    double pivoting_moment, double gamma) {
-  return radius * radius * deceleration / (gamma * friction * gravity * pivoting_moment);
+double patch_radius_of_deceleration(double ball_radius, double deceleration, double dry_friction,
+                                    double acceleration_of_gravity, double pivoting_moment, double gamma) {
+  return ball_radius * ball_radius * deceleration / (gamma * dry_friction * acceleration_of_gravity * pivoting_moment);
 }
 
 Body Body::with_factor(double of_m_R2) const {
@@ -277,11 +277,11 @@ Velocities struck(const Ball& ball, const CueStrike& strike) {
                                         offset, largest_tip_offset));
   }
   const double gamma = ball.body.inertia.gamma;
-  const double velocity =
+  const double ball_speed =
       2 * speed / (1 + mass_for("a cue's stroke", ball) / cue_mass + gamma * offset * offset);  // P/m of struck
-  const double spin = gamma * velocity / ball.radius;
+  const double turning = gamma * ball_speed / ball.radius;
   const double angle = elevation * (std::numbers::pi / 180), sine = std::sin(angle), cosine = std::cos(angle);
-  return {{velocity * cosine, 0}, {spin * right * sine, spin * above, spin * right * cosine}};
+  return {{ball_speed * cosine, 0}, {turning * right * sine, turning * above, turning * right * cosine}};
 }
 
 }  // namespace contensou::si
