@@ -47,8 +47,8 @@ std::vector<Expression> Steps::jumps() const {
   const auto look = [&](const Expression& part) -> std::optional<Expression> {
     if (is_function(part, "atan")) {
       const Expression below = fraction_of(part.parts()[0]).below;
-      for (const Expression& factor : factors_of(below)) {
-        const auto [base, exponent] = base_and_exponent(factor);
+      for (const Expression& each : factors_of(below)) {
+        const auto [base, exponent] = base_and_exponent(each);
         if (exponent.is(Expression::Kind::number) && exponent.number().is_whole()) add(base);
       }
       part.parts()[0].replaced([&](const Expression& inner) -> std::optional<Expression> {
