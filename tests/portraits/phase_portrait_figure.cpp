@@ -1000,10 +1000,10 @@ TEST_CASE("against beta a spin that vanishes leaves the picture, and its axis st
   for (const double drive : {0.5, 0.99, 0.999, 0.99999}) {
     const reduction::Flow flow({reduction::HertzLaw{}, 1, reduction::homogeneous_ball, drive});
     CAPTURE(drive);
-    for (const Panel& panel : draw(phase_portrait(flow, {.view = View::regularised})).panels) {
+    for (const Panel& panel : draw(portraits::phase_portrait(flow, {.view = View::regularised})).panels) {
       CHECK((!panel.y.logarithmic || panel.y.low > 0));
       for (const Lines& layer : panel.lines) {
-        for (const Polyline& line : layer.lines) {
+        for (const portraits::Polyline& line : layer.lines) {
           CHECK(std::ranges::all_of(line, [&](Point at) {
             return std::isfinite(at.x) && std::isfinite(at.y) && (!panel.y.logarithmic || at.y > 0);
           }));

@@ -114,7 +114,6 @@ TEST_CASE("derivatives by the speeds have all digits beside kinks, with a drive,
   const auto between = [&](double low, double high) {
     return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random));
   };
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   for (const char* name : {"annulus:0.5", "soft:1", "uniform"}) {
     const Law law = *find_law(name);
     for (int i = 0; i < (CONTENSOU_FULL_TESTS ? 30 : 6); ++i) {
