@@ -235,7 +235,8 @@ RealFilm real_film(const Table& table, std::mt19937_64& random) {
     double v = film.slip, omega = film.spin, way = 0, angle = 0;
     const auto rates = [&](double slip, double spin) {
       const auto [force, moment] = law(reduction::slip_of_ratio(slip / (eps * std::max(spin, 1e-9))));
-      const double f = film.friction * (1 + factor * (waves(std::min(1.0, way / length)) - mean));
+      // A friction below 0 would never stop the puck.
+      const double f = film.friction * std::max(0.05, 1 + factor * (waves(std::min(1.0, way / length)) - mean));
       return std::pair(-f * g * force, -2 * f * g * eps / (radius * radius) * moment);
     };
     while (v > 1e-3 || eps * omega > 1e-3) {
