@@ -415,6 +415,7 @@ struct ScalingMotion final : PlanarOrbit::Motion {
   Vector2d at(double time) const override;
   Vector2d at_end() const override {
     if (end == PlanarEnd::centre) return solution->centre;
+    if (!place.strip) return solution->section.point(n, p);  // a point of a ray at rest
     const Strip& strip = *place.strip;
     return solution->section.point(strip.to().n(), p + (strip.ln_rho(-infinity) - strip.ln_rho(place.xi)));
   }

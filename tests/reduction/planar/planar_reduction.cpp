@@ -306,6 +306,26 @@ TEST_CASE("a first integral is one number along an orbit, and moves with the sca
   CHECK_THROWS_AS(plane.first_integral({0, 0}), std::domain_error);
 }
 
+TEST_CASE("a start on a line of equilibria rests, and motions beside it tend to the line", "[planar][exact]") {
+  std::mt19937_64 random(3);
+  const auto among = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 20; ++i) {
+    // x' = -rate (n . x) w vanishes where n . x = 0; n . x falls like exp(-rate (n . w) t).
+    const double angle = among(0, 2 * pi), rate = among(0.2, 3);
+    const Vector2d n(std::cos(angle), std::sin(angle)), along(-n[1], n[0]), w = n + among(-1, 1) * along;
+    const PlanarField field = [=](const Vector2d& x) -> Vector2d { return -rate * n.dot(x) * w; };
+    const Vector2d at_rest = among(0.3, 2) * along, start = at_rest + among(0.2, 2) * n;
+    CAPTURE(angle, rate);
+    const PlanarReduction plane = reduce(field, start);
+    REQUIRE(plane.scaling());
+    const PlanarOrbit rests = plane.orbit(at_rest), moves = plane.orbit(start);
+    CHECK(rests.end() == PlanarEnd::rest);
+    CHECK((rests.limit() - at_rest).norm() < 1e-12);
+    CHECK((rests.at(3) - at_rest).norm() < 1e-12);
+    CHECK((moves.limit() - (start - n.dot(start) * w)).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("a field with values in a part of the plane", "[planar][domain]") {
   // For v > u the field has u' = -1. Orbits leave this region through v = u, or end where the field has no value.
   const PlanarReduction plane =
