@@ -121,10 +121,16 @@ struct Turn {
 class ReturnMap {
  public:
   /// @param half  unit of lengths along both coordinates
-  ReturnMap(const SmoothField& field, const Vector2d& centre, const Vector2d& half, double tolerance)
-      : forth_(by_steps(field, tolerance)), back_(by_steps(backward(field), tolerance)), centre_(centre), half_(half) {}
+  /// @param way   direction of the ray, in this unit
+  ReturnMap(const SmoothField& field, const Vector2d& centre, const Vector2d& half, const Vector2d& way,
+            double tolerance)
+      : forth_(by_steps(field, tolerance)),
+        back_(by_steps(backward(field), tolerance)),
+        centre_(centre),
+        half_(half),
+        way_(way) {}
 
-  Vector2d point(double place) const { return centre_ + place * half_.cwiseProduct(way()); }
+  Vector2d point(double place) const { return centre_ + place * half_.cwiseProduct(way_); }
 
   /// Returns the turn that begins at a place on the ray; empty if the orbit does not turn.
   std::optional<Turn> turn(double place, bool back) const;
@@ -136,17 +142,15 @@ class ReturnMap {
     return back ? -grown : grown;
   }
   /// Returns ln P(s)/s of the motion that turns; NaN if neither does.
-  double growth(double place) const {
-    const double grown = growth(place, false);
-    return std::isfinite(grown) ? grown : growth(place, true);
+  /// @param back  the direction of time that is tried first
+  double growth_either_way(double place, bool back = false) const {
+    const double grown = growth(place, back);
+    return std::isfinite(grown) ? grown : growth(place, !back);
   }
 
  private:
-  /// A direction that is no axis, because axes often are orbits.
-  static Vector2d way() { return {0.98, 0.2}; }
-
   PlanarReduction forth_, back_;
-  Vector2d centre_, half_;
+  Vector2d centre_, half_, way_;
 };
 
 std::optional<Turn> ReturnMap::turn(double place, bool back) const {
@@ -161,9 +165,9 @@ std::optional<Turn> ReturnMap::turn(double place, bool back) const {
     Winding winding(turn.orbit, start, centre_, half_, widest, first * unit, still * unit);
     for (int i = 0; i < most && winding.advance(); ++i) {
       if (std::abs(winding.angle()) >= 2 * pi) {
-        const auto across = [&](double t) { return cross(way(), winding.scaled(turn.orbit.at(t))); };
+        const auto across = [&](double t) { return cross(way_, winding.scaled(turn.orbit.at(t))); };
         turn.times.push_back(root_between(across, winding.before(), winding.time()));
-        turn.place = winding.scaled(turn.orbit.at(turn.times.back())).norm() / way().norm();
+        turn.place = winding.scaled(turn.orbit.at(turn.times.back())).norm() / way_.norm();
         return turn;
       }
       const double distance = winding.here().norm();
@@ -232,7 +236,8 @@ class CycleSearch {
   CycleSearch(const SmoothField& field, const Vector2d& half)
       : left_(std::make_shared<int>(0)), field_(limited(field, left_)), half_(half) {}
 
-  void about(const Vector2d& centre, double reach);
+  /// @param way  direction of the ray on which cycles are sought
+  void about(const Vector2d& centre, const Vector2d& way, double reach);
   std::vector<LimitCycle> take() { return std::move(found_); }
 
  private:
@@ -240,7 +245,7 @@ class CycleSearch {
     double place, growth;  ///< ln P(s)/s; NaN if the orbit does not turn
   };
 
-  void examine(const Vector2d& centre, const Sample& inside, const Sample& outside);
+  void examine(const Vector2d& centre, const Vector2d& way, const Sample& inside, const Sample& outside);
 
   std::shared_ptr<int> left_;  ///< values of the field that the search may still take
   SmoothField field_;
@@ -249,23 +254,27 @@ class CycleSearch {
 };
 
 /// Finds the fixed point between two places with growths of different signs.
-void CycleSearch::examine(const Vector2d& centre, const Sample& inside, const Sample& outside) {
+void CycleSearch::examine(const Vector2d& centre, const Vector2d& way, const Sample& inside, const Sample& outside) {
   constexpr double accurate = 1e-12, closed = 1e-9, beside = 0.01, differ = 1e-6, still = 1e-9, same = 1e-6;
   constexpr int most_values = 2'000'000;
   const bool stable = inside.growth > 0;
   *left_ = most_values;
-  const ReturnMap coarse(field_, centre, half_, rough), fine(field_, centre, half_, accurate);
-  // The motion that nears the cycle also turns if it starts between the two places.
-  const auto root = [&](const ReturnMap& map, double low, double high) {
-    return root_between([&](double place) { return map.growth(place, !stable); }, low, high);
+  const ReturnMap coarse(field_, centre, half_, way, rough), fine(field_, centre, half_, way, accurate);
+  // The motion that nears the cycle gives the place best. Beside a loop of a saddle it may turn elsewhere, so that its
+  // growth jumps; the samples are those of the motion forwards.
+  const auto root = [&](const ReturnMap& map, double low, double high, bool back) {
+    return root_between([&](double place) { return map.growth_either_way(place, back); }, low, high);
   };
+  const bool agrees = coarse.growth(inside.place, !stable) * inside.growth > 0 &&
+                      coarse.growth(outside.place, !stable) * outside.growth > 0;
   constexpr double around = 1e-4;
-  double place = root(coarse, inside.place, outside.place);
-  place = root(fine, place * (1 - around), std::min(place * (1 + around), outside.place));
+  double place = root(coarse, inside.place, outside.place, !stable && agrees);
+  place = root(fine, place * (1 - around), std::min(place * (1 + around), outside.place), !stable);
   const auto turn = fine.turn(place, !stable);
   if (!turn || !(std::abs(std::log(turn->place / place)) <= closed)) return;
   // The growth changes its sign here and not only somewhere between the two places.
-  const double below = fine.growth(place * (1 - beside), !stable), above = fine.growth(place * (1 + beside), !stable);
+  const double below = fine.growth_either_way(std::max(place * (1 - beside), (inside.place + place) / 2), !stable);
+  const double above = fine.growth_either_way(std::min(place * (1 + beside), (outside.place + place) / 2), !stable);
   if (!(below * inside.growth > 0 && above * outside.growth > 0)) return;
   if (!(std::min(std::abs(below), std::abs(above)) > closed)) return;
   LimitCycle cycle{fine.point(place), turn->times.back(), std::numeric_limits<double>::quiet_NaN(), stable, {}};
@@ -303,15 +312,15 @@ void CycleSearch::examine(const Vector2d& centre, const Sample& inside, const Sa
   found_.push_back(std::move(cycle));
 }
 
-void CycleSearch::about(const Vector2d& centre, double reach) {
+void CycleSearch::about(const Vector2d& centre, const Vector2d& way, double reach) {
   constexpr double nearest = 1e-4;
   // Orbits that are stiff far outside must not use up the values of the others.
-  constexpr int most_values = 600'000, most_of_sample = 50'000, halvings = 5, sections = 8;
+  constexpr int most_values = 600'000, most_of_sample = 50'000, halvings = 12, sections = 8;
   int remaining = most_values;
-  const ReturnMap map(field_, centre, half_, rough);
+  const ReturnMap map(field_, centre, half_, way, rough);
   const auto sample = [&](double place) {
     const int allowed = *left_ = std::min(remaining, most_of_sample);
-    const Sample made{place, map.growth(place)};
+    const Sample made{place, map.growth_either_way(place)};
     remaining -= allowed - *left_;
     return made;
   };
@@ -380,7 +389,7 @@ void CycleSearch::about(const Vector2d& centre, double reach) {
     } else {
       if (last && sign(*last) == -its && zeros < 2) {
         try {
-          examine(centre, *last, next);
+          examine(centre, way, *last, next);
         } catch (const std::domain_error&) {
           // The cycle takes too many values of the field.
         }
@@ -513,11 +522,19 @@ class Surroundings {
 std::vector<LimitCycle> find_limit_cycles(const SmoothField& field, const Equilibria& equilibria, double reach) {
   constexpr int most = 6;
   CycleSearch search(field, (equilibria.high - equilibria.low) / 2);
+  Vector2d mean(0, 0);
+  for (const Equilibrium& each : equilibria.points) mean += each.x / static_cast<double>(equilibria.points.size());
+  // The direction is no axis, because axes often are orbits. It leads away from other equilibria, near which saddles
+  // turn orbits away.
+  const auto about = [&](const Vector2d& centre) {
+    const Vector2d way(0.98, 0.2);
+    search.about(centre, (centre - mean).dot(way) < 0 ? Vector2d(-way) : way, reach);
+  };
   int centres = 0;
   for (const Equilibrium& each : equilibria.points) {
-    if (each.index.value_or(1) > 0 && ++centres <= most) search.about(each.x, reach);
+    if (each.index.value_or(1) > 0 && ++centres <= most) about(each.x);
   }
-  if (equilibria.on_curve && centres < most) search.about(*equilibria.on_curve, reach);
+  if (equilibria.on_curve && centres < most) about(*equilibria.on_curve);
   return search.take();
 }
 

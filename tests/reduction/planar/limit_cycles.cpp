@@ -154,6 +154,31 @@ TEST_CASE("a limit cycle beside a loop of a saddle is found", "[planar]") {
   CHECK_FALSE(found[0].stable);
 }
 
+TEST_CASE("equal limit cycles about two foci are both found, also beside a loop of the saddle between them",
+          "[planar]") {
+  // x'' = x - x^3 + 0.1 (c - x^2) x'. The loops of the saddle are near c = 0.8, and at c = 1 both small cycles vanish.
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 12; ++i) {
+    const double c = i == 0   ? 0.8005
+                     : i == 1 ? 0.81
+                              : 0.8 + std::pow(10, std::uniform_real_distribution(-3., -1.)(random));
+    CAPTURE(c);
+    const PlanarField field = [=](const Vector2d& x) {
+      return Vector2d(x[1], x[0] - std::pow(x[0], 3) + 0.1 * (c - x[0] * x[0]) * x[1]);
+    };
+    std::vector<LimitCycle> found = cycles_of(field, 1.6, 3);
+    REQUIRE(found.size() == 3);
+    std::ranges::sort(found, {}, [](const LimitCycle& cycle) { return cycle.stable; });
+    CHECK(found[2].stable);
+    CHECK(found[0].period == Approx(found[1].period).epsilon(1e-9));
+    // Steps in time return, backwards for the unstable cycles.
+    for (const LimitCycle& cycle : found) {
+      const PlanarReduction steps = cycle.stable ? by_steps(field) : by_steps(field).reversed();
+      CHECK((steps.orbit(cycle.x).at(cycle.period) - cycle.x).norm() < 1e-8);
+    }
+  }
+}
+
 TEST_CASE("a limit cycle that sticks has the multiplier 0", "[planar]") {
   // A block on a belt. It leaves the belt at x = 0.4 and sticks again at x = -0.335058894593 (SciPy's DOP853).
   const auto on_side = [](double sign) {
