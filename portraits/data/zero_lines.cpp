@@ -154,14 +154,17 @@ class SwitchingLine {
         const Vector2d x = from + way * k / pieces;
         const PlaceOnLine here = at(x, way);
         if (before && !before->continues(here)) {
-          Vector2d low = last, high = x;
-          for (int step = 0; step < halvings; ++step) {
-            const Vector2d middle = (low + high) / 2;
-            (before->continues(at(middle, way)) ? low : high) = middle;
-          }
-          add(at(low, way));
+          // Between the two motions there may be a third, as rest at a point between two senses of sliding.
+          const auto last_that_continues = [&](const PlaceOnLine& place, Vector2d inside, Vector2d outside) {
+            for (int step = 0; step < halvings; ++step) {
+              const Vector2d middle = (inside + outside) / 2;
+              (place.continues(at(middle, way)) ? inside : outside) = middle;
+            }
+            return at(inside, way);
+          };
+          add(last_that_continues(*before, last, x));
           finish(parts);
-          if (at(high, way).continues(here)) add(at(high, way));
+          add(last_that_continues(here, x, last));
         }
         add(here);
         before = here;

@@ -218,6 +218,12 @@ TEST_CASE("parts of switching curves end where motions begin to cross", "[slidin
   CHECK(belt[0].motion == Kind::slides);
   CHECK((belt[0].points.front() - Vector2d(-0.4, 0.5)).norm() < 1e-8);
   CHECK((belt[0].points.back() - Vector2d(0.4, 0.5)).norm() < 1e-8);
+  // Two senses of sliding meet at a point at rest.
+  for (const double centre : {-1.37, -0.21, 0., 0.0113, 0.8}) {
+    const auto slides = parts(fmt::format("x' = -(x - {}); y' = -y - sign(y)", centre));
+    REQUIRE(slides.size() == 2);
+    for (const auto& part : slides) CHECK((part.points.back() - Vector2d(centre, 0)).norm() < 1e-8);
+  }
   const auto away = parts("y' = sign(y)");
   REQUIRE(away.size() == 1);
   CHECK(away[0].motion == Kind::leaves);
