@@ -147,7 +147,7 @@ class SwitchingLine {
   void follow(const Polyline& line, std::vector<SwitchingPart>& parts) {
     constexpr int pieces = 2, halvings = 45;
     std::optional<PlaceOnLine> before;
-    Vector2d last;
+    Vector2d last = Vector2d::Zero();
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       const Vector2d from(line[i].x, line[i].y), to(line[i + 1].x, line[i + 1].y), way = to - from;
       for (int k = i == 0 ? 0 : 1; k <= pieces; ++k) {
