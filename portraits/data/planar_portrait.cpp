@@ -867,7 +867,7 @@ PlanarView view_of(const PlanarReduction& plane, const PortraitRequest& request,
       request.linear || request.drawn_only || request.time_unit != 1) {
     throw std::domain_error("portrait: views, laws, routes, scales and units of time are only for (2.6)");
   }
-  PlanarView view{request.window.value_or(Window{})};
+  PlanarView view{request.window.value_or(Window{{0, 0}, {1, 1}})};
   const Vector2d middle = middle_of(plane);
   std::vector<Vector2d> points;
   for (const State& x : request.through) points.push_back(vector_of(x));
@@ -981,17 +981,17 @@ PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::s
       }
       drawn.push_back(std::move(branch.line));
     }
-    if (portrait.equilibria.on_curve) {
-      const auto inside = [&](const Vector2d& x) -> Vector2d {
-        constexpr double circle = 0.999;
-        const bool holds = disc == nullptr || x.norm() < circle;
-        return holds ? plane.field()(x) : Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-      };
-      portrait.lines_of_equilibria = curves_of_equilibria(reduction::SmoothField(inside), window);
-    }
     for (const Polyline& line : invariant_lines(plane, window, portrait.equilibria))
       portrait.invariant.push_back(columns(line, infinity));
     traced = std::move(timed);
+  }
+  if (portrait.equilibria.on_curve) {
+    const auto inside = [&](const Vector2d& x) -> Vector2d {
+      constexpr double circle = 0.999;
+      const bool holds = disc == nullptr || x.norm() < circle;
+      return holds ? plane.field()(x) : Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    };
+    portrait.lines_of_equilibria = curves_of_equilibria(reduction::SmoothField(inside), window);
   }
   const PlanarTracer& tracer = *traced;
   portrait.orbits = filling(tracer, plane, window, request.orbits, drawn);
@@ -1009,7 +1009,7 @@ PlanarPortrait portrait_in(PlanarView view, const PlanarReduction& plane, std::s
     }
   }
   const std::vector<double> times = tracer.times_at_border();
-  if (!times.empty()) {
+  if (!times.empty() && !is_slope_field(plane.field(), window)) {
     // Next to a ray that leads away from the centre, times are unbounded.
     const double last = 0.95 * std::min(times.back(), 3 * times[times.size() / 2]);
     const auto [at, step] = isochrone_times(request, last);

@@ -96,25 +96,45 @@ bool is_population(const reduction::SmoothField& field, const Vector2d& size) {
 }
 
 /// Returns the values y at which the slope of y' = F(x, y) changes its sign, the field being (1, F), and 0; empty for
-/// another field. Values beyond 100 are left out.
+/// another field. Values beyond 1000 are left out, and all but the nearest one if there are many, as for sin(x y).
 std::vector<double> slope_zeros(const reduction::SmoothField& field) {
-  constexpr double first = 0.02, ratio = 1.05, last = 100;
+  constexpr double first = 0.02, ratio = 1.05, last = 1000;
+  constexpr std::size_t most = 4;
   std::vector<double> zeros{0};
-  for (const double x : {-1.3, 0.3, 1.1}) {
-    for (const double side : {-1., 1.}) {
+  for (const double side : {-1., 1.}) {
+    double nearest = infinity;
+    for (const double x : {-1.3, 0.3, 1.1}) {
+      std::vector<double> changes;
       std::optional<Vector2d> before;
-      for (double y = first; y < last; y *= ratio) {
+      for (double y = first; y < last * ratio; y *= ratio) {
         const auto rate = rate_of(field, {x, side * y});
         if (rate && (*rate)[0] != 1) return {};
-        if (rate && before && ((*rate)[1] < 0) != ((*before)[1] < 0)) zeros.push_back(side * y);
+        if (rate && before && ((*rate)[1] < 0) != ((*before)[1] < 0)) changes.push_back(side * y);
         before = rate;
       }
+      if (changes.size() <= most) {
+        zeros.insert(zeros.end(), changes.begin(), changes.end());
+      } else {
+        nearest = std::min(nearest, std::abs(changes.front()));
+      }
     }
+    if (std::isfinite(nearest)) zeros.push_back(side * nearest);
   }
   return zeros;
 }
 
 }  // namespace
+
+bool is_slope_field(const reduction::SmoothField& field, const Window& window) {
+  constexpr int across = 5;
+  for (int i = 0; i < across * across; ++i) {
+    const int column = i % across, row = i / across;
+    const Vector2d part((column + 0.5) / across, (row + 0.5) / across);
+    const auto rate = rate_of(field, window.low + part.cwiseProduct(window.sides()));
+    if (rate && (*rate)[0] != 1) return false;
+  }
+  return true;
+}
 
 Window united(const Window& window, const Vector2d& x) { return {window.low.cwiseMin(x), window.high.cwiseMax(x)}; }
 

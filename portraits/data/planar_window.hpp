@@ -31,6 +31,9 @@ std::vector<reduction::LimitCycle> cycles_within(const reduction::PlanarReductio
 /// Returns the field at a point; empty if it has no value there.
 std::optional<Eigen::Vector2d> rate_of(const reduction::SmoothField& field, const Eigen::Vector2d& x);
 
+/// Returns true for y' = F(x, y), the field (1, F), whose time is x.
+bool is_slope_field(const reduction::SmoothField& field, const Window& window);
+
 /// Returns the smallest window that contains a window and a point.
 Window united(const Window& window, const Eigen::Vector2d& x);
 

@@ -170,8 +170,8 @@ struct PointType {
 };
 
 PointType point_type(Marks::Shape shape) {
-  if (shape == Marks::Shape::circle) return {6, 7};
-  return shape == Marks::Shape::square ? PointType{4, 5} : PointType{7, 0};
+  constexpr PointType types[]{{7, 0}, {6, 7}, {4, 5}, {12, 13}};
+  return types[static_cast<std::size_t>(shape)];
 }
 
 const char* alignment(Label::Align align) {

@@ -127,8 +127,9 @@ class Writer {
   std::string mark_style(const Marks& marks) {
     const double size = marks.size * mark_size / 2 * layout_.letter * points_per_mm;
     const bool open = marks.shape != Marks::Shape::dot;
+    constexpr const char* names[]{"*", "*", "square*", "diamond*"};
     return fmt::format("mark={},mark size={:.3g}pt,mark options={{draw={},fill={},line width=0.7pt}}",
-                       marks.shape == Marks::Shape::square ? "square*" : "*", size, name(marks.colour),
+                       names[static_cast<std::size_t>(marks.shape)], size, name(marks.colour),
                        name(open ? figure_.theme.ground : marks.colour));
   }
 

@@ -60,7 +60,7 @@ void add_points(Panel& panel, const Drawing& drawing, const PolarMap& map) {
   kind("stable node", Marks::Shape::dot);
   kind("unstable node", Marks::Shape::circle);
   kind("saddle", Marks::Shape::square);
-  kind("degenerate", Marks::Shape::square);
+  kind("degenerate", Marks::Shape::diamond);
 }
 
 /// Adds the directions of motion along the circle of the points at infinity and the circle of the blown-up origin.

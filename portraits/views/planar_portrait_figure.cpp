@@ -26,7 +26,8 @@ using Eigen::Vector2d;
 namespace {
 
 /// Adds rays in the direction of the motion, between the border of the panel and the centre.
-void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette) {
+/// @param slopes  true for y' = F(x, y)
+void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette& palette, bool slopes) {
   const auto& [low, high] = portrait.window;
   const reduction::PlanarReduction& plane = portrait.plane;
   double highest = 0;
@@ -34,10 +35,12 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
     const double p = plane.canonical(corner).p;
     if (std::isfinite(p)) highest = std::max(highest, p);
   }
-  Lines attracting{{}, {palette.comparison, 2.6}, "ray that orbits approach"};
-  Lines others{{}, {palette.comparison, 2, true}, "ray that orbits leave"};
+  Lines attracting{
+      {}, {palette.comparison, 2.6}, slopes ? "solution that others approach" : "ray that orbits approach"};
+  Lines others{{}, {palette.comparison, 2, true}, slopes ? "solution that others leave" : "ray that orbits leave"};
   for (const auto& ray : plane.rays()) {
-    if (ray.order == 0) continue;  // a part of a switching curve
+    // Parts of switching curves and lines of equilibria are drawn as such.
+    if (ray.order == 0 || ray.radial == 0) continue;
     Polyline line{{plane.centre()[0], plane.centre()[1]}};
     constexpr int pieces = 200;
     constexpr double deep = 20;
@@ -151,10 +154,12 @@ Colour grey_of(const Palette& palette) {
   return {rgb};
 }
 
-/// Returns the mark of an equilibrium: filled if it is stable.
+/// Returns the mark of an equilibrium: a dot if it is stable, a circle if it is an unstable node, focus or star.
 Marks::Shape shape_of(std::string_view kind) {
-  if (kind == "saddle") return Marks::Shape::square;
-  return kind.starts_with("stable") || kind == "center" ? Marks::Shape::dot : Marks::Shape::circle;
+  return kind == "saddle"                                 ? Marks::Shape::square
+         : kind.starts_with("stable") || kind == "center" ? Marks::Shape::dot
+         : kind.starts_with("unstable")                   ? Marks::Shape::circle
+                                                          : Marks::Shape::diamond;
 }
 
 /// Returns the place of a point on the axes.
@@ -343,7 +348,10 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
   };
   PanelLayers layers(look, std::move(axes), {place});
 
-  const bool coloured = layers.add_orbits(layers.lines_of(portrait.orbits), style.colour_by_time, "orbits");
+  // The time of y' = F(x, y) is x, which is an axis.
+  const bool slopes = is_slope_field(field, portrait.window);
+  const bool coloured = layers.add_orbits(layers.lines_of(portrait.orbits), style.colour_by_time && !slopes,
+                                          slopes ? "solutions" : "orbits");
   layers.add_isochrones(-1);
   if (style.field != PortraitStyle::Field::none) {
     const auto drift = [&](Point at) -> std::optional<Drift> {
@@ -355,16 +363,9 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
       return Drift{at, {at.x + step * (*rate)[0] / speed, at.y + step * (*rate)[1] / speed}, speed};
     };
     // All directions of y' = F(x, y) point to the right: marks without heads show the slopes.
-    bool slopes = true;
-    constexpr int across = 5;
-    for (int i = 0; i < across * across; ++i) {
-      const int column = i % across, row = i / across;
-      const auto rate = rate_at(from_paper(layers.panel(), {(column + 0.5) / across, (row + 0.5) / across}));
-      slopes &= !rate || (*rate)[0] == 1;
-    }
     layers.add_directions(drift, slopes ? "slopes" : "direction of the motion", !slopes);
   }
-  if (style.invariant && scaling) add_rays(layers, portrait, look.palette);
+  if (style.invariant && scaling) add_rays(layers, portrait, look.palette, slopes);
   if (style.invariant) {
     add_invariant_curves(layers, portrait, look.palette);
     add_separatrices(layers, portrait, look.palette);
@@ -406,7 +407,15 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
     if (portrait.disc) {
       for (const reduction::Equilibrium& each : portrait.disc->at_infinity) add(each, {each.x[0], each.x[1]});
     }
-    for (auto& [kind, marks] : of_kind) layers.panel().marks.push_back(std::move(marks));
+    // Kinds with one mark share a line of the legend.
+    std::map<Marks::Shape, Marks> of_shape;
+    for (auto& [kind, marks] : of_kind) {
+      const auto [its, is_new] = of_shape.try_emplace(marks.shape, marks);
+      if (is_new) continue;
+      its->second.points.insert(its->second.points.end(), marks.points.begin(), marks.points.end());
+      its->second.legend += Text(", ") + marks.legend;
+    }
+    for (auto& [shape, marks] : of_shape) layers.panel().marks.push_back(std::move(marks));
   }
 
   Figure figure;
@@ -423,8 +432,12 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
                                                   : fmt::format("orbits by quadrature; {}: {}", of_form, form))
                     : portrait.plane.star()
                         ? kind
-                        : fmt::format("{}: {} are one curve, moved by the symmetry", kind,
-                                      portrait.plane.sectors().empty() ? "all orbits" : "all orbits between two rays");
+                        : fmt::format("{}all {}{} are one curve, moved by the symmetry",
+                                      kind == "bordered" || kind == "mixed" || slopes ? "" : kind + ": ",
+                                      slopes ? "solutions" : "orbits",
+                                      portrait.plane.sectors().empty() ? ""
+                                      : slopes                         ? " between two of these"
+                                                                       : " between two rays");
   Text values;
   for (const auto& [letter, value] : portrait.parameters) {
     values += (values.empty() ? Text() : Text(", ")) + math(letter) + fmt::format(" = {}", value);

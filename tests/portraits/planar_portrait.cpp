@@ -359,6 +359,20 @@ TEST_CASE("the window of a planar portrait shows what the system has", "[output]
   CHECK(loop.high[0] < 3);
   CHECK(loop.low[0] < -0.2);
   // Equilibria of y' = F(x, y).
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 10; ++i) {
+    // The capacity of a population, and slopes that change their sign again and again.
+    const double capacity = std::pow(10, std::uniform_real_distribution(-1., 2.95)(random));
+    const Window to_capacity =
+        stepped_portrait([=](const Vector2d& x) { return Vector2d(1, x[1] * (1 - x[1] / capacity)); }).window;
+    CAPTURE(capacity);
+    CHECK(to_capacity.contains({0, capacity}));
+    CHECK(to_capacity.high[1] < std::max(4., 1.5 * capacity));
+    const double factor = std::uniform_real_distribution(0.5, 2.)(random);
+    const Window waves =
+        stepped_portrait([=](const Vector2d& x) { return Vector2d(1, std::sin(factor * x[0] * x[1])); }).window;
+    CHECK(waves.high[1] < 12);
+  }
   const Window growth = stepped_portrait([](const Vector2d& x) { return Vector2d(1, x[1] * (1 - x[1] / 10)); }).window;
   CHECK(growth.high[1] > 10);
   CHECK(growth.high[1] < 20);
@@ -465,7 +479,46 @@ TEST_CASE("curves of equilibria and nullclines are drawn as such", "[output]") {
   CHECK(!layer(panel, "v′ = 0").lines.empty());
 }
 
-TEST_CASE("filled marks are stable equilibria, open marks unstable ones", "[output]") {
+TEST_CASE("a line of equilibria is drawn as such, not as a ray", "[output]") {
+  std::mt19937_64 random(9);
+  const auto among = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 8; ++i) {
+    const double angle = among(0, 6.28);
+    const Vector2d n(std::cos(angle), std::sin(angle)), w = n + among(-1, 1) * Vector2d(-n[1], n[0]);
+    const PlanarPortrait portrait = portrait_of([=](const Vector2d& x) -> Vector2d { return n.dot(x) * w; });
+    CAPTURE(angle);
+    REQUIRE(!portrait.lines_of_equilibria.empty());
+    double length = 0;
+    for (const PortraitOrbit& line : portrait.lines_of_equilibria) {
+      for (Eigen::Index k = 0; k < line.rows(); ++k) {
+        CHECK(std::abs(n.dot(Vector2d(line.u[k], line.v[k]))) < 1e-6);
+        length = std::max(length, std::hypot(line.u[k] - line.u[0], line.v[k] - line.v[0]));
+      }
+    }
+    CHECK(length > 1.9);  // from border to border
+    const Figure figure = draw(portrait);
+    for (const Lines& layer : figure.panels[0].lines) {
+      if (!layer.legend.words().starts_with("ray")) continue;
+      for (const Polyline& line : layer.lines) {
+        for (const Point& at : line) {
+          const double across = std::abs(n.dot(Vector2d(at.x, at.y))), distance = std::hypot(at.x, at.y);
+          CHECK((distance < 1e-6 || across > 1e-3 * distance));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("y' = F(x, y) is drawn in the words of curves, without times", "[output]") {
+  const PlanarPortrait portrait = portrait_of([](const Vector2d& x) { return Vector2d(1, x[1] / x[0] + x[0] * x[0]); });
+  CHECK(portrait.isochrones.empty());
+  const Figure figure = draw(portrait);
+  CHECK(!figure.colour_bar);
+  CHECK(!layer(figure.panels[0], "solutions").lines.empty());
+  CHECK(figure.subtitle.words() == "all solutions between two of these are one curve, moved by the symmetry");
+}
+
+TEST_CASE("dots are stable equilibria, circles unstable ones", "[output]") {
   const PlanarPortrait portrait = stepped_portrait(
       [](const Vector2d& x) { return Vector2d(x[0] * (3 - x[0] - 2 * x[1]), x[1] * (2 - x[0] - x[1])); });
   const Panel panel = draw(portrait).panels[0];
@@ -477,6 +530,11 @@ TEST_CASE("filled marks are stable equilibria, open marks unstable ones", "[outp
   CHECK(shape("stable node") == Marks::Shape::dot);
   CHECK(shape("unstable node") == Marks::Shape::circle);
   CHECK(shape("saddle") == Marks::Shape::square);
+  // Kinds with one mark share a line of the legend: the center (1, 1) of the animals and the stable node here.
+  const Panel shared = draw(stepped_portrait([](const Vector2d& x) {
+                         return Vector2d(x[0] * (1 - x[0]) * (2 - x[0]), x[1] * x[1]);
+                       })).panels[0];
+  CHECK(std::ranges::count(shared.marks, Marks::Shape::diamond, &Marks::shape) == 1);
   // The centre of a symmetry, too.
   for (const double sign : {-1, 1}) {
     const PlanarPortrait scaled =

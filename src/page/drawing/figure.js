@@ -144,8 +144,9 @@ function headsOf(frame, arrows, length) {
 function drawMarks(surface, figure, { shape, colour, size }, points) {
   const radius = 3.6 * size;
   const style = { fill: shape === "dot" ? colour : figure.ground, stroke: colour, width: 1.8 };
-  if (shape !== "square") return surface.shape([points], { ...style, radius });
-  const corners = [-1, -1, 1, -1, 1, 1, -1, 1, -1, -1].map((side) => side * radius);
+  const sides = { square: [-1, -1, 1, -1, 1, 1, -1, 1, -1, -1], diamond: [-1.4, 0, 0, 1.4, 1.4, 0, 0, -1.4, -1.4, 0] }[shape];
+  if (!sides) return surface.shape([points], { ...style, radius });
+  const corners = sides.map((side) => side * radius);
   for (let i = 0; i < points.length; i += 2) surface.shape([corners.map((corner, j) => points[i + (j % 2)] + corner)], style);
 }
 

@@ -172,7 +172,7 @@ class Portrait:
             for layer in panel["arrows"]:
                 self._arrows(place, panel, layer, letter)
             for layer in panel["marks"]:
-                shape = {"dot": "o", "circle": "o", "square": "s"}[layer["shape"]]
+                shape = {"dot": "o", "circle": "o", "square": "s", "diamond": "D"}[layer["shape"]]
                 inside = layer["colour"] if layer["shape"] == "dot" else figure["ground"]
                 place.plot(*layer["points"].T, shape, color=layer["colour"], markerfacecolor=inside, clip_on=False,
                            markersize=0.5 * letter * layer["size"], label=_mathtext(layer["legend"]) or None)

@@ -55,7 +55,7 @@ struct Marks {
   std::vector<Point> points;
   Colour colour;
   double size = 0.6;
-  enum class Shape { dot, circle, square } shape = Shape::dot;
+  enum class Shape { dot, circle, square, diamond } shape = Shape::dot;
   Text legend = {};  ///< if empty, the legend has no entry
 };
 

@@ -39,7 +39,7 @@ auto members_of(const Figure& figure, const Writer& to) {
     return to.object("arrows", to.points(ends), "colour", colour(of.colour));
   };
   const auto marks = [&](const Marks& of) {
-    constexpr const char* shapes[]{"dot", "circle", "square"};
+    constexpr const char* shapes[]{"dot", "circle", "square", "diamond"};
     return to.object("points", to.points(of.points), "colour", colour(of.colour), "size", of.size, "shape",
                      shapes[static_cast<int>(of.shape)], "legend", to.text(of.legend));
   };
