@@ -210,6 +210,29 @@ TEST_CASE("formulas of H are constant along orbits, and their texts read back", 
   CHECK(separated >= 100);
 }
 
+TEST_CASE("C of a start at a jump is that of the motion from there", "[invariant]") {
+  std::mt19937_64 random(4);
+  const auto among = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 10; ++i) {
+    const double friction = among(0.05, 0.3), x0 = (i % 2 == 0 ? 1 : -1) * among(0.5, 3);
+    const FormulaField field = parse_planar_system(fmt::format("x'' = -x - {}*sign(x')", friction), {});
+    const Vector2d start(x0, 0);
+    const Steps found = steps(field, start);
+    REQUIRE(found.integral);
+    const auto plane = contensou::reduction::reduce(field, start);
+    // The motion turns back, so that friction acts along x0.
+    const double C = found.constant(start, [&] { return plane.orbit(start); });
+    CHECK(C == Approx(x0 * x0 / 2 - friction * std::abs(x0)).epsilon(1e-13));
+    const Vector2d later = plane.orbit(start).at(1);
+    CHECK(found.integral->H({later[0], later[1]}) == Approx(C).epsilon(1e-9));
+    REQUIRE(found.jumps().size() == 1);
+    CHECK(found.jumps()[0].text(found.names, 6) == "x'");
+    // Where the force of the spring is less than friction, the body stays at the jump.
+    const Vector2d rest(friction / 2, 0);
+    CHECK(std::isnan(found.constant(rest, [&] { return plane.orbit(rest); })));
+  }
+}
+
 TEST_CASE("known equations have the kinds of a textbook, and no others", "[table]") {
   struct Known {
     std::string text;
@@ -228,6 +251,10 @@ TEST_CASE("known equations have the kinds of a textbook, and no others", "[table
       {"y' = |y|", {"autonomous", "separable", "integrating factor of y"}},
       {"y' = cos(x + y)", {"shift along a direction (1, -1)"}},
       {"x'' = -sin(x)", {"autonomous", "conservative", "Hamiltonian"}},
+      {"x'' = -x - 0.2*sign(x')", {"autonomous"}},
+      {"x'' = -sign(x)", {"autonomous", "conservative", "Hamiltonian", "isobaric (x -> a*x, x' -> a^(1/2)*x')"}},
+      {"x' = sign(y); y' = -sign(x)", {"Hamiltonian", "orbits: separable", "orbits: homogeneous"}},
+      {"y' = sign(0.5-y)", {"autonomous", "separable"}},
       {"x'' = -x - 0.2*x'", {"autonomous", "linear of the second order", "isobaric (x -> a*x, x' -> a*x')"}},
       {"x' = y; y' = -sin(x)", {"conservative", "Hamiltonian", "orbits: separable", "orbits: Bernoulli (n = -1)"}},
       {"x' = -y + x*(1 - x^2 - y^2); y' = x + y*(1 - x^2 - y^2)", {"orbits: rotation"}},

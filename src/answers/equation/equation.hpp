@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "answers/asked/planar_system.hpp"
 #include "answers/input/expression.hpp"
+#include "contensou/reduction/planar_reduction.hpp"
 #include "contensou/reduction/symmetries.hpp"
 
 namespace contensou::answers {
@@ -42,6 +44,12 @@ struct Equation {
 
 /// Returns the fraction n/m with m <= 60 for which m times the value is n up to the error; else the value.
 Number snapped(double value, double error = 1e-9);
+
+/// Returns the arguments z of all parts sign(z) of a formula.
+std::vector<Expression> signs_in(const Expression& e);
+
+/// Returns true if the formula jumps where z = 0 because it contains sign(z).
+bool jumps_at(const Expression& e, const Expression& z);
 
 /// Returns the equation of a system; empty if a formula is piecewise.
 std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vector2d& start);
@@ -122,8 +130,13 @@ struct Steps {
   std::string separated(int digits = 0) const;
 
   /// Returns the formulas at whose zeros H may jump, so that C has another value on the other side: the denominators of
-  /// arguments of atan, and cos(z) for tan(z) in these arguments.
+  /// arguments of atan, cos(z) for tan(z) in these arguments, and arguments of sign.
   std::vector<Expression> jumps() const;
+
+  /// Returns C of the orbit from a start. If H jumps there, C is that of the side to which the motion goes.
+  /// @param orbit  used only if H jumps at the start
+  /// @return NaN if the motion stays where H jumps
+  double constant(const Eigen::Vector2d& start, const std::function<reduction::PlanarOrbit()>& orbit) const;
 
   /// Returns the reason why the right sides have no value next to a point, such as "tan(y/x) has a pole"; empty if
   /// none is found.

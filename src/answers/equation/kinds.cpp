@@ -69,6 +69,37 @@ bool Equation::is_free_of(const Expression& formula, std::size_t variable) const
   return vanishes(formula.derivative(variable)) && vanishes(formula - formula.with(variable, Number(13, 10)));
 }
 
+std::vector<Expression> signs_in(const Expression& e) {
+  std::vector<Expression> all;
+  e.replaced([&](const Expression& part) -> std::optional<Expression> {
+    if (is_function(part, "sign") && std::ranges::count(all, part.parts()[0]) == 0) all.push_back(part.parts()[0]);
+    return std::nullopt;
+  });
+  return all;
+}
+
+bool jumps_at(const Expression& e, const Expression& z) {
+  const auto side = [&](int sign) {
+    return e.replaced([&](const Expression& part) {
+      return is_function(part, "sign") && part.parts()[0] == z ? std::optional(Expression(sign)) : std::nullopt;
+    });
+  };
+  const Expression above = side(1), below = side(-1), by_x = z.derivative(0), by_y = z.derivative(1);
+  // Newton's method goes along the gradient of z to a zero.
+  for (Eigen::Vector2d x : {Eigen::Vector2d(0.37, 0.81), {-0.53, 0.29}, {1.31, -0.7}, {-2.1, -1.7}}) {
+    constexpr int steps = 20;
+    constexpr double zero = 1e-12, error = 1e-9;
+    for (int i = 0; i < steps; ++i) {
+      const Eigen::Vector2d slope(by_x({x[0], x[1]}), by_y({x[0], x[1]}));
+      x -= z({x[0], x[1]}) / slope.squaredNorm() * slope;
+    }
+    const double here = above({x[0], x[1]}), there = below({x[0], x[1]});
+    if (std::abs(z({x[0], x[1]})) <= zero && std::abs(here - there) > error * (std::abs(here) + std::abs(there)))
+      return true;
+  }
+  return false;
+}
+
 std::optional<Number> Equation::constant(const Expression& formula) const {
   if (formula.is(Expression::Kind::number)) return formula.number();
   const auto at = points({slope, formula});
@@ -148,7 +179,7 @@ const std::vector<EquationKind>& equation_kinds() {
       {"homogeneous", "y' = f(y/x)"},
       {"isobaric", "the equation stays the same if x is multiplied by a and y by a^m"},
       {"shift along a direction", "y' = f(y - c x) with a number c"},
-      {"exact", "M dx + N dy = 0 with dM/dy = dN/dx, as typed"},
+      {"exact", "dM/dy = dN/dx, where y' = -M/N is one fraction"},
       {"integrating factor of x", "M dx + N dy = 0 becomes exact if it is multiplied by a function of x alone"},
       {"integrating factor of y", "M dx + N dy = 0 becomes exact if it is multiplied by a function of y alone"},
       {"autonomous", "the right side does not contain x; for x'' = f(x, x') it does not contain the time"},
@@ -187,6 +218,16 @@ std::vector<std::string> kinds_of(const Equation& equation) {
   };
   const auto vanishes = [&](const E& e) { return equation.vanishes(e); };
   const bool first = type == Type::first, second = type == Type::second;
+  // At a jump, the part of f across it must be continuous, or the part along it.
+  const auto continues = [&](bool across) {
+    for (const E& each : f) {
+      for (const E& z : signs_in(each)) {
+        const E by_u = z.derivative(0), by_v = z.derivative(1);
+        if (jumps_at(across ? f[0] * by_u + f[1] * by_v : f[0] * by_v - f[1] * by_u, z)) return false;
+      }
+    }
+    return true;
+  };
   const auto is_linear = [&](const E& e) {
     const E at_origin = e.with(0, 0).with(1, 0), by_x = e.with(0, 1).with(1, 0), by_y = e.with(0, 0).with(1, 1);
     return vanishes(e - at_origin - (by_x - at_origin) * x - (by_y - at_origin) * y);
@@ -199,10 +240,10 @@ std::vector<std::string> kinds_of(const Equation& equation) {
   if (type == Type::system) {
     add("linear system", [&] { return is_linear(f[0]) && is_linear(f[1]); });
     add("conservative", [&] { return f[0] == y && equation.is_free_of(f[1], 1); });
-    add("Hamiltonian", [&] { return vanishes(f[0].derivative(0) + f[1].derivative(1)); });
-    add("gradient", [&] { return vanishes(f[0].derivative(1) - f[1].derivative(0)); });
+    add("Hamiltonian", [&] { return vanishes(f[0].derivative(0) + f[1].derivative(1)) && continues(true); });
+    add("gradient", [&] { return vanishes(f[0].derivative(1) - f[1].derivative(0)) && continues(false); });
   }
-  if (second) add("Hamiltonian", [&] { return vanishes(f[1].derivative(1)); });
+  if (second) add("Hamiltonian", [&] { return equation.is_free_of(f[1], 1); });
   // The equation of the orbits is not the typed one, except for y' = F(x, y). For a system its kinds are named as those
   // of the orbits; for x'' = F only its symmetries are listed.
   const std::string of = type == Type::system ? std::string(of_orbits) : "";
@@ -247,7 +288,18 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     if (n && !(*n == Number(1)) && !(*n == Number(0))) name_kind(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
     add_kind("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
   }
-  const bool homogeneous = !second && add_kind("homogeneous", [&] { return vanishes(x * by_x + y * by_y); });
+  // Derivatives do not see jumps, so that finite maps are tried, too.
+  const auto maps = [&](const std::array<double, 2>& factors, const std::array<double, 2>& shifts, double factor) {
+    constexpr double error = 1e-9;
+    return std::ranges::all_of(equation.points({R}), [&](const Eigen::Vector2d& at) {
+      const double here = R({at[0], at[1]}),
+                   there = R({factors[0] * at[0] + shifts[0], factors[1] * at[1] + shifts[1]});
+      return !std::isfinite(there) || std::abs(there - factor * here) <= error * (std::abs(there) + std::abs(here));
+    });
+  };
+  const bool homogeneous = !second && add_kind("homogeneous", [&] {
+    return vanishes(x * by_x + y * by_y) && maps({2, 2}, {0, 0}, 1);
+  });
   if (!homogeneous) {
     std::optional<Number> m;
     holds([&] {
@@ -255,7 +307,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       if (!vanishes(below)) m = equation.constant((R + x * by_x) / below);
       return true;
     });
-    if (m) {
+    if (m && maps({2, std::exp2(m->value())}, {0, 0}, std::exp2(m->value() - 1))) {
       name_kind(fmt::format("isobaric ({})", scaling_text(names[0], 1, names[1], *m)));
     }
   }
@@ -264,7 +316,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     if (!vanishes(by_y)) c = equation.constant(-by_x / by_y);
     return true;
   });
-  if (c && !(*c == Number(0))) {
+  if (c && !(*c == Number(0)) && maps({1, 1}, {1, c->value()}, 1)) {
     name_kind(fmt::format("shift along a direction (1, {})", E(*c).text({}, 6)));
   }
   if (second) return kinds;
@@ -273,7 +325,9 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     const E M = first ? -above : f[1], N = first ? below : -f[0];
     const E curl = M.derivative(1) - N.derivative(0);
     if (vanishes(curl)) {
-      if (first) kinds.emplace_back("exact");
+      const bool jumps = std::ranges::any_of(
+          signs_in(R), [&](const E& z) { return jumps_at(M * z.derivative(1) - N * z.derivative(0), z); });
+      if (first && !jumps) kinds.emplace_back("exact");
       return true;
     }
     const E of_x = curl / N, of_y = curl / M;

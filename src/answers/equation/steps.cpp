@@ -4,6 +4,8 @@
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <limits>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -59,7 +61,32 @@ std::vector<Expression> Steps::jumps() const {
     return std::nullopt;
   };
   integral->H.replaced(look);
+  for (const Expression& z : signs_in(integral->H)) {
+    if (jumps_at(integral->H, z)) add(z);
+  }
   return places;
+}
+
+double Steps::constant(const Eigen::Vector2d& start, const std::function<reduction::PlanarOrbit()>& orbit) const {
+  constexpr double soon = 1e-6;
+  const double here[]{start[0], start[1]};
+  std::optional<Eigen::Vector2d> after;
+  bool stays = false;
+  const Expression H = integral->H.replaced([&](const Expression& part) -> std::optional<Expression> {
+    if (!is_function(part, "sign") || part.parts()[0](here) != 0) return std::nullopt;
+    if (!after) {
+      try {
+        const reduction::PlanarOrbit motion = orbit();
+        after = motion.at(std::isfinite(motion.end_time()) ? std::min(soon, motion.end_time() / 2) : soon);
+      } catch (const std::domain_error&) {
+        after = start;  // the motion is not known
+      }
+    }
+    const double side = part.parts()[0]({(*after)[0], (*after)[1]});
+    stays |= side == 0 && jumps_at(integral->H, part.parts()[0]);
+    return Expression(side > 0 ? 1 : -1);
+  });
+  return stays ? std::numeric_limits<double>::quiet_NaN() : H(here);
 }
 
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,

@@ -68,7 +68,8 @@ std::string sum(std::initializer_list<std::pair<double, std::string_view>> terms
 }
 
 /// Returns a generator c t d/dt + ... with the given names of time and coordinates.
-std::string text_of(const Generator& x, std::string_view time, const Digits& digits) {
+std::string text_of(const Generator& x, std::string_view time, const Digits& digits, std::string_view u = "u",
+                    std::string_view v = "v") {
   std::string text;
   const auto add = [&](std::string factor, std::string_view name) {
     if (factor == "0") return;
@@ -80,8 +81,8 @@ std::string text_of(const Generator& x, std::string_view time, const Digits& dig
     text += fmt::format("{} d/d{}", factor, name);
   };
   add(sum({{x.time, time}}, digits), time);
-  add(sum({{x.matrix(0, 0), "u"}, {x.matrix(0, 1), "v"}, {x.shift[0], ""}}, digits), "u");
-  add(sum({{x.matrix(1, 0), "u"}, {x.matrix(1, 1), "v"}, {x.shift[1], ""}}, digits), "v");
+  add(sum({{x.matrix(0, 0), u}, {x.matrix(0, 1), v}, {x.shift[0], ""}}, digits), u);
+  add(sum({{x.matrix(1, 0), u}, {x.matrix(1, 1), v}, {x.shift[1], ""}}, digits), v);
   return text;
 }
 
@@ -465,7 +466,7 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
           return std::isfinite(time)
                      ? fmt::format(": it comes to rest elsewhere, after {}; relative error below {:.0e}", digits(time),
                                    error)
-                     : ": it comes to rest elsewhere";
+                     : ": it nears a point at rest for ever";
         case PlanarEnd::equilibrium:
           return ": it nears an equilibrium for ever";
         case PlanarEnd::cycle:
@@ -515,11 +516,65 @@ double end_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2
   return infinity;
 }
 
+/// A solution y = c of y' = F(x, y).
+struct ConstantSolution {
+  double y;
+  std::string_view stability;  ///< what neighbouring solutions do, if F does not contain x; empty if it is not known
+};
+
+/// Returns the constant solutions with |y| up to 1000, those nearest to the start if there are many.
+///
+/// Values cannot tell 0 from terms that rounding hides. A zero y of F is therefore a solution only if F does not
+/// contain x, if a factor of F without x vanishes, or if F becomes 0 when a fraction is put for y.
+/// @param slope  F as a formula
+std::vector<ConstantSolution> constant_solutions(const Expression& slope, const Vector2d& start, bool autonomous) {
+  const auto at = [&](const Expression& e, double y) { return e({start[0] + 0.2371, y}); };
+  std::vector<Expression> factors;
+  const Expression above = fraction_of(slope).above;
+  for (const Expression& factor : factors_of(above)) {
+    const Expression base = base_and_exponent(factor).first;
+    if (base.with(0, 1) == base) factors.push_back(base);
+  }
+  const auto vanishes = [&](const Expression& e, double y) {
+    constexpr double zero = 1e-9, step = 1e-3;
+    const double beside = step * (1 + std::abs(y)),
+                 least = std::min(std::abs(at(e, y - beside)), std::abs(at(e, y + beside)));
+    return std::abs(at(e, y)) <= zero * least && least > 0;
+  };
+  const auto stays = [&](double y) {
+    return vanishes(slope, y) && (autonomous || slope.with(1, snapped(y)).is_zero() ||
+                                  std::ranges::any_of(factors, [&](const Expression& e) { return vanishes(e, y); }));
+  };
+  // The equilibria of (x', y') = (x, F(x0, y)) have the places and the stability of the zeros at one x.
+  const reduction::SmoothField across([&](const Vector2d& x) { return Vector2d(x[0], at(slope, x[1])); });
+  constexpr std::size_t many = 6, most = 7;
+  std::vector<ConstantSolution> all;
+  for (double last = -1; const double reach : {2., 16., 128., 1024.}) {
+    if (all.size() > many) break;
+    for (const auto& each : find_equilibria(across, Vector2d(-1, -reach), Vector2d(1, reach)).points) {
+      const double y = each.x[1];
+      if (std::abs(y) <= last || !stays(y)) continue;
+      all.push_back({y, !autonomous                    ? ""
+                        : each.kind == "saddle"        ? "stable"
+                        : each.kind == "unstable node" ? "unstable"
+                        : each.kind == "saddle-node"   ? "stable on one side"
+                                                       : ""});
+    }
+    last = reach;
+  }
+  const auto distance = [&](const ConstantSolution& each) { return std::abs(each.y - start[1]); };
+  std::ranges::sort(all, {}, distance);
+  all.resize(std::min(all.size(), most), {});
+  std::ranges::sort(all, {}, &ConstantSolution::y);
+  return all;
+}
+
 /// Writes the reduction as it stands on a blackboard, in the letters of the equation.
 class Blackboard {
  public:
-  Blackboard(const FormulaField& system, const Steps& steps, const Digits& digits)
-      : type_(system.equations), time_(system.independent), steps_(steps), digits_(digits) {}
+  Blackboard(const FormulaField& system, const Steps& steps, const std::vector<ConstantSolution>& constants,
+             const Digits& digits)
+      : type_(system.equations), time_(system.independent), steps_(steps), constants_(constants), digits_(digits) {}
 
   void add(std::string_view name, const std::string& line) { text_ += fmt::format("{:<13}{}\n", name, line); }
 
@@ -553,11 +608,10 @@ class Blackboard {
 
   /// @param method  words for a solution without a formula
   /// @param form    form of the inverse integrating factor, if this is the method
+  /// @param C       value of H along the orbit, if it is known; else infinity or NaN
   /// @param until   x up to which y is on the branch; infinity if it is up to the end of the orbit
-  void add_solution(const std::optional<Vector2d>& start, const std::string& method, std::string_view form,
-                    double until) {
+  void add_solution(double C, const std::string& method, std::string_view form, double until) {
     if (steps_.integral) {
-      const double C = start ? steps_.integral->H({(*start)[0], (*start)[1]}) : infinity;
       std::vector<std::string> jumps;
       for (const Expression& place : steps_.jumps()) jumps.push_back(shown(place) + " = 0");
       add("solution", fmt::format("{} = C{}{}{}", shown(steps_.integral->H),
@@ -581,6 +635,15 @@ class Blackboard {
       add("factor", fmt::format("V is {}{}{}, as numbers;  dH = {}", form == "product" ? "a " : "",
                                 form.substr(0, form.size() - (of_u || of_v)), letter, differential()));
     }
+  }
+
+  void add_constants() {
+    std::vector<std::string> lines;
+    for (const auto& [y, stability] : constants_) {
+      lines.push_back(
+          fmt::format("{} = {}{}{}", steps_.names[1], digits_(y), stability.empty() ? "" : " is ", stability));
+    }
+    if (!lines.empty()) add("constant", fmt::format("{}", fmt::join(lines, "; ")));
   }
 
   void add_orbit(const Followed& followed, const Vector2d& start) {
@@ -613,7 +676,8 @@ class Blackboard {
     if (parts.size() > most) return add("switching", fmt::format("{} parts; --details lists them", parts.size()));
     for (const portraits::SwitchingPart& part : parts) {
       const auto [kind, ends] = words_of(part);
-      const double size = std::max(ends[0].norm(), ends[1].norm());
+      constexpr double error = 100;  // of the ends, in units of rounding
+      const double size = error * std::max(ends[0].norm(), ends[1].norm());
       add(kind, fmt::format("from {} to {}", place(ends[0], size), place(ends[1], size)));
     }
   }
@@ -672,8 +736,9 @@ class Blackboard {
       case PlanarEnd::periodic:
         return "none: the orbit is closed, with the period " + digits_(orbit.period().value());
       case PlanarEnd::rest:
-        return (when.empty() ? "" : when + ", ") +
-               fmt::format("{}: it comes to rest", place(orbit.at(time), start.norm()));
+        return when.empty() && orbit.limit() == start ? "none: the start is at rest"
+               : when.empty()                         ? tends_to(orbit, "rest")
+                              : fmt::format("{}, {}: it comes to rest", when, place(orbit.at(time), start.norm()));
       case PlanarEnd::equilibrium:
         return tends_to(orbit, "an equilibrium");
       case PlanarEnd::cycle:
@@ -681,7 +746,7 @@ class Blackboard {
       case PlanarEnd::infinity:
         // In a finite time y is infinite, so its slope is large before. Otherwise x alone grows.
         if (first && !(std::isfinite(time) && is_steep(orbit, time))) {
-          const double limit = orbit.limit()[1];
+          const double limit = limit_of(orbit, start);
           return fmt::format(
               "{} grows for ever{}", steps_.names[0],
               std::isfinite(limit) ? fmt::format("; {} tends to {}", steps_.names[1], digits_(limit)) : "");
@@ -713,6 +778,19 @@ class Blackboard {
   }
 
   /// Returns "it tends to" the limit of the orbit, or to the words if the limit is not known.
+  /// Returns the limit of y; NaN if it is not known. Without x in F, it is the next constant solution.
+  double limit_of(const PlanarOrbit& orbit, const Vector2d& start) const {
+    const double limit = orbit.limit()[1];
+    if (std::isfinite(limit) || std::ranges::count(steps_.kinds, "autonomous") == 0) return limit;
+    const double slope = steps_.parts[1]({start[0], start[1]});
+    double next = std::numeric_limits<double>::quiet_NaN();
+    for (const ConstantSolution& each : constants_) {
+      if (slope == 0 ? each.y == start[1] : (each.y - start[1]) * slope > 0 && !((each.y - next) * slope > 0))
+        next = each.y;
+    }
+    return next;
+  }
+
   std::string tends_to(const PlanarOrbit& orbit, std::string_view words) const {
     const Vector2d limit = orbit.limit();
     return fmt::format("it tends to {}", limit.allFinite() ? place(limit, limit.norm()) : words);
@@ -731,6 +809,7 @@ class Blackboard {
   FormulaField::Equations type_;
   const std::string& time_;  ///< letter of the time
   const Steps& steps_;
+  const std::vector<ConstantSolution>& constants_;
   Digits digits_;
   std::string text_;
 };
@@ -769,15 +848,20 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   const Vector2d around = reduction::sampled_about(field, start);
   const double size = around.lpNorm<Eigen::Infinity>();
   const PlanarSymmetries found = reduction::find_symmetries(field, around);
+  const std::string& time = system.independent;
   Answer answer{.members = {{"system", text}}, .text = [=](const Digits& digits) {
                   const std::string sampled =
                       around == start ? "" : fmt::format("; the field is sampled at distances about {}", digits(size));
-                  return fmt::format("system      {}\nstart       u = {}, v = {}{}\n", text, digits(start[0]),
-                                     digits(start[1]), sampled);
+                  const std::string &x = system.variables[0], &y = system.variables[1];
+                  const std::string letters =
+                      x == "u" && y == "v" ? "" : fmt::format("letters     u is {}, v is {}, t is {}\n", x, y, time);
+                  return fmt::format("system      {}\n{}{}u = {}, v = {}{}\n", text, letters,
+                                     given ? "start       " : "sampled     about ", digits(start[0]), digits(start[1]),
+                                     sampled);
                 }};
   if (given) answer.members.update({{"u0", start[0]}, {"v0", start[1]}});
   answer.members["size"] = size;
-  add_symmetries(answer, found, system.independent);
+  add_symmetries(answer, found, "t");
   const PlanarReduction plane = reduce(field, start, found);
   answer.members["form"] = plane.solved() ? Json(plane.form()) : Json();
   if (!plane.tried().empty()) {
@@ -841,17 +925,31 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   }
   if (cycle) answer.members["cycle"] = portraits::cycle_members<Json>(*cycle);
   const double until = steps.branch && followed ? end_of_branch(steps, followed->orbit, start) : infinity;
+  std::vector<ConstantSolution> constants;
+  if (system.equations == FormulaField::Equations::first) {
+    if (!steps.parts.empty())
+      constants = constant_solutions(steps.parts[1], start, std::ranges::count(steps.kinds, "autonomous") > 0);
+    answer.members["constant_solutions"] = Json::array();
+    for (const auto& [y, stability] : constants) {
+      answer.members["constant_solutions"].push_back(
+          {{"y", y}, {"stability", stability.empty() ? Json() : Json(stability)}});
+    }
+  }
+  const double C = steps.integral && given ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
-    Blackboard board(system, steps, digits);
+    Blackboard board(system, steps, constants, digits);
     board.add_kinds();
     const bool has_centre = plane.scaling() != nullptr;
     const std::string X =
-        found.generators.empty() || !has_centre ? "" : text_of(found.generators.front(), system.independent, digits);
+        found.generators.empty() || !has_centre
+            ? ""
+            : text_of(found.generators.front(), system.independent, digits, system.variables[0], system.variables[1]);
     board.add_coordinates(X);
     const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
                                : plane.solved() ? "by quadrature along H = C"
                                                 : "none by quadrature: " + words_of(plane.why_not());
-    board.add_solution(given, method, plane.form(), until);
+    board.add_solution(C, method, plane.form(), until);
+    board.add_constants();
     if (at_rest) {
       board.add("end", "the start is the centre");
     } else if (followed) {
@@ -1051,6 +1149,8 @@ std::vector<FieldText> reduce_system_fields() {
         {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`, `equilibria_curve`", "",
          "within: ranges of u and v in which equilibria are sought and reversors compared, up to 2.5 max(|u0|, |v0|). "
          "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
+        {"JSON `constant_solutions` [{`y`, `stability`}]", "",
+         "solutions y = c of y' = F(x, y) that were found near the start. stability: null if F contains x"},
         {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "",
          "curves at which the equations jump and that motions do not cross: rests, slides (along the curve), or leaves "
          "(both sides point away, and the motion is not unique)"},
