@@ -72,14 +72,14 @@ test("a text is a string, or strings and runs", () => {
 });
 
 test("bytes come back from the text that they are packed into, which may stand in a script and in an attribute", () => {
-  for (const length of [0, 1, 2, 5, 6, 7, 12, 13, 4099]) {
+  for (const length of [0, 1, 2, 18, 19, 20, 38, 39, 4099]) {
     const bytes = Uint8Array.from({ length }, (_, i) => (i * i * 31 + 7 * i) % 256);
     const text = packed(bytes);
     assert.deepEqual(unpacked(text), bytes, `${length} bytes`);
     assert.match(text, /^\d+ /);
-    // Readers of HTML and editors change no other character of ASCII in a text of a script.
-    assert.ok([...text].every((letter) => letter < "\x7f" && !"\0\t\n\v\f\r\x1a\x1b\"<\\".includes(letter)));
-    assert.ok(text.length <= 5 + 7 * Math.ceil(length / 6));
+    // Readers of HTML change no other character of ASCII in a text of a script.
+    assert.ok([...text].every((letter) => letter <= "\x7f" && !"\0\n\r\x1a\"<\\".includes(letter)));
+    assert.ok(text.length <= 5 + 22 * Math.ceil(length / 19));
   }
 });
 
