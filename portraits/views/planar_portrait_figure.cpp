@@ -415,7 +415,7 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
       its->second.points.insert(its->second.points.end(), marks.points.begin(), marks.points.end());
       its->second.legend += Text(", ") + marks.legend;
     }
-    for (auto& [shape, marks] : of_shape) layers.panel().marks.push_back(std::move(marks));
+    for (auto& each : of_shape) layers.panel().marks.push_back(std::move(each.second));
   }
 
   Figure figure;

@@ -144,7 +144,7 @@ TEST_CASE("a picture of two paths that coincide says how far apart the bodies ar
 TEST_CASE("a flat body has one curve for its slip and for the speed of its centre", "[table]") {
   RollCurve puck = curve(0, 2.2);
   puck.speed = puck.slip;
-  const Panel speeds = roll_figure({.ball = puck, .textbook = puck, .lies_flat = true}).panels.at(1);
+  const Panel speeds = roll_figure({{}, {}, puck, puck, {}, 0, true}).panels.at(1);
   CHECK(speeds.lines.size() == 4);
   REQUIRE(speeds.marks.size() == 2);
   CHECK(speeds.marks[0].legend.words() == "slip v, the speed of the centre");

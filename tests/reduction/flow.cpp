@@ -42,7 +42,7 @@ TEST_CASE("copies of a flow share what is solved, and its table is released", "[
   CHECK(flow.solution().through(0) == copy.solution().through(0));
   std::weak_ptr<const SimilarityCurve> curve;
   {
-    const Flow other({HertzLaw{}, 0.4});
+    const Flow other(HertzLaw{}, 0.4);
     curve = other.solution().through(0);
     CHECK(other.refused(Flow::many_starts) == 0);
   }

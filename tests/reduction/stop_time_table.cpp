@@ -300,7 +300,7 @@ TEST_CASE("a flow knows when a table pays, and a part of many starts has the bit
     CHECK((is_state({u0[i], v0[i]}) ? same_bits(part[i], flow.stop_time({u0[i], v0[i]}).tau) : std::isnan(part[i])));
   }
   CHECK(flow.refused(Flow::many_starts) == table.refused());
-  const Flow kinked{ReducedSystem(KinkedLaw{}, 0.3)};
+  const Flow kinked(KinkedLaw{}, 0.3);
   CHECK(kinked.refused(Flow::many_starts) > 0);
   CHECK(kinked.refused(Flow::many_starts - 1) == 0);
 }

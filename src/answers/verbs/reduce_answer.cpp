@@ -879,13 +879,13 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   answer.members.update(members_of_plane(equilibria));
   answer.members["switching"] = portraits::switching_member<Json>(switching);
   add_text(answer, [=](const Digits& digits) {
-    std::string text = text_of(plane.tried()) + text_of(equilibria, digits);
+    std::string lines = text_of(plane.tried()) + text_of(equilibria, digits);
     for (const portraits::SwitchingPart& part : switching) {
       const auto [kind, ends] = words_of(part);
-      text += fmt::format("{:<12}from ({}, {}) to ({}, {})\n", kind, digits(ends[0][0]), digits(ends[0][1]),
-                          digits(ends[1][0]), digits(ends[1][1]));
+      lines += fmt::format("{:<12}from ({}, {}) to ({}, {})\n", kind, digits(ends[0][0]), digits(ends[0][1]),
+                           digits(ends[1][0]), digits(ends[1][1]));
     }
-    return text;
+    return lines;
   });
 
   const bool by_factor = plane.solved() && !plane.scaling();
