@@ -235,20 +235,26 @@ std::string count_of(const reduction::Equilibria& equilibria, const std::array<s
                      curve, part(low[0]), letters[0], part(high[0]), part(low[1]), letters[1], part(high[1]));
 }
 
+/// Returns the kind of an equilibrium with the eigenvalues of the equations linearised there.
+std::string kind_of(const reduction::Equilibrium& point, const Digits& digits) {
+  const std::string kind(point.kind);
+  if (!point.eigenvalues) return kind;
+  const auto part = [&](double x) { return digits(x + 0.0); };
+  const auto [first, second] = *point.eigenvalues;
+  const std::string real = part(first.real()), imaginary = second.imag() == 1 ? "i" : part(second.imag()) + " i";
+  return fmt::format("{}, eigenvalues {}", kind,
+                     first.imag() == 0   ? real + ", " + part(second.real())
+                     : first.real() == 0 ? "+-" + imaginary
+                                         : real + " +- " + imaginary);
+}
+
 /// Returns a text on the equilibria near the start, and the reversors.
 std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
   const auto part = [&](double x) { return digits(x + 0.0); };
   const auto& [points, low, high, complete, on_curve, reversors] = equilibria;
   std::string text = fmt::format("equilibria  {}\n", count_of(equilibria, {"u", "v"}, digits));
   for (const reduction::Equilibrium& each : points) {
-    text += fmt::format("equilibrium ({}, {}): {}", part(each.x[0]), part(each.x[1]), each.kind);
-    if (each.eigenvalues) {
-      const auto [first, second] = *each.eigenvalues;
-      text +=
-          ", eigenvalues " + (first.imag() == 0   ? part(first.real()) + ", " + part(second.real())
-                              : first.real() == 0 ? fmt::format("+-{} i", part(second.imag()))
-                                                  : fmt::format("{} +- {} i", part(first.real()), part(second.imag())));
-    }
+    text += fmt::format("equilibrium ({}, {}): {}", part(each.x[0]), part(each.x[1]), kind_of(each, digits));
     if (each.kind == "degenerate" && each.index) text += fmt::format(", index {}", *each.index);
     text += '\n';
   }
@@ -666,7 +672,7 @@ class Blackboard {
         count_of(equilibria, {steps_.names[0], steps_.names[1]}, digits_) + (lists ? "" : "; --details lists them"));
     if (!lists) return;
     for (const reduction::Equilibrium& each : equilibria.points) {
-      add("equilibrium", fmt::format("{}: {}", place(each.x), each.kind));
+      add("equilibrium", fmt::format("{}: {}", place(each.x), kind_of(each, digits_)));
     }
   }
 
