@@ -429,6 +429,16 @@ struct Followed {
   std::optional<BySteps> stepped;
 
   bool refuted() const { return stepped && !stepped->confirms(); }
+
+  /// Returns the reason why the end is not certain; empty if it is. Along unstable orbits, as y = x of
+  /// y' = y^2 + 1 - x^2, rounding grows until another orbit is followed.
+  std::string doubt(const Digits& digits) const {
+    constexpr double most = 1e-6;
+    const double difference = stepped ? std::max(stepped->difference, stepped->error) : 0;
+    if (!refuted() && !(difference > most)) return "";
+    return fmt::format("two computations of the orbit differ by {:.0e} after {}; rounding grows along it", difference,
+                       digits(stepped->time));
+  }
 };
 
 /// Adds to the answer the end of the orbit, and the comparison with steps in time.
@@ -436,23 +446,31 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   Json& members = answer.members;
   const PlanarOrbit orbit = plane.orbit(start);
   const PlanarEnd end = orbit.end();
-  const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided;
+  const Followed followed{orbit, 0, by_steps(plane, orbit, start)};
+  const auto& stepped = followed.stepped;
+  const bool doubtful = !followed.doubt({6}).empty();
+  const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided || doubtful;
   const double tau_stop = end == PlanarEnd::centre ? orbit.end_time() : infinity;
-  const bool named = std::ranges::count(named_ends(), name(end)) > 0;
+  const bool named = !doubtful && std::ranges::count(named_ends(), name(end)) > 0;
   members.update({{"end", named ? Json(name(end)) : Json()}, {"tau_stop", unknown ? Json() : Json(tau_stop)}});
-  if (std::isfinite(orbit.end_time()) && end != PlanarEnd::undecided) members["end_time"] = orbit.end_time();
+  if (std::isfinite(orbit.end_time()) && end != PlanarEnd::undecided && !doubtful)
+    members["end_time"] = orbit.end_time();
   const double error = unknown ? 0 : plane.end_time_error(start, orbit);
   if (error > 0) members["accuracy"] = error;
-  if (orbit.period()) members["period"] = *orbit.period();
-  if (!orbit.undecided().empty()) members["undecided"] = orbit.undecided();
-  const auto stepped = by_steps(plane, orbit, start);
+  if (orbit.period() && !doubtful) members["period"] = *orbit.period();
+  if (doubtful) {
+    members["undecided"] = followed.doubt({6});
+  } else if (!orbit.undecided().empty()) {
+    members["undecided"] = orbit.undecided();
+  }
   members["by_steps"] = stepped ? Json{{"difference", stepped->difference},
                                        {"time", stepped->time},
                                        {"error", stepped->error},
                                        {"confirmed", stepped->confirms()}}
                                 : Json();
-  const bool refuted = stepped && !stepped->confirms();
+  const bool refuted = followed.refuted();
   const auto end_text = [=](const Digits& digits) -> std::string {
+    if (doubtful) return fmt::format("tau_stop    not decided: {}\n", followed.doubt(digits));
     if (end == PlanarEnd::border) {
       const double at = orbit.end_time();
       return fmt::format("tau_stop    not known: the orbit comes to a border of the field, a pole or a jump{}\n",
@@ -660,7 +678,8 @@ class Blackboard {
       add("check", fmt::format("by steps to {}: differs by {:.0e}{}", at(start, stepped->time), stepped->difference,
                                followed.refuted() ? ", not confirmed" : ""));
     }
-    add("end", end_of(orbit, start));
+    const std::string doubt = followed.doubt(digits_);
+    add("end", doubt.empty() ? end_of(orbit, start) : "not decided: " + doubt);
   }
 
   /// Adds the places at which both right sides vanish.
