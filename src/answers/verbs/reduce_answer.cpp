@@ -561,9 +561,13 @@ std::vector<ConstantSolution> constant_solutions(const Expression& slope, const 
   }
   const auto vanishes = [&](const Expression& e, double y) {
     constexpr double zero = 1e-9, step = 1e-3;
-    const double beside = step * (1 + std::abs(y)),
-                 least = std::min(std::abs(at(e, y - beside)), std::abs(at(e, y + beside)));
-    return std::abs(at(e, y)) <= zero * least && least > 0;
+    // On one side F may have no value, as y^(2/3).
+    const auto size = [&](double there) {
+      const double value = std::abs(at(e, there));
+      return std::isfinite(value) ? value : infinity;
+    };
+    const double beside = step * (1 + std::abs(y)), least = std::min(size(y - beside), size(y + beside));
+    return size(y) <= zero * least && least > 0 && std::isfinite(least);
   };
   const auto stays = [&](double y) {
     return vanishes(slope, y) && (autonomous || slope.with(1, snapped(y)).is_zero() ||
