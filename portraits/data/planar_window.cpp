@@ -95,8 +95,8 @@ bool is_population(const reduction::SmoothField& field, const Vector2d& size) {
   return values >= points && !reflected({-1, 1}) && !reflected({1, -1});
 }
 
-/// Returns the values y at which the slope of y' = F(x, y) changes its sign, the field being (1, F), and 0; empty for
-/// another field. Values beyond 1000 are left out, and all but the nearest one if there are many, as for sin(x y).
+/// Returns the values y at which the slope of y' = F(x, y) changes its sign, and 0. Values beyond 1000 are left out,
+/// and all but the nearest one if there are many, as for sin(x y).
 std::vector<double> slope_zeros(const reduction::SmoothField& field) {
   constexpr double first = 0.02, ratio = 1.05, last = 1000;
   constexpr std::size_t most = 4;
@@ -108,7 +108,6 @@ std::vector<double> slope_zeros(const reduction::SmoothField& field) {
       std::optional<Vector2d> before;
       for (double y = first; y < last * ratio; y *= ratio) {
         const auto rate = rate_of(field, {x, side * y});
-        if (rate && (*rate)[0] != 1) return {};
         if (rate && before && ((*rate)[1] < 0) != ((*before)[1] < 0)) changes.push_back(side * y);
         before = rate;
       }
@@ -127,13 +126,15 @@ std::vector<double> slope_zeros(const reduction::SmoothField& field) {
 
 bool is_slope_field(const reduction::SmoothField& field, const Window& window) {
   constexpr int across = 5;
+  bool has_values = false;
   for (int i = 0; i < across * across; ++i) {
     const int column = i % across, row = i / across;
     const Vector2d part((column + 0.5) / across, (row + 0.5) / across);
     const auto rate = rate_of(field, window.low + part.cwiseProduct(window.sides()));
     if (rate && (*rate)[0] != 1) return false;
+    has_values |= rate.has_value();
   }
-  return true;
+  return has_values;
 }
 
 Window united(const Window& window, const Vector2d& x) { return {window.low.cwiseMin(x), window.high.cwiseMax(x)}; }
@@ -176,10 +177,10 @@ PlanarView chosen_view(const reduction::PlanarReduction& plane, const std::vecto
   std::ranges::for_each(points, include);
   bool without_size = size.norm() < tiny;
   if (without_size) size[0] = 1;
-  if (const std::vector<double> levels = slope_zeros(field); !levels.empty()) {
-    size = {3, 3};  // y' = F(x, y)
+  if (const Vector2d usual(3, 3); is_slope_field(field, {-usual, usual})) {
+    size = usual;
     without_size = false;
-    for (const double y : levels) view.window = united(view.window, {0, y});
+    for (const double y : slope_zeros(field)) view.window = united(view.window, {0, y});
   }
   if (size[0] < tiny) size[0] = size[1] / ratio;
   if (size[1] < tiny) size[1] = size[0] * ratio;
