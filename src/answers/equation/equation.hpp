@@ -113,6 +113,12 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
 /// Returns y as a formula in x along the orbit through the start, solved from H = C; empty if H has no such branch.
 std::optional<Expression> solved_for_y(const Equation& equation, const Expression& H);
 
+/// A solution y = c of y' = F(x, y).
+struct ConstantSolution {
+  double y;
+  std::string_view stability;  ///< what neighbouring solutions do, if F does not contain x; empty if it is not known
+};
+
 /// The reduction of an equation as formulas in its own letters. A part that is not certain is empty.
 struct Steps {
   std::vector<std::string> names;  ///< the two variables, then q and p
@@ -120,9 +126,10 @@ struct Steps {
   std::optional<Coordinates> coordinates = {};
   std::optional<IntegralFormula> integral = {};
   std::string where = {};  ///< quadrant in which H was checked, such as "x > 0, y > 0"; empty for the plane
-  std::optional<Expression> branch = {};  ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
-  std::optional<Expression> factor = {};  ///< inverse integrating factor V, that of H if H is known
-  std::vector<Expression> parts = {};     ///< the right sides
+  std::optional<Expression> branch = {};         ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
+  std::optional<Expression> factor = {};         ///< inverse integrating factor V, that of H if H is known
+  std::vector<Expression> parts = {};            ///< the right sides
+  std::vector<ConstantSolution> constants = {};  ///< those that were found of y' = F(x, y)
 
   std::string text(const Expression& e, int digits = 0) const { return e.text(names, digits); }
 

@@ -89,6 +89,63 @@ double Steps::constant(const Eigen::Vector2d& start, const std::function<reducti
   return stays ? std::numeric_limits<double>::quiet_NaN() : H(here);
 }
 
+namespace {
+
+using Eigen::Vector2d;
+
+/// Returns the constant solutions with |y| up to 1000, those nearest to the start if there are many.
+///
+/// Values cannot tell 0 from terms that rounding hides. A zero y of F is therefore a solution only if F does not
+/// contain x, if a factor of F without x vanishes, or if F becomes 0 when a fraction is put for y.
+/// @param slope  F as a formula
+std::vector<ConstantSolution> constant_solutions(const Expression& slope, const Vector2d& start, bool autonomous) {
+  const auto at = [&](const Expression& e, double y) { return e({start[0] + 0.2371, y}); };
+  std::vector<Expression> factors;
+  const Expression above = fraction_of(slope).above;
+  for (const Expression& factor : factors_of(above)) {
+    const Expression base = base_and_exponent(factor).first;
+    if (base.with(0, 1) == base) factors.push_back(base);
+  }
+  const auto vanishes = [&](const Expression& e, double y) {
+    constexpr double zero = 1e-9, step = 1e-3;
+    // On one side F may have no value, as y^(2/3).
+    const auto size = [&](double there) {
+      const double value = std::abs(at(e, there));
+      return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
+    };
+    const double beside = step * (1 + std::abs(y)), least = std::min(size(y - beside), size(y + beside));
+    return size(y) <= zero * least && least > 0 && std::isfinite(least);
+  };
+  const auto stays = [&](double y) {
+    return vanishes(slope, y) && (autonomous || slope.with(1, snapped(y)).is_zero() ||
+                                  std::ranges::any_of(factors, [&](const Expression& e) { return vanishes(e, y); }));
+  };
+  // The equilibria of (x', y') = (x, F(x0, y)) have the places and the stability of the zeros at one x.
+  const reduction::SmoothField across([&](const Vector2d& x) { return Vector2d(x[0], at(slope, x[1])); });
+  constexpr std::size_t many = 6, most = 7;
+  std::vector<ConstantSolution> all;
+  for (double last = -1; const double reach : {2., 16., 128., 1024.}) {
+    if (all.size() > many) break;
+    for (const auto& each : find_equilibria(across, Vector2d(-1, -reach), Vector2d(1, reach)).points) {
+      const double y = each.x[1];
+      if (std::abs(y) <= last || !stays(y)) continue;
+      all.push_back({y, !autonomous                    ? ""
+                        : each.kind == "saddle"        ? "stable"
+                        : each.kind == "unstable node" ? "unstable"
+                        : each.kind == "saddle-node"   ? "stable on one side"
+                                                       : ""});
+    }
+    last = reach;
+  }
+  const auto distance = [&](const ConstantSolution& each) { return std::abs(each.y - start[1]); };
+  std::ranges::sort(all, {}, distance);
+  all.resize(std::min(all.size(), most), {});
+  std::ranges::sort(all, {}, &ConstantSolution::y);
+  return all;
+}
+
+}  // namespace
+
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
                bool cleared, const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around) {
   Steps steps{system.variables};
@@ -121,6 +178,11 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
     steps.factor = tidied((*both)[0].with(2, D * equation->f[0]).with(3, D * equation->f[1]) / D);
   });
   attempt([&] { steps.kinds = kinds_of(*equation); });
+  attempt([&] {
+    if (system.equations != FormulaField::Equations::first) return;
+    const bool autonomous = std::ranges::count(steps.kinds, "autonomous") > 0;
+    steps.constants = constant_solutions(equation->f[1], start.value_or(around), autonomous);
+  });
   attempt([&] { steps.coordinates = coordinates_of(*equation, found); });
   attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, steps.factor); });
   attempt([&] {

@@ -540,69 +540,11 @@ double end_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2
   return infinity;
 }
 
-/// A solution y = c of y' = F(x, y).
-struct ConstantSolution {
-  double y;
-  std::string_view stability;  ///< what neighbouring solutions do, if F does not contain x; empty if it is not known
-};
-
-/// Returns the constant solutions with |y| up to 1000, those nearest to the start if there are many.
-///
-/// Values cannot tell 0 from terms that rounding hides. A zero y of F is therefore a solution only if F does not
-/// contain x, if a factor of F without x vanishes, or if F becomes 0 when a fraction is put for y.
-/// @param slope  F as a formula
-std::vector<ConstantSolution> constant_solutions(const Expression& slope, const Vector2d& start, bool autonomous) {
-  const auto at = [&](const Expression& e, double y) { return e({start[0] + 0.2371, y}); };
-  std::vector<Expression> factors;
-  const Expression above = fraction_of(slope).above;
-  for (const Expression& factor : factors_of(above)) {
-    const Expression base = base_and_exponent(factor).first;
-    if (base.with(0, 1) == base) factors.push_back(base);
-  }
-  const auto vanishes = [&](const Expression& e, double y) {
-    constexpr double zero = 1e-9, step = 1e-3;
-    // On one side F may have no value, as y^(2/3).
-    const auto size = [&](double there) {
-      const double value = std::abs(at(e, there));
-      return std::isfinite(value) ? value : infinity;
-    };
-    const double beside = step * (1 + std::abs(y)), least = std::min(size(y - beside), size(y + beside));
-    return size(y) <= zero * least && least > 0 && std::isfinite(least);
-  };
-  const auto stays = [&](double y) {
-    return vanishes(slope, y) && (autonomous || slope.with(1, snapped(y)).is_zero() ||
-                                  std::ranges::any_of(factors, [&](const Expression& e) { return vanishes(e, y); }));
-  };
-  // The equilibria of (x', y') = (x, F(x0, y)) have the places and the stability of the zeros at one x.
-  const reduction::SmoothField across([&](const Vector2d& x) { return Vector2d(x[0], at(slope, x[1])); });
-  constexpr std::size_t many = 6, most = 7;
-  std::vector<ConstantSolution> all;
-  for (double last = -1; const double reach : {2., 16., 128., 1024.}) {
-    if (all.size() > many) break;
-    for (const auto& each : find_equilibria(across, Vector2d(-1, -reach), Vector2d(1, reach)).points) {
-      const double y = each.x[1];
-      if (std::abs(y) <= last || !stays(y)) continue;
-      all.push_back({y, !autonomous                    ? ""
-                        : each.kind == "saddle"        ? "stable"
-                        : each.kind == "unstable node" ? "unstable"
-                        : each.kind == "saddle-node"   ? "stable on one side"
-                                                       : ""});
-    }
-    last = reach;
-  }
-  const auto distance = [&](const ConstantSolution& each) { return std::abs(each.y - start[1]); };
-  std::ranges::sort(all, {}, distance);
-  all.resize(std::min(all.size(), most), {});
-  std::ranges::sort(all, {}, &ConstantSolution::y);
-  return all;
-}
-
 /// Writes the reduction as it stands on a blackboard, in the letters of the equation.
 class Blackboard {
  public:
-  Blackboard(const FormulaField& system, const Steps& steps, const std::vector<ConstantSolution>& constants,
-             const Digits& digits)
-      : type_(system.equations), time_(system.independent), steps_(steps), constants_(constants), digits_(digits) {}
+  Blackboard(const FormulaField& system, const Steps& steps, const Digits& digits)
+      : type_(system.equations), time_(system.independent), steps_(steps), digits_(digits) {}
 
   void add(std::string_view name, const std::string& line) { text_ += fmt::format("{:<13}{}\n", name, line); }
 
@@ -667,7 +609,7 @@ class Blackboard {
 
   void add_constants() {
     std::vector<std::string> lines;
-    for (const auto& [y, stability] : constants_) {
+    for (const auto& [y, stability] : steps_.constants) {
       lines.push_back(
           fmt::format("{} = {}{}{}", steps_.names[1], digits_(y), stability.empty() ? "" : " is ", stability));
     }
@@ -712,11 +654,10 @@ class Blackboard {
   }
 
   /// Returns how far H of the integral changes along steps in time; empty if the steps give no state.
-  void add_constancy(const PlanarReduction& plane, const Vector2d& start) {
-    if (!steps_.integral) return;
+  void add_constancy(const PlanarReduction& plane, const Vector2d& start, double C) {
+    if (!std::isfinite(C)) return;
     const Expression& H = steps_.integral->H;
     const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
-    const double C = H({start[0], start[1]});
     constexpr double longest = 4, shortest = 1e-3;
     for (double time = longest; time > shortest; time /= 2) {
       try {
@@ -813,7 +754,7 @@ class Blackboard {
     if (std::isfinite(limit) || std::ranges::count(steps_.kinds, "autonomous") == 0) return limit;
     const double slope = steps_.parts[1]({start[0], start[1]});
     double next = std::numeric_limits<double>::quiet_NaN();
-    for (const ConstantSolution& each : constants_) {
+    for (const ConstantSolution& each : steps_.constants) {
       if (slope == 0 ? each.y == start[1] : (each.y - start[1]) * slope > 0 && !((each.y - next) * slope > 0))
         next = each.y;
     }
@@ -838,7 +779,6 @@ class Blackboard {
   FormulaField::Equations type_;
   const std::string& time_;  ///< letter of the time
   const Steps& steps_;
-  const std::vector<ConstantSolution>& constants_;
   Digits digits_;
   std::string text_;
 };
@@ -954,19 +894,16 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   }
   if (cycle) answer.members["cycle"] = portraits::cycle_members<Json>(*cycle);
   const double until = steps.branch && followed ? end_of_branch(steps, followed->orbit, start) : infinity;
-  std::vector<ConstantSolution> constants;
   if (system.equations == FormulaField::Equations::first) {
-    if (!steps.parts.empty())
-      constants = constant_solutions(steps.parts[1], start, std::ranges::count(steps.kinds, "autonomous") > 0);
     answer.members["constant_solutions"] = Json::array();
-    for (const auto& [y, stability] : constants) {
+    for (const auto& [y, stability] : steps.constants) {
       answer.members["constant_solutions"].push_back(
           {{"y", y}, {"stability", stability.empty() ? Json() : Json(stability)}});
     }
   }
   const double C = steps.integral && given ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
-    Blackboard board(system, steps, constants, digits);
+    Blackboard board(system, steps, digits);
     board.add_kinds();
     const bool has_centre = plane.scaling() != nullptr;
     const std::string X =
@@ -984,7 +921,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     } else if (followed) {
       board.add_orbit(*followed, start);
     } else if (given) {
-      board.add_constancy(plane, start);
+      board.add_constancy(plane, start, C);
     }
     if (cycle) {
       board.add("cycle", fmt::format("the orbit nears a limit cycle with the period {}{}", digits(cycle->period),
