@@ -227,7 +227,7 @@ TEST_CASE("C of a start at a jump is that of the motion from there", "[invariant
     CHECK(found.integral->H({later[0], later[1]}) == Approx(C).epsilon(1e-9));
     REQUIRE(found.jumps().size() == 1);
     CHECK(found.jumps()[0].text(found.names, 6) == "x'");
-    // Where the force of the spring is less than friction, the body stays at the jump.
+    // The body stays at the jump if the force of the spring is less than friction.
     const Vector2d rest(friction / 2, 0);
     CHECK(std::isnan(found.constant(rest, [&] { return plane.orbit(rest); })));
   }

@@ -123,8 +123,8 @@ std::vector<FieldText> portrait_fields() {
        "with --view disc: degree of the polynomials, radius of the dotted circle, and equilibria at infinity, each with "
        "angle, kind, eigenvalues and index"},
       {"JSON `cycles` [...]", "",
-       "limit cycles that were found: a point of each, its period, stable, and multiplier. The multiplier is the factor of a small "
-       "distance from the cycle in a turn, or null if it is not certain"},
+       "limit cycles that were found: a point of each, its period, stable, and multiplier. The multiplier is the factor "
+       "of a small distance from the cycle in a turn, or null if it is not certain"},
       {"JSON `separatrices` [...]", "",
        "orbits that begin or end in saddles, like an entry of orbits. manifold unstable: the orbit begins in a saddle; "
        "stable: it ends there; connection: it does both"},
