@@ -336,15 +336,14 @@ void CycleSearch::about(const Vector2d& centre, const Vector2d& way, double reac
       if (stride == first || i % (2 * stride) != 0) insert(sample(reach * std::pow(nearest, 1 - 1. * i / count)));
     }
   }
+  const auto divide = [&](const Sample& from, const Sample& to) {
+    for (const double part : {0.25, 0.5, 0.75}) insert(sample(from.place * std::pow(to.place / from.place, part)));
+  };
   // A change of sign may hide three cycles. Beside a loop of a saddle all cycles lie just within the orbits that turn.
-  const std::vector<Sample> scanned = samples;
+  std::vector<Sample> scanned = samples;
   for (std::size_t i = 1; i < scanned.size(); ++i) {
     Sample turns = scanned[i - 1], other = scanned[i];
-    if (turns.growth * other.growth < 0) {
-      for (const double part : {0.25, 0.5, 0.75}) {
-        insert(sample(turns.place * std::pow(other.place / turns.place, part)));
-      }
-    }
+    if (turns.growth * other.growth < 0) divide(turns, other);
     if (std::isfinite(turns.growth) == std::isfinite(other.growth)) continue;
     if (!std::isfinite(turns.growth)) std::swap(turns, other);
     for (int k = 0; k < halvings; ++k) {
@@ -352,6 +351,14 @@ void CycleSearch::about(const Vector2d& centre, const Vector2d& way, double reac
       (std::isfinite(middle.growth) ? turns : other) = middle;
       insert(middle);
     }
+  }
+  // So may two places between which the growth changes less than on both sides: it may turn twice.
+  scanned = samples;
+  const auto slope = [&](std::size_t i) {
+    return std::abs((scanned[i].growth - scanned[i - 1].growth) / std::log(scanned[i].place / scanned[i - 1].place));
+  };
+  for (std::size_t i = 2; i + 1 < scanned.size(); ++i) {
+    if (slope(i) < slope(i - 1) && slope(i) < slope(i + 1)) divide(scanned[i - 1], scanned[i]);
   }
   // A growth below the error of the orbits is 0. Two such growths in sequence are those of a center's closed orbits.
   constexpr double roundings = 300;

@@ -82,16 +82,19 @@ TEST_CASE("all limit cycles of a radial equation are found, in any coordinates",
   // r' = c r (r^2 - a) (r^2 - b) ..., theta' = w. The radius of a cycle has the rate 2 c a (a - b) ... of growth.
   std::mt19937_64 random(20260719);
   std::uniform_real_distribution<double> uniform(0, 1);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 48; ++i) {
     std::vector<double> squares;
     const int count = i % 4;
     for (double last = 0.1; static_cast<int>(squares.size()) < count;) {
-      squares.push_back(last += 0.05 + 0.5 * uniform(random));
+      const bool closest = i % 8 == 3 && squares.size() == 2;
+      squares.push_back(last += 0.05 + (closest ? 0.03 : 0.5) * uniform(random));
     }
     const double c = (i % 2 == 0 ? 1 : -1) * (0.2 + uniform(random)),
                  w = (i % 3 == 0 ? -1 : 1) * (0.5 + uniform(random));
     const Vector2d centre(uniform(random) - 0.5, uniform(random) - 0.5);
-    const Matrix2d mixed = Matrix2d::Identity() + 0.3 * Matrix2d::Random(), back = mixed.inverse();
+    Matrix2d mixed = Matrix2d::Identity();
+    for (double& each : mixed.reshaped()) each += 0.6 * uniform(random) - 0.3;
+    const Matrix2d back = mixed.inverse();
     const PlanarField field = [=](const Vector2d& x) -> Vector2d {
       // Written out, because expressions of matrices are slow without optimization.
       const double u = x[0] - centre[0], v = x[1] - centre[1];
