@@ -251,8 +251,12 @@ bool vanishes_on_circle(const ScaledField& field, const Vector2d& x, double radi
       (nearer ? high : low) = nearer ? right : left;
     }
     const Vector2d at = field.moved(x, radius * direction((low + high) / 2));
-    const auto there = field.linear(at, true);
-    if (there && there->g.norm() <= zero * largest && !field.differs_from_zero(at, *there)) ++places;
+    const auto g = field(at);
+    if (!g || !(g->norm() <= zero * largest)) continue;
+    // On a kink the field has no slopes.
+    const auto there = field.linear(at, true).value_or(ScaledField::Linear{*g, Matrix2d::Zero()});
+    const Vector2d by_angle = eps * radius * there.slopes.rowwise().norm();  // the angle has its own rounding
+    if (!field.differs_from_zero(at, there, by_angle)) ++places;
   }
   return places > 1;
 }
@@ -454,13 +458,27 @@ void ZeroSearch::examine(Vector2d x) {
   constexpr double small = 1e-9;
   if (!(g.norm() <= small * around)) return;
   const Matrix2d none = Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const auto beside_it = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
+  const auto vanishes = [&](double radius) { return vanishes_on_circle(field_, x, radius); };
+  const auto vanishes_near = [&] { return vanishes(0.05) && vanishes(0.02); };
   const Sides sides = compare_sides(field_, x);
   if (!sides.smooth) {
     if (sides.jump && !g.isZero(0)) return others_.push_back(x);
-    return add({x, none, planar_kind("not smooth")}, same);
+    const bool known_curve = std::ranges::any_of(curves_, beside_it);
+    if (!known_curve && !vanishes_near()) return add({x, none, planar_kind("not smooth")}, same);
+    if (!known_curve) curves_.push_back(x);
+    name_curve(x);
+    return others_.push_back(x);
   }
   const auto at = field_.linear(x, true);
   if (!at) return add({x, none}, same);
+  // Between waves that are shorter than the steps of the differences, these are no slopes.
+  constexpr double like = 1e-3;
+  const auto close = field_.linear(x, false);
+  if (!close || (close->slopes - at->slopes).norm() > like * (at->slopes.norm() + around / beside)) {
+    complete_ = false;
+    return others_.push_back(x);
+  }
   if (const auto point = simple(x, *at)) return add(*point, same);
   const auto meets_curve = [&](double distance, int steps) {
     return on_simple_curve_of_zeros(field_, x, at->slopes, distance, steps);
@@ -471,15 +489,13 @@ void ZeroSearch::examine(Vector2d x) {
     return others_.push_back(x);
   }
   const auto of_multiple = [&](const Zero& zero) { return field_.distance(x, zero.point.x) < zero.radius; };
-  const auto beside_it = [&](const Vector2d& other) { return field_.distance(x, other) < apart; };
   if (std::ranges::any_of(zeros_, of_multiple) || std::ranges::any_of(curves_, beside_it)) return others_.push_back(x);
   if (std::ranges::any_of(flats_, beside_it) && (field_.differs_from_zero(x, *at) || !is_alone(x, *at))) return;
   // Newton's method halves the distance to a multiple zero only. If there is a point of few decimals at which the field
   // is smaller, it is the better zero.
   const auto better = few_decimals(field_.unscaled(), x, field_.half(), coarse);
   if (better && *better != x) return examine(*better);
-  const auto vanishes = [&](double radius) { return vanishes_on_circle(field_, x, radius); };
-  if ((near_curve || (vanishes(0.05) && vanishes(0.02))) && vanishes(far) && vanishes(0.7 * far)) {
+  if ((near_curve || vanishes_near()) && vanishes(far) && vanishes(0.7 * far)) {
     curves_.push_back(x);
     name_curve(x);
     return others_.push_back(x);
