@@ -273,3 +273,26 @@ TEST_CASE("orbits that stay beside a pole for ever do not end at it by rounding"
     CHECK(reduction::reduce(field, start).orbit(start).end() != reduction::PlanarEnd::border);
   }
 }
+
+TEST_CASE("along unstable solutions states have no digits that rounding made", "[planar]") {
+  // z = y - a x - b obeys z' = z (c z + d x), so that the rounding of z = 0 grows like exp(d x^2/2).
+  for (int i = 0; i < 6; ++i) {
+    const double a = 0.4 - 0.3 * i, b = 0.7 * i - 1, c = i % 2 == 0 ? 0.9 : -1.3, d = 1.2 + 0.4 * i;
+    const std::string z = fmt::format("(y - ({})*x - ({}))", a, b);
+    // The term with the cube has no solution by quadrature.
+    const std::string text =
+        fmt::format("y' = {} + {}*({}*{} + {}*x{})", a, z, c, z, d, i % 3 == 2 ? "- y*" + z + "^2" : "");
+    for (const double x : {1., 3., 6., 9.}) {
+      INFO(text << ", x = " << x);
+      const Run run = run_program({"orbit", "--system", text, "--x0", "0", "--y0", fmt::format("{}", b), "--at",
+                                   fmt::format("{}", x), "--format", "json"});
+      CHECK((run.status == 0 || x > 1));
+      if (run.status == 0) {
+        CHECK(nlohmann::json::parse(run.out)["y"][0].get<double>() == Catch::Detail::Approx(a * x + b).margin(1e-6));
+      } else {
+        CHECK(run.status == 2);
+        CHECK_THAT(run.err, Catch::Matchers::Contains("the orbit is known up to"));
+      }
+    }
+  }
+}

@@ -39,6 +39,7 @@ class HalfOrbit {
         start_(start),
         orbit_(plane.orbit(start)),
         steps_(plane.solved() ? reduction::by_steps(plane.field()).orbit(start) : orbit_),
+        again_(plane.solved() ? steps_ : reduction::by_steps(plane.field(), coarser).orbit(start)),
         solved_(plane.solved()) {}
 
   /// Returns the state after a time; empty beyond the end.
@@ -48,12 +49,13 @@ class HalfOrbit {
     constexpr double error = 1e-12;
     if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
     if (solved_) {
-      if (const auto x = by_quadrature(time)) return ComputedState{*x, true};
+      if (const auto x = by_quadrature(time))
+        return agrees(time) ? std::optional(ComputedState{*x, true}) : std::nullopt;
       // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier or divides.
       if (!goes_on(time) || !orbit_.unique()) return std::nullopt;
     }
     const auto x = state(steps_, time);
-    return x ? std::optional(ComputedState{*x, false}) : std::nullopt;
+    return x && (solved_ || agrees(time)) ? std::optional(ComputedState{*x, false}) : std::nullopt;
   }
 
   /// Returns true unless the orbit is known to end before a time.
@@ -65,6 +67,7 @@ class HalfOrbit {
   /// Returns the reason why neither a quadrature nor steps reach a time.
   std::string why_not(double time) const {
     if (!orbit_.unique()) return orbit_.undecided();
+    if (!agrees(time)) return "two computations of the orbit differ; rounding grows along it";
     try {
       steps_.at(time);
     } catch (const std::domain_error& stopped) {
@@ -109,15 +112,42 @@ class HalfOrbit {
     }
   }
 
+  /// Returns false if steps in time, or for an unsolved field larger steps, lead to another state before a time. Along
+  /// unstable orbits, as y = x of y' = y^2 + 1 - x^2, rounding grows until another orbit is followed; later both may
+  /// follow the same one.
+  bool agrees(double time) const {
+    constexpr double periods = 3, between = 16;
+    const double until = orbit_.period() ? std::min(time, periods * *orbit_.period()) : time;
+    while (agreed_ < until) {
+      const double next = std::min(until, agreed_ + until / between);
+      if (!agrees_at(next)) return false;
+      agreed_ = next;
+    }
+    return true;
+  }
+
+  /// Returns true if both states are equal, or one state a little earlier or later.
+  bool agrees_at(double time) const {
+    const double same = solved_ ? 1e-8 : 1e-6;
+    const auto here = solved_ ? by_quadrature(time) : state(orbit_, time), there = state(again_, time);
+    if (!here || !there) return true;
+    const double difference = (*here - *there).stableNorm();
+    return difference <= same * std::max(start_.stableNorm(), here->stableNorm()) ||
+           difference <= same * time * plane_.field()(*here).stableNorm();
+  }
+
+  static constexpr double coarser = 1e-11;  ///< tolerance of the larger steps
+
   struct Part {
     double begin;
     PlanarOrbit orbit;
   };
   PlanarReduction plane_;
   Vector2d start_;
-  PlanarOrbit orbit_, steps_;
+  PlanarOrbit orbit_, steps_, again_;
   bool solved_;
   mutable std::vector<Part> parts_{{0, orbit_}};
+  mutable double agreed_ = 0;  ///< time up to which the states agree
 };
 
 std::string words_of_end(const HalfOrbit& half, double last, double time) {
