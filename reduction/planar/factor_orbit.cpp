@@ -241,7 +241,7 @@ class Follower {
     constexpr double close = 0.1;
     Vector2d rest = x_;
     Matrix2d slopes = here.slopes;
-    double left = infinity;
+    Vector2d left = here.f;
     constexpr double clear = 1e-10;
     const auto step_to_rest = [](const Jet& at) {
       const double norm = at.slopes.norm();
@@ -256,14 +256,15 @@ class Follower {
       const auto there = jet_of(field_, rest);
       if (!there) return false;
       slopes = there->slopes;
-      left = there->f.norm();
+      left = there->f;
       way = step_to_rest(*there);
       if (!(way.norm() <= (x_ - rest).norm())) return false;
     }
     if (!region_->contains(rest)) return false;
     const Vector2d offset = x_ - rest;
-    constexpr double found = 1e-6;
-    if (!(left <= found * here.f.norm())) return false;
+    // Each component vanishes, also one that is tiny beside the other.
+    constexpr double found = 1e-6, roundings = 8;
+    if (!(left.cwiseAbs().array() <= (found * here.f.cwiseAbs() + roundings * noise_).array()).all()) return false;
     const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
     const bool saddle = determinant < -clear * norm * norm;
     // Components of the offset along the two eigenvectors of a saddle.
