@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -55,6 +56,54 @@ ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start)
   };
   return from;
 }
+
+/// The coordinates of the strip of a shift, of a turn about the origin, or of a scaling whose matrix is diagonal.
+class Chart {
+ public:
+  Chart(const reduction::Generator& symmetry, const Vector2d& start) : A_(symmetry.matrix), b_(symmetry.shift) {
+    if (!scales()) return;
+    centre_ = symmetry.centre();
+    power_ = A_(1, 1) / A_(0, 0);
+    side_ = start[0] < centre_[0] ? -1 : 1;
+  }
+
+  bool scales() const { return A_(0, 0) != 0; }
+  bool turns() const { return !scales() && !A_.isZero(0); }
+
+  Point canonical(const Vector2d& x) const {
+    if (turns()) return {x.norm(), std::atan2(x[1], x[0])};
+    if (scales()) return {(x[1] - centre_[1]) / raised(x[0] - centre_[0]), std::log(std::abs(x[0] - centre_[0]))};
+    return b_[0] == 0 ? Point{x[0], x[1] / b_[1]} : Point{x[1] - b_[1] * x[0] / b_[0], x[0] / b_[0]};
+  }
+  Vector2d place(Point at) const {
+    const auto [q, p] = at;
+    if (turns()) return {q * std::cos(p), q * std::sin(p)};
+    if (scales()) return centre_ + Vector2d(side_ * std::exp(p), q * raised(side_ * std::exp(p)));
+    return b_[0] == 0 ? Vector2d(q, b_[1] * p) : Vector2d(b_[0] * p, q + b_[1] * p);
+  }
+  /// Returns the rates of q and p at a point of the plane.
+  Vector2d rates(const Vector2d& x, const Vector2d& f) const {
+    if (turns()) return {x.dot(f) / x.norm(), (x[0] * f[1] - x[1] * f[0]) / x.squaredNorm()};
+    if (scales()) {
+      const Vector2d away = x - centre_;
+      const double rate = f[0] / away[0];
+      return {(f[1] - power_ * away[1] * rate) / raised(away[0]), rate};
+    }
+    return b_[0] == 0 ? Vector2d(f[0], f[1] / b_[1]) : Vector2d(f[1] - b_[1] * f[0] / b_[0], f[0] / b_[0]);
+  }
+  /// Returns the range of p of a shift in a window.
+  double range_of_p(const Vector2d& sides) const {
+    return b_[0] == 0 ? sides[1] / std::abs(b_[1]) : sides[0] / std::abs(b_[0]);
+  }
+
+ private:
+  /// A power that is not whole is that of the absolute value.
+  double raised(double x) const { return std::pow(power_ == std::round(power_) ? x : std::abs(x), power_); }
+
+  Eigen::Matrix2d A_;
+  Vector2d b_, centre_{0, 0};
+  double power_ = 0, side_ = 1;
+};
 
 }  // namespace
 
@@ -126,39 +175,30 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
 
 ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vector2d& start,
                              const reduction::Generator& symmetry) {
-  const bool turns = symmetry.shift.isZero(0), upright = !turns && symmetry.shift[0] == 0;
-  const Vector2d b = symmetry.shift;
-  const auto canonical = [=](const Vector2d& x) {
-    if (turns) return Point{x.norm(), std::atan2(x[1], x[0])};
-    const double p = upright ? x[1] / b[1] : x[0] / b[0];
-    return upright ? Point{x[0], p} : Point{x[1] - b[1] * p, p};
+  const Chart chart(symmetry, start);
+  ReducedOrbits from{.start = chart.canonical(start), .orbit = {}};
+  from.in_plane = [chart](Point at) {
+    const Vector2d x = chart.place(at);
+    return Point{x[0], x[1]};
   };
-  ReducedOrbits from{.start = canonical(start), .orbit = {}};
-  from.in_plane = [=](Point at) {
-    if (turns) return Point{at.x * std::cos(at.y), at.x * std::sin(at.y)};
-    return upright ? Point{at.x, b[1] * at.y} : Point{b[0] * at.y, at.x + b[1] * at.y};
+  double half = 10 * std::max(1.0, std::abs(from.start.x));
+  if (!chart.scales()) {
+    const PortraitRequest request{.highlight = reduction::State{start[0], start[1]}, .orbits = 0, .isochrones = 0};
+    const Vector2d sides = planar_portrait(plane, "", request).window.sides();
+    constexpr int copies_in_window = 8, copies_in_turn = 7;
+    half = 3 * sides.maxCoeff();
+    from.step = chart.turns() ? 2 * pi / copies_in_turn : chart.range_of_p(sides) / copies_in_window;
+  }
+  // The rates of q and p do not depend on p, up to a factor that is the same for both.
+  const auto rates = [&plane, chart, p = from.start.y](double q) {
+    const Vector2d x = chart.place({q, p});
+    return chart.rates(x, plane.field()(x));
   };
-  const auto place = [&](double q) {
-    const auto [u, v] = from.in_plane({q, from.start.y});
-    return Vector2d(u, v);
-  };
-  // Orbits are followed in a window that is larger than the picture, so that their copies fill the picture.
-  constexpr double larger = 3;
-  PortraitRequest request{.highlight = reduction::State{start[0], start[1]}, .orbits = 0, .isochrones = 0};
-  const Window seen = planar_portrait(plane, "", request).window;
-  const Vector2d middle = (seen.low + seen.high) / 2;
-  request.window = Window{middle + larger * (seen.low - middle), middle + larger * (seen.high - middle)};
-  constexpr int copies_in_window = 8, copies_in_turn = 7;
-  from.step = turns ? 2 * pi / copies_in_turn
-                    : seen.sides()[upright ? 1 : 0] / copies_in_window / std::abs(upright ? b[1] : b[0]);
-  // On an invariant line the field is parallel to the symmetry.
-  const double half = larger * seen.sides().maxCoeff();
-  const double low = turns ? 1e-3 * half : from.start.x - half, high = from.start.x + half;
+  // On an invariant line q is constant.
+  const double low = chart.turns() ? 1e-3 * half : from.start.x - half, high = from.start.x + half;
   const auto across = [&](double q) {
-    const Vector2d x = place(q), along = symmetry.matrix * x + b;
     try {
-      const Vector2d f = plane.field()(x);
-      return along[0] * f[1] - along[1] * f[0];
+      return rates(q)[0];
     } catch (const std::exception&) {
       return std::numeric_limits<double>::quiet_NaN();
     }
@@ -174,38 +214,28 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
       if (std::abs(across(root)) < std::min(std::abs(before), std::abs(after))) from.rays.push_back(root);
     }
   }
+  if (across(from.start.x) == 0) refuse_ray();
   std::vector<double> between{low};
   between.insert(between.end(), from.rays.begin(), from.rays.end());
   between.push_back(high);
   const auto sector = [&](double q) { return std::ranges::upper_bound(from.rays, q) - from.rays.begin(); };
-  if (across(from.start.x) == 0) refuse_ray();
-  request.highlight.reset();
-  request.through = {{start[0], start[1]}};
+  PortraitRequest request{.orbits = 0, .isochrones = 0};
+  request.through = {{from.start.x, from.start.y}};
   for (std::size_t i = 0; i + 1 < between.size(); ++i) {
     // The outer sectors are wide; their orbit passes near the start, too.
-    const double near = half / (2 * larger);
-    const Vector2d x =
-        place((std::max(between[i], from.start.x - near) + std::min(between[i + 1], from.start.x + near)) / 2);
-    const bool inside =
-        (x.array() > request.window->low.array()).all() && (x.array() < request.window->high.array()).all();
-    if (inside && std::isfinite(across(canonical(x).x)) && sector(canonical(x).x) != sector(from.start.x)) {
-      request.through.push_back({x[0], x[1]});
-    }
+    const double near = half / (chart.scales() ? 5 : 6);
+    const double q = (std::max(between[i], from.start.x - near) + std::min(between[i + 1], from.start.x + near)) / 2;
+    if (q > low && std::isfinite(across(q)) && sector(q) != sector(from.start.x))
+      request.through.push_back({q, from.start.y});
   }
-  for (const PortraitOrbit& part : planar_portrait(plane, "", request).through) {
+  // Orbits are followed in the strip, farther than its picture, so that their copies fill the picture.
+  constexpr double farther = 10;
+  request.window = Window{{low, from.start.y - farther * from.step}, {high, from.start.y + farther * from.step}};
+  const reduction::PlanarReduction strip =
+      reduction::by_steps(reduction::SmoothField([&](const Vector2d& at) { return rates(at[0]); }));
+  for (const PortraitOrbit& part : planar_portrait(strip, "", request).through) {
     Polyline line;
-    for (Eigen::Index i = 0; i < part.rows(); ++i) {
-      Point at = canonical({part.u[i], part.v[i]});
-      const double last = line.empty() ? from.start.y : line.back().y;
-      if (turns) at.y += 2 * pi * std::round((last - at.y) / (2 * pi));
-      line.push_back(at);
-    }
-    if (turns) {
-      // The turns are counted from the point of the line that is as far from the origin as the start.
-      const auto away = [&](const Point& at) { return std::abs(at.x - from.start.x); };
-      const double here = std::ranges::min_element(line, {}, away)->y;
-      for (Point& at : line) at.y += 2 * pi * std::round((from.start.y - here) / (2 * pi));
-    }
+    for (Eigen::Index i = 0; i < part.rows(); ++i) line.push_back({part.u[i], part.v[i]});
     const bool of_start = sector(line[line.size() / 2].x) == sector(from.start.x);
     (of_start ? from.orbit : from.elsewhere).push_back(std::move(line));
   }

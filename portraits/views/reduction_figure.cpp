@@ -28,7 +28,9 @@ struct Words {
   const char *moves, *lines;
 };
 Words words_of(const reduction::Generator* symmetry, double step) {
-  if (!symmetry) return {"ln 2", "magnifies", "rays"};
+  const bool scales = symmetry && symmetry->matrix(0, 0) != 0;
+  if (scales && symmetry->matrix(1, 1) != symmetry->matrix(0, 0)) return {"ln 2", "scales", "invariant curves"};
+  if (!symmetry || scales) return {"ln 2", "magnifies", "rays"};
   if (symmetry->shift.isZero(0)) return {"2π/7", "turns", "invariant circles"};
   return {fmt::format("{:.3g}", step), "shifts", "invariant lines"};
 }
@@ -178,29 +180,46 @@ Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Ve
     figure.size = fitted({270, 105}, 3, size);
     return figure;
   }
-  const Eigen::Vector2d centre = symmetry ? Eigen::Vector2d::Zero() : plane.centre();
-  double half = plane_widths * (start - centre).lpNorm<Eigen::Infinity>();
+  const bool scales = symmetry && symmetry->matrix(0, 0) != 0;
+  const Eigen::Vector2d centre = scales ? symmetry->centre() : symmetry ? Eigen::Vector2d::Zero() : plane.centre();
+  const Eigen::Vector2d away = (start - centre).cwiseAbs();
+  Eigen::Vector2d half = Eigen::Vector2d::Constant(plane_widths * away.maxCoeff());
   Eigen::Vector2d middle = centre;
-  if (symmetry) {
+  in_plane.to_scale = true;
+  if (scales) {
+    // The nearest rays are seen.
+    const double wide = std::max(2.0, 3 * std::abs(x));
+    double low = x - wide, high = x + wide;
+    const auto next = std::ranges::upper_bound(from.rays, x);
+    constexpr double beyond = 0.15;
+    if (next != from.rays.end()) high = std::max(high, *next + beyond * (*next - x));
+    if (next != from.rays.begin()) low = std::min(low, *(next - 1) - beyond * (x - *(next - 1)));
+    strip.x = {math(names.q), low, high, false, {}};
+    // Orbits lie on the side of the start. A scaling with two rates is no magnification: each axis has its own unit.
+    constexpr double widths = 1.3, margin = 0.95;
+    in_plane.to_scale = symmetry->matrix(0, 0) == symmetry->matrix(1, 1);
+    half = widths * (in_plane.to_scale ? Eigen::Vector2d::Constant(away.maxCoeff())
+                                       : Eigen::Vector2d(away.cwiseMax(1e-3 * away.maxCoeff())));
+    middle[0] += std::copysign(margin * half[0], start[0] - centre[0]);
+  } else if (symmetry) {
     // The copies of the start lie in the window.
     const bool turns = symmetry->shift.isZero(0);
     if (turns) {
       constexpr double farthest = 5, margin = 1.3;
       for (const double radius : from.rays) {
-        if (radius < farthest * x) half = std::max(half, margin * radius);
+        if (radius < farthest * x) half.setConstant(std::max(half[0], margin * radius));
       }
     } else {
       middle = start;
-      half = 4.4 * from.step * symmetry->shift.lpNorm<Eigen::Infinity>();
+      half.setConstant(4.4 * from.step * symmetry->shift.lpNorm<Eigen::Infinity>());
     }
-    strip.x = {math(names.q), turns ? 0 : x - half, turns ? std::numbers::sqrt2 * half : x + half, false, {}};
+    strip.x = {math(names.q), turns ? 0 : x - half[0], turns ? std::numbers::sqrt2 * half[0] : x + half[0], false, {}};
   } else {
     const double first = from.rays.empty() ? 0 : from.rays[0];
     strip.x = {math("q") + ", the angle", first, first + 2 * pi, false, {}};
   }
-  in_plane.x = {math(names.variables[0]), middle[0] - half, middle[0] + half, false, {}};
-  in_plane.y = {math(names.variables[1]), middle[1] - half, middle[1] + half, false, {}};
-  in_plane.to_scale = true;
+  in_plane.x = {math(names.variables[0]), middle[0] - half[0], middle[0] + half[0], false, {}};
+  in_plane.y = {math(names.variables[1]), middle[1] - half[1], middle[1] + half[1], false, {}};
   strip.y.name = math(names.p);
   return draw(from, in_plane, strip, words, "The reduction of  " + shortened(names.system), size);
 }

@@ -224,6 +224,35 @@ TEST_CASE("shifts and turns move orbits along p", "[exact]") {
   CHECK_THROWS_AS(reduced_orbits(reduction::by_steps(field), {0, 1}, turn), std::domain_error);
 }
 
+TEST_CASE("scalings with two rates move orbits along p", "[exact]") {
+  // y' = m (y-c)/(x-a) + ((y-c)^2/(x-a)^m - b^2 (x-a)^m)/(x-a) has dq/dp = q^2 - b^2 with q = (y-c)/(x-a)^m, thus the
+  // orbits p = ln|(q - b)/(q + b)|/(2 b) + C and the invariant curves q = b, -b.
+  for (const auto& [m, side] : {std::pair(1, 1), std::pair(-2, -1), std::pair(3, -1)}) {
+    const double a = 0.3, c = -0.7, b = 0.8, q0 = 0.45;
+    const auto field = [=, m = m](const Vector2d& x) {
+      const double raised = std::pow(x[0] - a, m), y = x[1] - c;
+      return Vector2d(1, (m * y + y * y / raised - b * b * raised) / (x[0] - a));
+    };
+    const Vector2d start(a + 1.5 * side, c + q0 * std::pow(1.5 * side, m));
+    const reduction::Generator scaling{0, matrix(1, 0, 0, m), Vector2d(-a, -m * c)};
+    INFO("m = " << m);
+    const ReducedOrbits from = reduced_orbits(reduction::by_steps(field), start, scaling);
+    REQUIRE(from.rays.size() == 2);
+    CHECK(from.rays[0] == Approx(-b));
+    CHECK(from.rays[1] == Approx(b));
+    CHECK(from.elsewhere.size() == 2);
+    const auto level = [&](double q) { return std::log(std::abs((q - b) / (q + b))) / (2 * b); };
+    REQUIRE(from.orbit.size() == 1);
+    REQUIRE(from.orbit[0].size() > 50);
+    for (const Point& at : from.orbit[0]) {
+      if (std::abs(at.x) < 0.99 * b) CHECK(at.y == Approx(std::log(1.5) + level(at.x) - level(q0)).margin(2e-3));
+    }
+    const Point copy = from.in_plane({from.start.x, from.start.y + 1});
+    CHECK(copy.x == Approx(a + side * 1.5 * std::exp(1)));
+    CHECK(copy.y == Approx(c + q0 * std::pow(side * 1.5 * std::exp(1), m)));
+  }
+}
+
 TEST_CASE("what the symmetry moves along itself has no strip", "[limit]") {
   const reduction::Flow flow(reduction::HertzLaw{}, 0.3);
   for (const reduction::State start : {reduction::State{0, 1}, {1, 0}, {0, 0}}) {

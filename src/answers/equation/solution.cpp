@@ -532,6 +532,7 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
       }
     }
     const auto shown = [&](const E& e) { return e.is(Kind::sum) ? "(" + e.text(names) + ")" : e.text(names); };
+    c.motion = {0, Eigen::Vector2d(1, m.value()).asDiagonal(), {-x0.value(), -(m * y0).value()}};
     return accepted(c, {dx, m * dy}, scaling_text(shown(dx), 1, shown(dy), m), {0, 0});
   };
   std::vector<std::array<Number, 3>> scalings;  // m and the centre

@@ -144,6 +144,31 @@ std::vector<ConstantSolution> constant_solutions(const Expression& slope, const 
   return all;
 }
 
+/// Returns the solutions on which the separated equation dq/dp = G(q) has G = 0, such as y = -1/x^2 of y' = x y^2 -
+/// y/x, where q = x^2 y and G = q^2 + q. The formulas are put into the equation.
+std::vector<LostSolution> lost_solutions(const Equation& equation, const Coordinates& c, const Vector2d& start) {
+  constexpr double zero = 1e-9, small = 1e-12;
+  const Expression x = Expression::variable(0), y = Expression::variable(1);
+  std::vector<LostSolution> all;
+  if (!c.dq_dp || c.q == y) return all;
+  const double below = c.q({start[0], 0}), slope = c.q({start[0], 1}) - below, there = c.q({start[0], start[1]});
+  const bool is_linear = std::abs(below + slope * start[1] - there) <= small * (1 + std::abs(there));
+  if (!is_linear || !(std::abs(slope) > 0)) return all;
+  for (const ConstantSolution& each : constant_solutions(c.dq_dp->with(2, y), {0, there}, true)) {
+    Equation through = equation;
+    through.start = {start[0], (each.y - below) / slope};
+    const auto curve = solved_for_y(through, c.q);
+    if (!curve || !curve->has(0)) continue;
+    const Expression error = curve->derivative(0) - equation.slope.with(1, *curve);
+    const auto places = equation.points({error}, true);
+    const auto vanishes = [&](const Vector2d& at) {
+      return std::abs(error({at[0], at[1]})) <= zero * (1 + std::abs(curve->derivative(0)({at[0], at[1]})));
+    };
+    if (!places.empty() && std::ranges::all_of(places, vanishes)) all.push_back({each.y, *curve});
+  }
+  return all;
+}
+
 }  // namespace
 
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
@@ -185,6 +210,18 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
   });
   attempt([&] { steps.coordinates = coordinates_of(*equation, found); });
   attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, steps.factor); });
+  attempt([&] {
+    if (system.equations != FormulaField::Equations::first || !steps.coordinates) return;
+    steps.lost = lost_solutions(*equation, *steps.coordinates, start.value_or(around));
+    if (!steps.integral) return;
+    // On a solution with a C, H has this value at all x. Rounding can hide that ln 0 is infinite.
+    std::erase_if(steps.lost, [&](const LostSolution& each) {
+      constexpr double beside = 1.01, same = 1e-9;
+      const double x = start.value_or(around)[0], next = beside * x;
+      const double C = steps.integral->H({x, each.y({x, 0})}), again = steps.integral->H({next, each.y({next, 0})});
+      return std::abs(C - again) <= same * (1 + std::abs(C));
+    });
+  });
   attempt([&] {
     if (!steps.integral || !steps.factor) return;
     // V is known up to a function of H. The one that belongs to this H has dH = (x' dy - y' dx)/V.

@@ -614,6 +614,12 @@ class Blackboard {
           fmt::format("{} = {}{}{}", steps_.names[1], digits_(y), stability.empty() ? "" : " is ", stability));
     }
     if (!lines.empty()) add("constant", fmt::format("{}", fmt::join(lines, "; ")));
+    lines.clear();
+    for (const LostSolution& each : steps_.lost) {
+      lines.push_back(fmt::format("{} = {}", steps_.names[1], shown(each.y)));
+    }
+    if (lines.empty()) return;
+    add("lost", fmt::format("{}, where d{}/d{} = 0", fmt::join(lines, "; "), steps_.names[2], steps_.names[3]));
   }
 
   void add_orbit(const Followed& followed, const Vector2d& start) {
@@ -900,6 +906,10 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       answer.members["constant_solutions"].push_back(
           {{"y", y}, {"stability", stability.empty() ? Json() : Json(stability)}});
     }
+    answer.members["lost_solutions"] = Json::array();
+    for (const LostSolution& each : steps.lost) {
+      answer.members["lost_solutions"].push_back({{"q", each.q}, {"y", steps.text(each.y)}});
+    }
   }
   const double C = steps.integral && given ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
@@ -1117,6 +1127,8 @@ std::vector<FieldText> reduce_system_fields() {
          "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
         {"JSON `constant_solutions` [{`y`, `stability`}]", "",
          "solutions y = c of y' = F(x, y) that were found near the start. stability: null if F contains x"},
+        {"JSON `lost_solutions` [{`q`, `y`}]", "",
+         "solutions of y' = F(x, y) on which dq/dp = 0 and that no C gives: y as a formula in x"},
         {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "",
          "curves at which the equations jump and that motions do not cross: rests, slides (along the curve), or leaves "
          "(both sides point away, and the motion is not unique)"},

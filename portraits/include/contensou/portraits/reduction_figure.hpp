@@ -35,9 +35,11 @@ inline constexpr std::array copies{-3, -2, -1, 1, 2, 3};
 /// @throws std::domain_error  for a start on a ray or at the centre; for a field with borders, except (2.6)
 ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start);
 
-/// Returns orbits of a system that a shift (A = 0) or a turn about the origin (b = 0, A = ((0, -1), (1, 0))) maps onto
-/// itself. For a turn x is the distance from the origin, and p is the angle. For a shift (b1, b2) the point is
-/// (u, v) = (0, x) + p b, but (x, 0) + p b if b1 = 0. Orbits are traced as in planar_portrait.
+/// Returns orbits of a system that a shift (A = 0), a turn about the origin (b = 0, A = ((0, -1), (1, 0))) or a scaling
+/// with A = diag(1, m) maps onto itself. For a turn x is the distance from the origin, and p is the angle. For a shift
+/// (b1, b2) the point is (u, v) = (0, x) + p b, but (x, 0) + p b if b1 = 0. For a scaling with the centre (a, c),
+/// x = (v - c)/(u - a)^m and p = ln |u - a|, on the side of the start; |u - a| is raised to an m that is not whole.
+/// Orbits are traced in the strip as in planar_portrait.
 /// @throws std::domain_error  for a start on an invariant line; as planar_portrait
 ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start,
                              const reduction::Generator& symmetry);
@@ -56,7 +58,7 @@ struct ReducedNames {
 /// For the equations of motion (2.6) solved by their flow the plane is a quadrant. A third panel shows each copy
 /// divided by its start; all these copies are one line.
 ///
-/// @param symmetry  shift or turn that replaces the scaling of the plane; null if the plane has a scaling
+/// @param symmetry  shift, turn or scaling that replaces the scaling of the plane; null if the plane has a scaling
 /// @throws std::domain_error  as reduced_orbits
 Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Vector2d& start,
                         const ReducedNames& names, const AskedSize& size = {},
