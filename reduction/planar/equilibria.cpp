@@ -553,7 +553,7 @@ void ZeroSearch::divide(const Cell& cell, const std::array<std::optional<Vector2
     if (very_linear && z.lpNorm<Eigen::Infinity>() <= cell.half) unexplained_.push_back(cell);
     return;
   }
-  if (depth == (all ? deepest : deepest_without_value) || cells_ > most) {
+  if (depth >= (all ? deepest : deepest_without_value) || cells_ > most) {
     complete_ &= cells_ <= most;
     // Beside a jump Newton's method does not lead to a point at which the field is 0 by definition.
     const auto simple = few_decimals(field_.unscaled(), cell.x, field_.half(), 2 * cell.half);
