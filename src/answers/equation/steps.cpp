@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -157,8 +158,15 @@ std::vector<LostSolution> lost_solutions(const Equation& equation, const Coordin
   for (const ConstantSolution& each : constant_solutions(c.dq_dp->with(2, y), {0, there}, true)) {
     Equation through = equation;
     through.start = {start[0], (each.y - below) / slope};
-    const auto curve = solved_for_y(through, c.q);
+    auto curve = solved_for_y(through, c.q);
     if (!curve || !curve->has(0)) continue;
+    // Multiples of pi are exact, so that all compilers print the same.
+    curve = curve->replaced([](const Expression& part) -> std::optional<Expression> {
+      if (!part.is(Expression::Kind::number) || part.number().is_exact()) return std::nullopt;
+      const double value = part.number().value(), multiple = std::round(value / std::numbers::pi) * std::numbers::pi;
+      return std::abs(value - multiple) <= small * std::abs(value) ? std::optional<Expression>(Number(multiple))
+                                                                   : std::nullopt;
+    });
     const Expression error = curve->derivative(0) - equation.slope.with(1, *curve);
     const auto places = equation.points({error}, true);
     const auto vanishes = [&](const Vector2d& at) {
