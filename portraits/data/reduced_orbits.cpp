@@ -57,52 +57,52 @@ ReducedOrbits orbits_of_flow(const reduction::Flow& flow, const Vector2d& start)
   return from;
 }
 
-/// The coordinates of the strip of a shift, of a turn about the origin, or of a scaling whose matrix is diagonal.
+double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// The coordinates of the strip of a shift, of a turn about the origin, or of a scaling with A = diag(1, m). The place
+/// is linear in q, and its derivative by p is X = A x + b.
 class Chart {
  public:
-  Chart(const reduction::Generator& symmetry, const Vector2d& start) : A_(symmetry.matrix), b_(symmetry.shift) {
-    if (!scales()) return;
-    centre_ = symmetry.centre();
-    power_ = A_(1, 1) / A_(0, 0);
-    side_ = start[0] < centre_[0] ? -1 : 1;
+  Chart(const reduction::Generator& symmetry, const Vector2d& start)
+      : A_(symmetry.matrix),
+        b_(symmetry.shift),
+        scales_(symmetry.scales()),
+        centre_(scales_ ? symmetry.centre() : Vector2d(0, 0)),
+        side_(start[0] < centre_[0] ? -1 : 1) {}
+
+  bool scales() const { return scales_; }
+  bool turns() const { return !scales_ && !A_.isZero(0); }
+
+  /// Returns p of a point in the plane.
+  double p(const Vector2d& x) const {
+    if (turns()) return std::atan2(x[1], x[0]);
+    if (scales_) return std::log(std::abs(x[0] - centre_[0]));
+    return b_[0] == 0 ? x[1] / b_[1] : x[0] / b_[0];
   }
-
-  bool scales() const { return A_(0, 0) != 0; }
-  bool turns() const { return !scales() && !A_.isZero(0); }
-
   Point canonical(const Vector2d& x) const {
-    if (turns()) return {x.norm(), std::atan2(x[1], x[0])};
-    if (scales()) return {(x[1] - centre_[1]) / raised(x[0] - centre_[0]), std::log(std::abs(x[0] - centre_[0]))};
-    return b_[0] == 0 ? Point{x[0], x[1] / b_[1]} : Point{x[1] - b_[1] * x[0] / b_[0], x[0] / b_[0]};
+    const Vector2d zero = place({0, p(x)}), across = place({1, p(x)}) - zero;
+    return {(x - zero).dot(across) / across.squaredNorm(), p(x)};
   }
   Vector2d place(Point at) const {
     const auto [q, p] = at;
     if (turns()) return {q * std::cos(p), q * std::sin(p)};
-    if (scales()) return centre_ + Vector2d(side_ * std::exp(p), q * raised(side_ * std::exp(p)));
-    return b_[0] == 0 ? Vector2d(q, b_[1] * p) : Vector2d(b_[0] * p, q + b_[1] * p);
+    if (!scales_) return p * b_ + q * (b_[0] == 0 ? Vector2d(1, 0) : Vector2d(0, 1));
+    // A power that is not whole is that of the absolute value.
+    const double x = side_ * std::exp(p), m = A_(1, 1);
+    return centre_ + Vector2d(x, q * std::pow(m == std::round(m) ? x : std::abs(x), m));
   }
-  /// Returns the rates of q and p at a point of the plane.
-  Vector2d rates(const Vector2d& x, const Vector2d& f) const {
-    if (turns()) return {x.dot(f) / x.norm(), (x[0] * f[1] - x[1] * f[0]) / x.squaredNorm()};
-    if (scales()) {
-      const Vector2d away = x - centre_;
-      const double rate = f[0] / away[0];
-      return {(f[1] - power_ * away[1] * rate) / raised(away[0]), rate};
-    }
-    return b_[0] == 0 ? Vector2d(f[0], f[1] / b_[1]) : Vector2d(f[1] - b_[1] * f[0] / b_[0], f[0] / b_[0]);
-  }
-  /// Returns the range of p of a shift in a window.
-  double range_of_p(const Vector2d& sides) const {
-    return b_[0] == 0 ? sides[1] / std::abs(b_[1]) : sides[0] / std::abs(b_[0]);
+  /// Returns the rates of q and p at a point of the strip. X leaves them unchanged, up to a factor of both.
+  Vector2d rates(Point at, const reduction::PlanarField& field) const {
+    const Vector2d x = place(at), across = place({1, at.y}) - place({0, at.y}), X = A_ * x + b_, f = field(x);
+    return Vector2d(cross(f, X), cross(across, f)) / cross(across, X);
   }
 
  private:
-  /// A power that is not whole is that of the absolute value.
-  double raised(double x) const { return std::pow(power_ == std::round(power_) ? x : std::abs(x), power_); }
-
   Eigen::Matrix2d A_;
-  Vector2d b_, centre_{0, 0};
-  double power_ = 0, side_ = 1;
+  Vector2d b_;
+  bool scales_;
+  Vector2d centre_;
+  double side_;
 };
 
 }  // namespace
@@ -187,13 +187,9 @@ ReducedOrbits reduced_orbits(const reduction::PlanarReduction& plane, const Vect
     const Vector2d sides = planar_portrait(plane, "", request).window.sides();
     constexpr int copies_in_window = 8, copies_in_turn = 7;
     half = 3 * sides.maxCoeff();
-    from.step = chart.turns() ? 2 * pi / copies_in_turn : chart.range_of_p(sides) / copies_in_window;
+    from.step = chart.turns() ? 2 * pi / copies_in_turn : std::abs(chart.p(sides)) / copies_in_window;
   }
-  // The rates of q and p do not depend on p, up to a factor that is the same for both.
-  const auto rates = [&plane, chart, p = from.start.y](double q) {
-    const Vector2d x = chart.place({q, p});
-    return chart.rates(x, plane.field()(x));
-  };
+  const auto rates = [&](double q) { return chart.rates({q, from.start.y}, plane.field()); };
   // On an invariant line q is constant.
   const double low = chart.turns() ? 1e-3 * half : from.start.x - half, high = from.start.x + half;
   const auto across = [&](double q) {

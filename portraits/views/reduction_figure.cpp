@@ -28,9 +28,10 @@ struct Words {
   const char *moves, *lines;
 };
 Words words_of(const reduction::Generator* symmetry, double step) {
-  const bool scales = symmetry && symmetry->matrix(0, 0) != 0;
-  if (scales && symmetry->matrix(1, 1) != symmetry->matrix(0, 0)) return {"ln 2", "scales", "invariant curves"};
-  if (!symmetry || scales) return {"ln 2", "magnifies", "rays"};
+  if (!symmetry || symmetry->scales()) {
+    const bool magnifies = !symmetry || symmetry->matrix(0, 0) == symmetry->matrix(1, 1);
+    return {"ln 2", magnifies ? "magnifies" : "scales", magnifies ? "rays" : "invariant curves"};
+  }
   if (symmetry->shift.isZero(0)) return {"2π/7", "turns", "invariant circles"};
   return {fmt::format("{:.3g}", step), "shifts", "invariant lines"};
 }
@@ -180,7 +181,7 @@ Figure reduction_figure(const reduction::PlanarReduction& plane, const Eigen::Ve
     figure.size = fitted({270, 105}, 3, size);
     return figure;
   }
-  const bool scales = symmetry && symmetry->matrix(0, 0) != 0;
+  const bool scales = symmetry && symmetry->scales();
   const Eigen::Vector2d centre = scales ? symmetry->centre() : symmetry ? Eigen::Vector2d::Zero() : plane.centre();
   const Eigen::Vector2d away = (start - centre).cwiseAbs();
   Eigen::Vector2d half = Eigen::Vector2d::Constant(plane_widths * away.maxCoeff());

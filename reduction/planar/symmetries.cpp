@@ -445,7 +445,8 @@ bool Generator::fixes(const Vector2d& x) const {
 }
 
 Vector2d Generator::centre() const {
-  return Vector2d::Zero() - Vector2d(solution(matrix, shift));  // the addition to 0 turns -0 into 0
+  const Vector2d away = matrix.determinant() == 0 ? least_squares(matrix, shift) : solution(matrix, shift);
+  return Vector2d::Zero() - away;  // the addition to 0 turns -0 into 0
 }
 
 PlanarSymmetries find_symmetries(const SmoothField& field, const Vector2d& around) {

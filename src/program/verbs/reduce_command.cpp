@@ -73,17 +73,15 @@ class ReduceCommand final : public Verb {
     const reduction::PlanarSymmetries found = reduction::find_symmetries(field, reduction::sampled_about(field, start));
     const reduction::PlanarReduction plane = reduction::reduce(field, start, found);
     portraits::ReducedNames names{system_.text(), typed.variables()};
-    const bool bordered = plane.scaling() && plane.kind() == "bordered";
-    if (plane.scaling() && !bordered) return draw(plane, start, names, output, nullptr);
+    if (plane.scaling() && plane.kind() != "bordered") return draw(plane, start, names, output, nullptr);
     const auto equation = equation_of(typed.formulas, reduction::sampled_about(field, start));
     const auto coordinates = equation ? coordinates_of(*equation, found) : std::nullopt;
     if (!coordinates || !coordinates->motion) {
       throw BadInput(
           "the picture of reduce shows how a scaling, shift or turn moves orbits, and {}: "
           "'contensou portrait --system' draws its plane",
-          bordered        ? "this field has borders or jumps between the orbits that its scaling moves"
-          : found.scaling ? "the scaling of this system does not solve it"
-                          : "this system has none");
+          found.scaling ? "this field has borders or jumps between the orbits that its scaling moves"
+                        : "this system has none");
     }
     const auto shown = [&](const char* letter, const Expression& e) {
       const std::string formula = e.text(equation->names);

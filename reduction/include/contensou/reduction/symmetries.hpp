@@ -72,7 +72,10 @@ struct Generator {
   /// Returns the smaller real part of the eigenvalues of A, the least rate at which points leave the centre.
   double growth() const;
 
-  /// Returns the centre, the point at which A x + b vanishes. A must have an inverse.
+  /// Returns true if X is a scaling, also with turns, and false if it is a shift or a turn alone.
+  bool scales() const { return !matrix.diagonal().isZero(0); }
+
+  /// Returns the centre, the point at which A x + b vanishes; the one nearest to 0 if there are several.
   Eigen::Vector2d centre() const;
 
   /// Returns true if x equals the centre up to rounding.
