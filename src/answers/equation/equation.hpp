@@ -119,12 +119,6 @@ struct ConstantSolution {
   std::string_view stability;  ///< what neighbouring solutions do, if F does not contain x; empty if it is not known
 };
 
-/// A solution of y' = F(x, y) on which dq/dp = 0, so that the separation divides by 0, and H = C has no such C.
-struct LostSolution {
-  double q;
-  Expression y;  ///< formula in x
-};
-
 /// The reduction of an equation as formulas in its own letters. A part that is not certain is empty.
 struct Steps {
   std::vector<std::string> names;  ///< the two variables, then q and p
@@ -136,7 +130,7 @@ struct Steps {
   std::optional<Expression> factor = {};         ///< inverse integrating factor V, that of H if H is known
   std::vector<Expression> parts = {};            ///< the right sides
   std::vector<ConstantSolution> constants = {};  ///< those that were found of y' = F(x, y)
-  std::vector<LostSolution> lost = {};           ///< those of y' = F(x, y) that are not constant
+  std::vector<Expression> lost = {};             ///< y as formulas in x: solutions with dq/dp = 0 that no C gives
 
   std::string text(const Expression& e, int digits = 0) const { return e.text(names, digits); }
 

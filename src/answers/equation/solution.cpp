@@ -707,10 +707,13 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
   const double C = H({x0, y0});
   if (!std::isfinite(C)) return std::nullopt;
   try {
+    constexpr double exact = 1e-13;
     const Number simple = snapped(C);
-    E left = H, right = simple.below() > 0 && simple.below() <= 12 && std::abs(simple.value() - C) < 1e-13
-                            ? simple
-                            : Number::inexact(C);
+    // A multiple of pi is exact, so that all compilers print the same.
+    const double turns = std::round(C / std::numbers::pi) * std::numbers::pi;
+    E left = H, right = simple.below() > 0 && simple.below() <= 12 && std::abs(simple.value() - C) < exact ? simple
+                        : std::abs(turns - C) < exact * std::abs(C) ? Number::inexact(turns)
+                                                                    : Number::inexact(C);
     constexpr int most_steps = 30;
     for (int step = 0; step < most_steps && !(left == y); ++step) {
       if (!left.has(1)) return std::nullopt;

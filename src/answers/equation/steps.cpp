@@ -5,7 +5,6 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -145,34 +144,25 @@ std::vector<ConstantSolution> constant_solutions(const Expression& slope, const 
   return all;
 }
 
-/// Returns the solutions on which the separated equation dq/dp = G(q) has G = 0, such as y = -1/x^2 of y' = x y^2 -
-/// y/x, where q = x^2 y and G = q^2 + q. The formulas are put into the equation.
-std::vector<LostSolution> lost_solutions(const Equation& equation, const Coordinates& c, const Vector2d& start) {
-  constexpr double zero = 1e-9, small = 1e-12;
-  const Expression x = Expression::variable(0), y = Expression::variable(1);
-  std::vector<LostSolution> all;
+/// Returns the solutions on which the separated equation dq/dp = G(q) has G = 0 and which no C gives, as formulas in x:
+/// y = k pi x for y' = y/x + tan(y/x), where q = y/x and G = tan(q). The formulas are put into the equation.
+std::vector<Expression> lost_solutions(const Equation& equation, const Coordinates& c,
+                                       const std::optional<IntegralFormula>& integral, const Vector2d& start) {
+  constexpr double zero = 1e-9, linear = 1e-12, beside = 1.01;
+  const Expression y = Expression::variable(1);
+  std::vector<Expression> all;
   if (!c.dq_dp || c.q == y) return all;
   const double below = c.q({start[0], 0}), slope = c.q({start[0], 1}) - below, there = c.q({start[0], start[1]});
-  const bool is_linear = std::abs(below + slope * start[1] - there) <= small * (1 + std::abs(there));
-  if (!is_linear || !(std::abs(slope) > 0)) return all;
+  if (!(std::abs(below + slope * start[1] - there) <= linear * (1 + std::abs(there))) || slope == 0) return all;
   for (const ConstantSolution& each : constant_solutions(c.dq_dp->with(2, y), {0, there}, true)) {
     Equation through = equation;
     through.start = {start[0], (each.y - below) / slope};
-    auto curve = solved_for_y(through, c.q);
+    const auto curve = solved_for_y(through, c.q);
     if (!curve || !curve->has(0)) continue;
-    // Multiples of pi are exact, so that all compilers print the same.
-    curve = curve->replaced([](const Expression& part) -> std::optional<Expression> {
-      if (!part.is(Expression::Kind::number) || part.number().is_exact()) return std::nullopt;
-      const double value = part.number().value(), multiple = std::round(value / std::numbers::pi) * std::numbers::pi;
-      return std::abs(value - multiple) <= small * std::abs(value) ? std::optional<Expression>(Number(multiple))
-                                                                   : std::nullopt;
-    });
-    const Expression error = curve->derivative(0) - equation.slope.with(1, *curve);
-    const auto places = equation.points({error}, true);
-    const auto vanishes = [&](const Vector2d& at) {
-      return std::abs(error({at[0], at[1]})) <= zero * (1 + std::abs(curve->derivative(0)({at[0], at[1]})));
-    };
-    if (!places.empty() && std::ranges::all_of(places, vanishes)) all.push_back({each.y, *curve});
+    // On a solution with a C, H has this value at all x. Rounding can hide that ln 0 is infinite.
+    const auto C = [&](double x) { return integral->H({x, (*curve)({x, 0})}); };
+    if (integral && std::abs(C(start[0]) - C(beside * start[0])) <= zero * (1 + std::abs(C(start[0])))) continue;
+    if (equation.vanishes(curve->derivative(0) - equation.slope.with(1, *curve))) all.push_back(*curve);
   }
   return all;
 }
@@ -220,15 +210,7 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
   attempt([&] { steps.integral = integral_of(*equation, steps.coordinates, steps.factor); });
   attempt([&] {
     if (system.equations != FormulaField::Equations::first || !steps.coordinates) return;
-    steps.lost = lost_solutions(*equation, *steps.coordinates, start.value_or(around));
-    if (!steps.integral) return;
-    // On a solution with a C, H has this value at all x. Rounding can hide that ln 0 is infinite.
-    std::erase_if(steps.lost, [&](const LostSolution& each) {
-      constexpr double beside = 1.01, same = 1e-9;
-      const double x = start.value_or(around)[0], next = beside * x;
-      const double C = steps.integral->H({x, each.y({x, 0})}), again = steps.integral->H({next, each.y({next, 0})});
-      return std::abs(C - again) <= same * (1 + std::abs(C));
-    });
+    steps.lost = lost_solutions(*equation, *steps.coordinates, steps.integral, start.value_or(around));
   });
   attempt([&] {
     if (!steps.integral || !steps.factor) return;

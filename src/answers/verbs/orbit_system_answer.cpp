@@ -33,14 +33,17 @@ double last_time(const std::function<bool(double time)>& holds, double time) {
 
 /// The half of an orbit after the start, or before the start with reversed time.
 class HalfOrbit {
+  static constexpr double coarser = 1e-11;  ///< tolerance of the larger steps
+
  public:
   HalfOrbit(const PlanarReduction& plane, const Vector2d& start)
       : plane_(plane),
         start_(start),
         orbit_(plane.orbit(start)),
-        steps_(plane.solved() ? reduction::by_steps(plane.field()).orbit(start) : orbit_),
-        again_(plane.solved() ? steps_ : reduction::by_steps(plane.field(), coarser).orbit(start)),
-        solved_(plane.solved()) {}
+        solved_(plane.solved()),
+        again_(
+            (solved_ ? reduction::by_steps(plane.field()) : reduction::by_steps(plane.field(), coarser)).orbit(start)) {
+  }
 
   /// Returns the state after a time; empty beyond the end.
   std::optional<ComputedState> at(double time) const {
@@ -48,14 +51,11 @@ class HalfOrbit {
     // Within the error of the end time the state at infinity has no digits.
     constexpr double error = 1e-12;
     if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
-    if (solved_) {
-      if (const auto x = by_quadrature(time))
-        return agrees(time) ? std::optional(ComputedState{*x, true}) : std::nullopt;
-      // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier or divides.
-      if (!goes_on(time) || !orbit_.unique()) return std::nullopt;
-    }
-    const auto x = state(steps_, time);
-    return x && (solved_ || agrees(time)) ? std::optional(ComputedState{*x, false}) : std::nullopt;
+    if (const auto x = followed(time)) return agrees(time) ? std::optional(ComputedState{*x, solved_}) : std::nullopt;
+    // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier or divides.
+    if (!solved_ || !goes_on(time) || !orbit_.unique()) return std::nullopt;
+    const auto x = state(again_, time);
+    return x ? std::optional(ComputedState{*x, false}) : std::nullopt;
   }
 
   /// Returns true unless the orbit is known to end before a time.
@@ -69,7 +69,7 @@ class HalfOrbit {
     if (!orbit_.unique()) return orbit_.undecided();
     if (!agrees(time)) return "two computations of the orbit differ; rounding grows along it";
     try {
-      steps_.at(time);
+      (solved_ ? again_ : orbit_).at(time);
     } catch (const std::domain_error& stopped) {
       const std::string words = stopped.what();
       constexpr std::string_view before = ", where ";
@@ -99,7 +99,7 @@ class HalfOrbit {
   }
 
   /// An orbit that lasts for ever is followed over a part. The next part begins at its last state.
-  std::optional<Vector2d> by_quadrature(double time) const {
+  std::optional<Vector2d> followed(double time) const {
     constexpr std::size_t most = 6;  // each takes up to half a second
     while (true) {
       const auto& [begin, orbit] = *std::prev(std::ranges::upper_bound(parts_, time, {}, &Part::begin));
@@ -129,14 +129,12 @@ class HalfOrbit {
   /// Returns true if both states are equal, or one state a little earlier or later.
   bool agrees_at(double time) const {
     const double same = solved_ ? 1e-8 : 1e-6;
-    const auto here = solved_ ? by_quadrature(time) : state(orbit_, time), there = state(again_, time);
+    const auto here = followed(time), there = state(again_, time);
     if (!here || !there) return true;
     const double difference = (*here - *there).stableNorm();
     return difference <= same * std::max(start_.stableNorm(), here->stableNorm()) ||
            difference <= same * time * plane_.field()(*here).stableNorm();
   }
-
-  static constexpr double coarser = 1e-11;  ///< tolerance of the larger steps
 
   struct Part {
     double begin;
@@ -144,8 +142,9 @@ class HalfOrbit {
   };
   PlanarReduction plane_;
   Vector2d start_;
-  PlanarOrbit orbit_, steps_, again_;
-  bool solved_;
+  PlanarOrbit orbit_;
+  bool solved_;        ///< the orbit is that of a quadrature, else of steps
+  PlanarOrbit again_;  ///< by steps: the second computation
   mutable std::vector<Part> parts_{{0, orbit_}};
   mutable double agreed_ = 0;  ///< time up to which the states agree
 };

@@ -615,9 +615,7 @@ class Blackboard {
     }
     if (!lines.empty()) add("constant", fmt::format("{}", fmt::join(lines, "; ")));
     lines.clear();
-    for (const LostSolution& each : steps_.lost) {
-      lines.push_back(fmt::format("{} = {}", steps_.names[1], shown(each.y)));
-    }
+    for (const Expression& y : steps_.lost) lines.push_back(fmt::format("{} = {}", steps_.names[1], shown(y)));
     if (lines.empty()) return;
     add("lost", fmt::format("{}, where d{}/d{} = 0", fmt::join(lines, "; "), steps_.names[2], steps_.names[3]));
   }
@@ -753,7 +751,6 @@ class Blackboard {
     }
   }
 
-  /// Returns "it tends to" the limit of the orbit, or to the words if the limit is not known.
   /// Returns the limit of y; NaN if it is not known. Without x in F, it is the next constant solution.
   double limit_of(const PlanarOrbit& orbit, const Vector2d& start) const {
     const double limit = orbit.limit()[1];
@@ -767,6 +764,7 @@ class Blackboard {
     return next;
   }
 
+  /// Returns "it tends to" the limit of the orbit, or to the words if the limit is not known.
   std::string tends_to(const PlanarOrbit& orbit, std::string_view words) const {
     const Vector2d limit = orbit.limit();
     return fmt::format("it tends to {}", limit.allFinite() ? place(limit, limit.norm()) : words);
@@ -907,9 +905,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
           {{"y", y}, {"stability", stability.empty() ? Json() : Json(stability)}});
     }
     answer.members["lost_solutions"] = Json::array();
-    for (const LostSolution& each : steps.lost) {
-      answer.members["lost_solutions"].push_back({{"q", each.q}, {"y", steps.text(each.y)}});
-    }
+    for (const Expression& y : steps.lost) answer.members["lost_solutions"].push_back(steps.text(y));
   }
   const double C = steps.integral && given ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
@@ -1127,7 +1123,7 @@ std::vector<FieldText> reduce_system_fields() {
          "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
         {"JSON `constant_solutions` [{`y`, `stability`}]", "",
          "solutions y = c of y' = F(x, y) that were found near the start. stability: null if F contains x"},
-        {"JSON `lost_solutions` [{`q`, `y`}]", "",
+        {"JSON `lost_solutions`", "",
          "solutions of y' = F(x, y) on which dq/dp = 0 and that no C gives: y as a formula in x"},
         {"JSON `switching` [{`motion`, `u` [...], `v` [...]}]", "",
          "curves at which the equations jump and that motions do not cross: rests, slides (along the curve), or leaves "
