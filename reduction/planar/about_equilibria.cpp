@@ -352,7 +352,7 @@ void CycleSearch::about(const Vector2d& centre, const Vector2d& way, double reac
       insert(middle);
     }
   }
-  // So may two places between which the growth changes less than on both sides: it may turn twice.
+  // The growth may turn twice, and cross 0 in between, where it changes less than on both sides.
   scanned = samples;
   const auto slope = [&](std::size_t i) {
     return std::abs((scanned[i].growth - scanned[i - 1].growth) / std::log(scanned[i].place / scanned[i - 1].place));

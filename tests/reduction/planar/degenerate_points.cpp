@@ -126,7 +126,7 @@ TEST_CASE("random fields with multiple zeros have the kinds by construction", "[
   std::mt19937_64 random(20261127);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   const std::vector<Normal> forms = normal_forms();
-  constexpr std::size_t fields = 162;
+  constexpr std::size_t fields = 216;
   for (std::size_t i = 0; i < fields; ++i) {
     const Normal& form = forms[i % forms.size()];
     const double a = between(0, 7), b = between(0, 7), wide = between(0.6, 1.7), narrow = between(0.6, 1.7);
