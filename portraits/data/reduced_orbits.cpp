@@ -81,7 +81,7 @@ class Chart {
   }
   Point canonical(const Vector2d& x) const {
     const Vector2d zero = place({0, p(x)}), across = place({1, p(x)}) - zero;
-    return {(x - zero).dot(across) / across.squaredNorm(), p(x)};
+    return {(x - zero).dot(across.stableNormalized()) / across.stableNorm(), p(x)};
   }
   Vector2d place(Point at) const {
     const auto [q, p] = at;
@@ -93,8 +93,9 @@ class Chart {
   }
   /// Returns the rates of q and p at a point of the strip. X leaves them unchanged, up to a factor of both.
   Vector2d rates(Point at, const reduction::PlanarField& field) const {
-    const Vector2d x = place(at), across = place({1, at.y}) - place({0, at.y}), X = A_ * x + b_, f = field(x);
-    return Vector2d(cross(f, X), cross(across, f)) / cross(across, X);
+    const Vector2d x = place(at), across = place({1, at.y}) - place({0, at.y}), along = A_ * x + b_, f = field(x);
+    const Vector2d a = across.stableNormalized(), b = along.stableNormalized();  // the squares can underflow
+    return Vector2d(cross(f, b) / across.stableNorm(), cross(a, f) / along.stableNorm()) / cross(a, b);
   }
 
  private:
