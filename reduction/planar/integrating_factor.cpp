@@ -89,7 +89,12 @@ bool holds_widely(const SmoothField& field, const FactorFit& fit, double size) {
   std::vector<Box> boxes{widened(form, box, 4), widened(form, box, form == FactorForm::basis ? 2 : 64)};
   constexpr double near = 0.25, farther = 3;
   const double distance = box.centre.lpNorm<Eigen::Infinity>();
-  if (distance < near * size) boxes.push_back(box_about(farther * size / distance * box.centre));
+  if (distance < near * size) {
+    // A series in one variable keeps its radius, because farther out V can need more terms.
+    const double factor = farther * size / distance;
+    const Vector2d centre = factor * box.centre;
+    boxes.push_back(form == FactorForm::product ? box_about(centre) : widened(form, {centre, box.radii}, factor));
+  }
   return std::ranges::all_of(boxes, [&](const Box& wide) {
     const auto samples = sample(field, wide);
     if (!samples) return true;  // the field has no values there
