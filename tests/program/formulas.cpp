@@ -787,8 +787,9 @@ TEST_CASE("between the zeros of the switching functions random formulas are smoo
         return of_slope ? 0 : std::numeric_limits<double>::infinity();
       };
       double begin = 0, end = 1, first = quantity(begin), last = quantity(end);
-      double most = 0;
+      double most = 0, earlier = 0;
       for (int halvings = 0; halvings < 30; ++halvings) {
+        if (halvings == 25) earlier = change(first, last);
         const double middle = (begin + end) / 2, between_them = quantity(middle);
         const double at_left = change(first, between_them), at_right = change(between_them, last);
         if (std::isfinite(at_left + at_right)) most = std::max({most, at_left, at_right});
@@ -804,6 +805,8 @@ TEST_CASE("between the zeros of the switching functions random formulas are smoo
         }
       }
       if (!(change(first, last) > 1e-3 * most) || !(change(first, last) > 1e3 * noise)) continue;
+      // A jump keeps its size in a smaller part. A smooth function, however steep, changes there by 1/32.
+      if (!(change(first, last) >= 0.1 * earlier)) continue;
       const auto tame_at = [&](double s) { return is_tame(tree, from[0] + s * way[0], from[1] + s * way[1]); };
       if (!tame_at(begin) || !tame_at(end)) continue;
       breaks += 1;
