@@ -149,7 +149,7 @@ class Follower {
         anchor(here->f);
         next_anchor = std::max(64, 2 * i);
       }
-      noise_ = eps * here->slopes.cwiseAbs() * x_.cwiseAbs();
+      noise_ = eps * (here->slopes.cwiseAbs() * x_.cwiseAbs() + region_->cancelled(x_));
       if (rests(*here) || escapes(*here)) return;
       if (at_border(*here, 4)) return end(PlanarEnd::border, motion_.followed);
       constexpr double edge = 0.7, near = 0.2, shortest = 256;
@@ -243,16 +243,18 @@ class Follower {
     Matrix2d slopes = here.slopes;
     Vector2d left = here.f;
     constexpr double clear = 1e-10;
-    const auto step_to_rest = [](const Jet& at) {
+    const bool slides = region_->slides();
+    const auto step_to_rest = [&](const Jet& at) {
+      // Zeros of the field form a line. Zeros of a sliding velocity always do: there the two fields are parallel.
       const double norm = at.slopes.norm();
-      const bool line = std::abs(at.slopes.determinant()) <= clear * norm * norm;  // zeros of the field form a line
+      const bool line = slides || std::abs(at.slopes.determinant()) <= clear * norm * norm;
       return line ? Vector2d(at.f / at.slopes.trace()) : newton_step(at);
     };
     Vector2d way = step_to_rest(here);
     if (!(way.norm() <= close * size_)) return false;
     constexpr int steps = 8;
     for (int i = 0; i == 0 || (i < steps && way.norm() > 4 * eps * rest.norm()); ++i) {
-      rest -= way;
+      rest = region_->on_curve(rest - way);
       const auto there = jet_of(field_, rest);
       if (!there) return false;
       slopes = there->slopes;
@@ -265,7 +267,7 @@ class Follower {
     // Each component vanishes, also one that is tiny beside the other.
     constexpr double found = 1e-6, roundings = 8;
     if (!(left.cwiseAbs().array() <= (found * here.f.cwiseAbs() + roundings * noise_).array()).all()) return false;
-    const double trace = slopes.trace(), determinant = slopes.determinant(), norm = slopes.norm();
+    const double trace = slopes.trace(), determinant = slides ? 0 : slopes.determinant(), norm = slopes.norm();
     const bool saddle = determinant < -clear * norm * norm;
     // Components of the offset along the two eigenvectors of a saddle.
     const double root = std::sqrt(std::max(trace * trace / 4 - determinant, 0.)), in = trace / 2 - root,
@@ -280,7 +282,7 @@ class Follower {
     }
     const double change = (here.slopes - slopes).norm() / norm;
     constexpr double exact = 1e-14;
-    const double size = region_->slides() ? size_ : std::max(rest.norm(), offset.norm());
+    const double size = slides ? size_ : std::max(rest.norm(), offset.norm());
     if (!(change * offset.norm() <= exact * size)) return false;
     if (determinant > clear * norm * norm && trace < -clear * norm) {
       motion_.flow = slopes;
@@ -784,7 +786,7 @@ class Follower {
   bool on_curve_ = false;               ///< the orbit runs along V = 0
   double size_;                         ///< distance of the start from the origin plus the radius of its box
   Vector2d scale_;                      ///< typical size of both coordinates
-  Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x
+  Vector2d noise_ = Vector2d::Zero();   ///< errors of f by the rounding of x, and of the terms of a sliding velocity
   double fraction_ = 1;                 ///< radius of boxes divided by their largest allowed radius
   double stretch_ = 0.25;               ///< length of the last panel divided by the radius of its box
   Vector2d anchor_, forward_, passed_;  ///< returns are sought on the line through anchor_ normal to forward_

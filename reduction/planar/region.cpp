@@ -110,6 +110,16 @@ Vector2d Region::on_curve(const Vector2d& x) const {
   return there.allFinite() ? there : x;
 }
 
+Vector2d Region::cancelled(const Vector2d& x) const {
+  if (!slide_) return Vector2d::Zero();
+  const Vector2d first = slide_->first.value(x), second = slide_->second.value(x);
+  const Vector2d gradient = whole_->switches(x).row(slide_->function).tail<2>();
+  const double difference = std::abs(gradient.dot(second - first));
+  if (difference == 0) return Vector2d::Zero();
+  // Rates along the gradient have the rounding of all their terms.
+  return gradient.norm() / difference * (second.norm() * first.cwiseAbs() + first.norm() * second.cwiseAbs());
+}
+
 std::optional<double> Region::dip(const Vector2d& from, const Vector2d& to, double time) const {
   if (!continued_ || slide_) return std::nullopt;
   const auto f = value_of(field().value, from), g = value_of(field().value, to);

@@ -38,6 +38,9 @@ class Region {
   /// Returns the point of the switching curve that is nearest to x, a point beside it; x itself without sliding.
   Eigen::Vector2d on_curve(const Eigen::Vector2d& x) const;
 
+  /// Returns the sizes of the terms that cancel in a sliding velocity, at a point of the curve; 0 without sliding.
+  Eigen::Vector2d cancelled(const Eigen::Vector2d& x) const;
+
   /// Returns the share of the way from one state to a later one at which a switching function, as a cubic through its
   /// values and rates at the two, has its extreme beyond 0 although both states lie in the region.
   /// @param time  time between the states

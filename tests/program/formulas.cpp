@@ -750,8 +750,8 @@ TEST_CASE("between the zeros of the switching functions random formulas are smoo
     const Tree tree = random_tree(random, 1 + static_cast<int>(below(random, 4)));
     const std::string text = typed(tree);
     const Formulas compiled = formulas("v' = 2; u' = " + text);
-    const Eigen::Vector2d from(between(random, -3, 3), between(random, -3, 3));
-    const Eigen::Vector2d way(between(random, -1, 1), between(random, -1, 1));
+    const Eigen::Vector2d from{between(random, -3, 3), between(random, -3, 3)};
+    const Eigen::Vector2d way{between(random, -1, 1), between(random, -1, 1)};
     const auto switches = [&](double s) {
       const Eigen::Vector2d x = from + s * way;
       return compiled.switches({x[0], x[1]});

@@ -213,10 +213,7 @@ class Reference {
       duration = behind;
       next = after(duration);
     }
-    time_ += duration;
-    x_ = next;
-    largest_ = std::max(largest_, std::hypot(x_[0], x_[1]));
-    lost_ = !(largest_ < 10);
+    move_to(next, duration);
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const RealState slopes = field_.gates[i].slopes(x_);
       if (i != slide_ && std::fabs(field_.gates[i].value(x_)) < least_angle * std::hypot(slopes[0], slopes[1]))
@@ -239,6 +236,14 @@ class Reference {
            std::hypot(rate[0], rate[1]);
   }
 
+  void move_to(const RealState& next, Real duration) {
+    time_ += duration;
+    x_ = next;
+    const Real distance = std::hypot(x_[0], x_[1]);
+    lost_ = lost_ || !(distance < 10);  // NaN, too
+    largest_ = std::max(largest_, distance);
+  }
+
   void advance(Real duration) {
     if (slide_) return slide(duration);
     RealState next = after(duration);
@@ -255,10 +260,8 @@ class Reference {
       duration = behind;
       next = after(duration);
     }
-    time_ += duration;
-    x_ = next;
-    largest_ = std::max(largest_, std::hypot(x_[0], x_[1]));
-    lost_ = !(largest_ < 10) || crossings_ > 200;
+    move_to(next, duration);
+    lost_ = lost_ || crossings_ > 200;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const RealState slopes = field_.gates[i].slopes(x_);
       const Real distance = std::fabs(field_.gates[i].value(x_)) / std::hypot(slopes[0], slopes[1]);
@@ -375,7 +378,7 @@ TEST_CASE("orbits cross kinks and jumps without loss of digits", "[net]") {
   Comparison comparison;
   while (comparison.systems < wanted) {
     const KinkedField field = draw_field(random);
-    comparison.see(field, Vector2d(drawn(random, -1.5, 1.5), drawn(random, -1.5, 1.5)), false);
+    comparison.see(field, Vector2d{drawn(random, -1.5, 1.5), drawn(random, -1.5, 1.5)}, false);
   }
   INFO(comparison.list());
   CHECK(comparison.failures.empty());
@@ -389,7 +392,7 @@ TEST_CASE("orbits slide along jumps and leave them without loss of digits", "[ne
   Comparison comparison;
   while (comparison.systems < wanted) {
     const KinkedField field = draw_field(random, comparison.systems % 2 == 0);
-    comparison.see(field, Vector2d(drawn(random, -1.5, 1.5), drawn(random, -1.5, 1.5)), true);
+    comparison.see(field, Vector2d{drawn(random, -1.5, 1.5), drawn(random, -1.5, 1.5)}, true);
   }
   INFO(comparison.list());
   CHECK(comparison.failures.empty());
