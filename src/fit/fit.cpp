@@ -162,7 +162,11 @@ Fit fit_from(std::vector<VectorXd> starts, const FitRequest& asked) {
       FitRequest with_patch = asked;
       with_patch.free.patch_radius = true;
       Fit other = fit_from(std::move(report.with_patch), with_patch);
-      if (other.estimates[1].standard_error < unknown * other.estimates[1].value) {
+      const Estimate& patch = other.estimates[1];
+      if (patch.value + too_rare * patch.standard_error > asked.ball.ball.radius) {
+        // Akaike's criterion takes errors for independent. Errors that depend on each other imitate a patch.
+        report.fit.patch_seen.reset();
+      } else if (patch.standard_error < unknown * patch.value) {
         other.patch_seen = report.fit.patch_seen;
         return other;
       }

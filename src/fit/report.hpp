@@ -16,6 +16,9 @@ namespace contensou::fit {
 /// A number with at least this relative error counts as unknown, because catalogues are more accurate.
 inline constexpr double unknown = 0.5;
 
+/// A normal error exceeds this many standard deviations on one side by chance in about one of ten thousand films.
+inline constexpr double too_rare = 3.7;
+
 /// Errors below this share of the range of values are not the noise of a film: the values are computed or rounded.
 inline constexpr double sharpest_film = 1e-4;
 

@@ -12,13 +12,6 @@ namespace contensou::fit {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace {
-
-/// A normal error exceeds this many standard deviations on one side by chance in about one of ten thousand films.
-constexpr double too_rare = 3.7;
-
-}  // namespace
-
 /// Returns how many standard errors a free parameter at a limit would go beyond it; 0 for a parameter within limits.
 double Reporter::held_back(std::size_t free) const {
   const Index place = search_.free[free];
