@@ -1195,4 +1195,15 @@ std::array<Dual<N>, 2> Formulas::with_slopes(const std::array<double, N>& values
 template std::array<Dual<1>, 2> Formulas::with_slopes(const std::array<double, 1>&) const;
 template std::array<Dual<2>, 2> Formulas::with_slopes(const std::array<double, 2>&) const;
 
+double parse_constant(const std::string& text) {
+  if (is_number(text)) return parse_number(text);
+  double value = NAN;
+  try {
+    value = Formulas({.left = {}, .variables = {}, .sentence = "a value is a number"}, text, {})({})[0];
+  } catch (const BadInput&) {
+    // parse_number refuses the text.
+  }
+  return std::isfinite(value) ? value : parse_number(text);
+}
+
 }  // namespace contensou::answers

@@ -138,4 +138,8 @@ class Formulas {
   std::shared_ptr<const Compiled> compiled_;
 };
 
+/// Returns the value of a number, or of a formula of numbers and pi, such as pi/2.
+/// @throws BadInput  as parse_number
+double parse_constant(const std::string& text);
+
 }  // namespace contensou::answers

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "answers/input/formulas.hpp"
+
 namespace contensou::program {
 
 void SystemOption::add(CLI::App& app) {
@@ -15,7 +17,7 @@ void SystemOption::add(CLI::App& app) {
       "formulas'");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions, for --system; sums of them are tried as inverse integrating factor V");
-  start_.add(app, "--start", "\"x=1, x'=0\"", "start of --system; also --x0 1 --y0 0 or --u0 1 --v0 0",
+  start_.add(app, "--start", "\"x=1, x'=0\"", "start of --system, such as x=pi/2; also --x0 1 --y0 0 or --u0 1 --v0 0",
              [](const std::string& typed) {
                std::vector<std::pair<std::string, double>> values;
                for (const std::string& part : split(typed, ',')) {
@@ -24,13 +26,13 @@ void SystemOption::add(CLI::App& app) {
                  std::erase(letter, ' ');
                  if (equals == std::string::npos || letter.empty())
                    throw NotAllowed("two values with their letters are needed, such as \"x=1, y=0\"");
-                 values.emplace_back(letter, parse_number(part.substr(equals + 1)));
+                 values.emplace_back(letter, parse_constant(part.substr(equals + 1)));
                }
                return values;
              });
   app.option_defaults()->group("");  // the help of --start names them
-  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", number);
-  y0_.add(app, "--y0", "Y", "value of the letter y, or of x' in x'' = F, at the start of --system", number);
+  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", parse_constant);
+  y0_.add(app, "--y0", "Y", "value of the letter y, or of x' in x'' = F, at the start of --system", parse_constant);
   for (Argument* each : {static_cast<Argument*>(&x0_), static_cast<Argument*>(&y0_), static_cast<Argument*>(&start_)}) {
     each->needs(system_, "is in the letters of typed equations");
   }
