@@ -17,7 +17,7 @@ void SystemOption::add(CLI::App& app) {
       "formulas'");
   basis_.add(app, "--basis", "\"1; u; v; exp(u)\"",
              "functions, for --system; sums of them are tried as inverse integrating factor V");
-  start_.add(app, "--start", "\"x=1, x'=0\"", "start of --system, such as x=pi/2; also --x0 1 --y0 0 or --u0 1 --v0 0",
+  start_.add(app, "--start", "\"x=1, x'=0\"", "start, as in x=pi/2; also --x0 1 --y0 0 or --u0 1 --v0 0",
              [](const std::string& typed) {
                std::vector<std::pair<std::string, double>> values;
                for (const std::string& part : split(typed, ',')) {
