@@ -47,9 +47,8 @@ std::optional<PowerSeries> split(const Samples& values, const Samples& rounding,
     // In a series of degree n, errors of samples grow like n^(2 k + 1)/(2^k k!) in the k-th derivative at the end.
     LegendreSeries rest = LegendreSeries::through(finite).without_noise(8 * noise);
     // A true pole is clear in a narrower interval; a weak broken power such as 1 + 1e-6 x^0.58 seems to have one.
-    constexpr double clear = 1e3 * accurate;
-    if (pole > 0 && std::abs(rest(-1)) <= clear * largest) return std::nullopt;
-    double amplified = std::max(32 * noise, 32 * shift * largest);
+    const double clear = pole > 0 ? 1e3 * accurate : 0;
+    double amplified = std::max({32 * noise, 32 * shift * largest, clear * largest});
     for (int zero = 0; zero <= zeros; ++zero, amplified *= 100) {
       if (std::abs(rest(-1)) > amplified) {
         if (zero > 0 && pole > 0) return std::nullopt;
