@@ -1196,14 +1196,16 @@ template std::array<Dual<1>, 2> Formulas::with_slopes(const std::array<double, 1
 template std::array<Dual<2>, 2> Formulas::with_slopes(const std::array<double, 2>&) const;
 
 double parse_constant(const std::string& text) {
-  if (is_number(text)) return parse_number(text);
-  double value = NAN;
+  const bool two_signs = text.find_first_not_of("+-") > 1;  // as in +-1, a mistake
+  if (is_number(text) || two_signs) return parse_number(text);
+  double value = 0;
   try {
     value = Formulas({.left = {}, .variables = {}, .sentence = "a value is a number"}, text, {})({})[0];
   } catch (const BadInput&) {
-    // parse_number refuses the text.
+    return parse_number(text);  // refuses the text
   }
-  return std::isfinite(value) ? value : parse_number(text);
+  if (!std::isfinite(value)) throw BadInput("{} is not a finite number", quotation(text));
+  return value;
 }
 
 }  // namespace contensou::answers

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "answers/input/formulas.hpp"
 #include "contensou/si/quantity.hpp"
 
 namespace contensou::program {
@@ -91,14 +92,11 @@ std::string_view known_unit(std::string_view symbol) {
   return symbol;
 }
 
+double number(const std::string& typed) { return parse_constant(typed); }
+
 double parse_quantity(const std::string& typed, std::string_view symbol) {
   const si::Dimension* dimension = si::find_dimension(symbol);
-  if (const std::size_t bar = typed.find('/'); dimension == nullptr && bar != std::string::npos) {
-    const double fraction = parse_number(typed.substr(0, bar)) / parse_number(typed.substr(bar + 1));
-    if (!std::isfinite(fraction)) throw BadInput("{} is not a finite number", quotation(typed));
-    return fraction;
-  }
-  if (dimension == nullptr || is_number(typed)) return parse_number(typed);
+  if (dimension == nullptr || is_number(typed)) return number(typed);
   const double value = si::parse_quantity(typed, *dimension).value_or(NAN);
   if (std::isfinite(value)) return value;
   std::size_t size = typed.size();

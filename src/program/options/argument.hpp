@@ -124,14 +124,14 @@ Arguments united(std::initializer_list<Arguments> lists);
 /// Returns true if a value is the path of a file: it contains a / or ends with one of these endings.
 bool names_a_file(const std::string& typed, const std::vector<std::string>& endings);
 
-/// Read a number, and a whole number, for an ArgumentOf.
-inline double number(const std::string& typed) { return parse_number(typed); }
+/// Read a number, which may be a formula of numbers such as 2/3, and a whole number, for an ArgumentOf.
+double number(const std::string& typed);
 inline auto whole_number(long lowest, long highest) {
   return [=](const std::string& typed) { return parse_integer(typed, lowest, highest); };
 }
 
 /// Reads a number and returns it in a unit. Behind the typed number, any unit of the same kind may stand.
-/// @param symbol  symbol of the unit (si::dimensions); empty for a pure number, which may be a fraction such as 2/3
+/// @param symbol  symbol of the unit (si::dimensions); empty for a pure number
 double parse_quantity(const std::string& typed, std::string_view symbol);
 /// @throws std::logic_error  unless the text is a symbol in si::dimensions
 std::string_view known_unit(std::string_view symbol);

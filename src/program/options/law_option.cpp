@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "answers/asked/formula_law.hpp"
-#include "answers/input/formulas.hpp"
 #include "answers/input/tables.hpp"
 
 namespace contensou::program {
@@ -19,7 +18,7 @@ std::vector<std::string> names_of_forms() {
 std::pair<std::string, double> parse_parameter(const std::string& typed) {
   const std::size_t equals = typed.find('=');
   if (equals == std::string::npos) throw NotAllowed("a parameter is NAME=VALUE");
-  return {typed.substr(0, equals), parse_constant(typed.substr(equals + 1))};
+  return {typed.substr(0, equals), number(typed.substr(equals + 1))};
 }
 
 }  // namespace

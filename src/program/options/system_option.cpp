@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "answers/input/formulas.hpp"
-
 namespace contensou::program {
 
 void SystemOption::add(CLI::App& app) {
@@ -26,13 +24,13 @@ void SystemOption::add(CLI::App& app) {
                  std::erase(letter, ' ');
                  if (equals == std::string::npos || letter.empty())
                    throw NotAllowed("two values with their letters are needed, such as \"x=1, y=0\"");
-                 values.emplace_back(letter, parse_constant(part.substr(equals + 1)));
+                 values.emplace_back(letter, number(part.substr(equals + 1)));
                }
                return values;
              });
   app.option_defaults()->group("");  // the help of --start names them
-  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", parse_constant);
-  y0_.add(app, "--y0", "Y", "value of the letter y, or of x' in x'' = F, at the start of --system", parse_constant);
+  x0_.add(app, "--x0", "X", "value of the letter x at the start of --system", number);
+  y0_.add(app, "--y0", "Y", "value of the letter y, or of x' in x'' = F, at the start of --system", number);
   for (Argument* each : {static_cast<Argument*>(&x0_), static_cast<Argument*>(&y0_), static_cast<Argument*>(&start_)}) {
     each->needs(system_, "is in the letters of typed equations");
   }
