@@ -1195,17 +1195,27 @@ std::array<Dual<N>, 2> Formulas::with_slopes(const std::array<double, N>& values
 template std::array<Dual<1>, 2> Formulas::with_slopes(const std::array<double, 1>&) const;
 template std::array<Dual<2>, 2> Formulas::with_slopes(const std::array<double, 2>&) const;
 
-double parse_constant(const std::string& text) {
-  const bool two_signs = text.find_first_not_of("+-") > 1;  // as in +-1, a mistake
-  if (is_number(text) || two_signs) return parse_number(text);
-  double value = 0;
+namespace {
+
+/// Returns the value of a formula of numbers, which may be infinite or NaN; empty for other text.
+std::optional<double> formula_of_numbers(const std::string& text) {
+  if (text.find_first_not_of("+-") > 1) return std::nullopt;  // two signs, as in +-1, are a mistake
   try {
-    value = Formulas({.left = {}, .variables = {}, .sentence = "a value is a number"}, text, {})({})[0];
+    return Formulas({.left = {}, .variables = {}, .sentence = "a value is a number"}, text, {})({})[0];
   } catch (const BadInput&) {
-    return parse_number(text);  // refuses the text
+    return std::nullopt;
   }
-  if (!std::isfinite(value)) throw BadInput("{} is not a finite number", quotation(text));
-  return value;
 }
+
+}  // namespace
+
+double parse_constant(const std::string& text) {
+  const auto value = is_number(text) ? std::nullopt : formula_of_numbers(text);
+  if (!value) return parse_number(text);
+  if (!std::isfinite(*value)) throw BadInput("{} is not a finite number", quotation(text));
+  return *value;
+}
+
+bool is_constant(const std::string& text) { return is_number(text) || formula_of_numbers(text); }
 
 }  // namespace contensou::answers

@@ -141,5 +141,7 @@ class Formulas {
 /// Returns the value of a number, or of a formula of numbers and pi, such as pi/2.
 /// @throws BadInput  as parse_number
 double parse_constant(const std::string& text);
+/// Returns true if a text is a number or such a formula, even one whose value is not finite.
+bool is_constant(const std::string& text);
 
 }  // namespace contensou::answers

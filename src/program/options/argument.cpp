@@ -99,6 +99,8 @@ double parse_quantity(const std::string& typed, std::string_view symbol) {
   if (dimension == nullptr || is_number(typed)) return number(typed);
   const double value = si::parse_quantity(typed, *dimension).value_or(NAN);
   if (std::isfinite(value)) return value;
+  const bool degrees = symbol == "deg";  // whoever types pi/4 means radians
+  if (!degrees && is_constant(typed)) return number(typed);
   std::size_t size = typed.size();
   while (size > 0 && (typed[size - 1] == ' ' || !is_number(typed.substr(0, size)))) --size;
   if (size > 0 && decimal_hint(typed)[0] == '\0') {
@@ -113,12 +115,12 @@ double parse_quantity(const std::string& typed, std::string_view symbol) {
 
 std::vector<double> parse_quantities(std::vector<std::string> texts, std::string_view symbol) {
   const std::string& last = texts.back();
-  std::size_t size = last.size();
+  std::size_t size = is_constant(last) ? 0 : last.size();
   while (size > 0 && !is_number(last.substr(0, size))) --size;
   const std::string unit = size > 0 ? last.substr(size) : "";
   std::vector<double> values;
   for (std::string& text : texts) {
-    const bool is_plain = is_number(text);
+    const bool is_plain = is_constant(text);
     values.push_back(parse_quantity(is_plain ? text + unit : text, symbol));
     if (unit.empty() && !is_plain) throw NotAllowed("give each number a unit, or one behind the last for all of them");
   }

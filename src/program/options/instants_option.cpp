@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "answers/input/csv.hpp"
+#include "answers/input/formulas.hpp"
 #include "contensou/si/quantity.hpp"
 
 namespace contensou::program {
@@ -19,9 +20,10 @@ Eigen::ArrayXd instants(Eigen::Index count, double busy, double end) {
 
 InstantsOption::Times InstantsOption::read_times(const std::string& typed, const std::string& time,
                                                  std::string_view unit, bool signs) {
-  const bool is_file = typed == "-" || names_a_file(typed, {".csv", ".txt"});
   const std::vector<std::string> texts = split(typed, ',');
-  const bool in_seconds = unit.empty() && !is_file && !std::ranges::all_of(texts, is_number);
+  const bool plain = std::ranges::all_of(texts, is_constant);
+  const bool is_file = typed == "-" || (!plain && names_a_file(typed, {".csv", ".txt"}));  // pi/2 is none
+  const bool in_seconds = unit.empty() && !is_file && !plain;
   const std::vector<double> times =
       is_file ? read_column(typed, time, Infinity::forbidden) : parse_quantities(texts, in_seconds ? "s" : unit);
   const Times all{Eigen::Map<const Eigen::ArrayXd>(times.data(), static_cast<Eigen::Index>(times.size())), in_seconds};

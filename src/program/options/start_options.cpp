@@ -43,8 +43,8 @@ std::string option_of(const si::Quantity& quantity) {
 void BodyOptions::add_mu(CLI::App& app) {
   const auto read = [this](const std::string& typed) {
     const std::vector<std::string> parts = takes_several_mu_ ? split(typed, ',') : std::vector{typed};
-    for (std::size_t i = 1; i < parts.size(); ++i) more_mu_.push_back(parse_number(parts[i]));
-    return parse_number(parts.front());
+    for (std::size_t i = 1; i < parts.size(); ++i) more_mu_.push_back(number(parts[i]));
+    return number(parts.front());
   };
   mu_.add(app, "--mu", takes_several_mu_ ? "M,..." : "M",
           std::string("value of mu, 0 < M <= 1; a disc or ring has mu = 1") +
@@ -63,7 +63,7 @@ void BodyOptions::add_drive(CLI::App& app) {
   app.option_defaults()->group("Start");
   drive_.add(app, "--drive", "RHO", "constant force along the slip divided by f N, 0 <= RHO < 1",
              [](const std::string& typed) {
-               const double drive = parse_number(typed);
+               const double drive = number(typed);
                if (drive >= 1) throw NotAllowed("a drive of 1 is as strong as friction, so the body never stops");
                if (drive < 0)
                  throw NotAllowed("a drive against the slip turns it round, which is no orbit: 0 or more is needed");

@@ -9,6 +9,7 @@
 
 #include "answers/asked/formula_law.hpp"
 #include "answers/figures/figures.hpp"
+#include "answers/input/formulas.hpp"
 #include "answers/input/track_file.hpp"
 #include "answers/verbs/fit_answer.hpp"
 #include "contensou/fit/fit.hpp"
@@ -47,7 +48,7 @@ NoiseByName parse_noise(const std::string& typed) {
     const std::string_view unit = name == stop ? "s" : name == slide ? "m" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);
     // An angle without a unit is in radians here, in contrast to angles of other options.
-    const bool has_unit = !value.empty() && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
+    const bool has_unit = !is_constant(value) && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
     if (!(sd > 0)) throw NotAllowed("a standard deviation is > 0, in {}", unit);

@@ -82,7 +82,8 @@ std::string units() {
       "An option in SI units takes a unit after its number, as in --slip \"2 m/s\", --spin 300rpm or --radius \"2.25 "
       "in\". A number without a unit has the first unit of its line in this list. A unit after a list of numbers "
       "applies to all of them. In a range the unit stands before the count, as in --spin \"0:60 rpm:3\". In run files "
-      "a value with a unit stands in quotes.");
+      "a value with a unit stands in quotes. A number without a unit may be a formula of numbers, as 2/3 or 2*pi; an "
+      "angle may not.");
   for (const si::Dimension& dimension : si::dimensions()) text += help_entry(dimension.name, units_of(dimension));
   return text + "\n" +
          help_paragraph(

@@ -43,8 +43,8 @@ void read_window(const std::string& typed, portraits::PortraitRequest& request) 
   for (int i : {0, 1}) {
     const std::vector<std::string> ends = split(ranges[static_cast<std::size_t>(i)], ':');
     if (ends.size() != 2) throw NotAllowed("a window is U,V or U1:U2,V1:V2");
-    window.low[i] = parse_number(ends[0]);
-    window.high[i] = parse_number(ends[1]);
+    window.low[i] = number(ends[0]);
+    window.high[i] = number(ends[1]);
     if (!(window.low[i] < window.high[i])) throw NotAllowed("a side of the window begins below its end");
   }
 }
@@ -57,7 +57,7 @@ std::vector<double> parse_times(const std::string& typed) {
   if (parts.size() > most) throw NotAllowed("at most {} times are allowed", most);
   std::vector<double> times;
   for (const std::string& part : parts) {
-    times.push_back(parse_number(part));
+    times.push_back(number(part));
     if (!(times.back() > 0)) throw NotAllowed("the time of an isochrone is above 0");
   }
   return times;
