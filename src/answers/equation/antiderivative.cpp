@@ -289,6 +289,7 @@ Maybe Search::table(const E& f, std::size_t x) {
   const auto call = [](std::string_view name, const E& argument) { return E::function(name, argument); };
   if (!base.has(x) && f.is(Kind::power)) return of_argument(exponent, f / call("ln", base));
   if (is_function(base, "abs") && !exponent.has(x)) {
+    if (exponent == E(-1)) return of_argument(base.parts()[0], call("sign", base.parts()[0]) * call("ln", base));
     return of_argument(base.parts()[0], base.parts()[0] * f / (exponent + 1));
   }
   if (base.is(Kind::function) && is_whole(exponent)) {
@@ -563,11 +564,44 @@ Maybe Search::by_substitution(const E& f, std::size_t x, int depth) {
   return attempt(2 * in_w / ((*line)[0] * half), E::function("tan", z / 2));
 }
 
+/// Returns an antiderivative that is continuous where a linear function z vanishes, and f jumps or has a kink.
+Maybe across(const E& f, const E& z, std::size_t x) {
+  const auto line = linear(z, x);
+  if (!line || !(*line)[0].is_constant() || !(*line)[1].is_constant()) return std::nullopt;
+  const E root = -(*line)[1] / (*line)[0], size = E::function("abs", z), sign = E::function("sign", z);
+  const auto [above, below] = continuations_of(f, z);
+  const auto from_root = [&](const E& side) {
+    Maybe found = antiderivative(side, x);
+    if (!found) return found;
+    const E there = found->with(x, root);
+    return std::isfinite(there({0.37, 0.59, 0.71, 0.83})) ? Maybe(*found - there) : found;
+  };
+  const Maybe after = from_root(above);
+  if (!after) return after;
+  // If f is even or odd about the root, |z| stands for z.
+  const E mirrored = below.with(x, 2 * root - E::variable(x)), sized = after->with(x, (size - (*line)[1]) / (*line)[0]);
+  if (tidied(mirrored - above).is_zero()) return sign * sized;
+  if (tidied(mirrored + above).is_zero()) return sized;
+  const Maybe before = from_root(below);
+  if (!before) return before;
+  const E &A = *after, &B = *before;
+  const E half = tidied((A - B) / 2), times = tidied(half / z);
+  return tidied((A + B) / 2) + (times.is_constant() ? times * size : sign * half);
+}
+
 }  // namespace antiderivatives
 
 std::optional<Expression> antiderivative(const Expression& f, std::size_t variable) {
+  using namespace antiderivatives;
   try {
-    return antiderivatives::Search()(f, variable);
+    const auto depends = [&](const E& z) { return z.has(variable); };
+    // The search takes sign(z) for a number.
+    if (std::ranges::none_of(signs_in(f), depends)) {
+      if (Maybe found = Search()(f, variable)) return found;
+    }
+    const std::vector<E> borders = borders_in(f);
+    const auto border = std::ranges::find_if(borders, depends);
+    return border == borders.end() ? std::nullopt : across(f, *border, variable);
   } catch (const std::exception&) {
     return std::nullopt;  // a formula became too long
   }

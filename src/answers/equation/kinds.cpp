@@ -26,7 +26,41 @@ double size_at(const E& e, const std::array<double, 2>& x) {
 
 }  // namespace kinds_of_equation
 
-std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& formulas, bool quadrant) const {
+Eigen::Vector2d Equation::quadrant() const {
+  constexpr double soon = 1e-3;
+  const auto rate = [&](const Eigen::Vector2d& x) { return Eigen::Vector2d(f[0]({x[0], x[1]}), f[1]({x[0], x[1]})); };
+  const Eigen::Vector2d after = soon * rate(start + soon / 2 * rate(start));
+  Eigen::Vector2d x = start;
+  for (const Eigen::Index k : {0, 1}) {
+    if (x[k] == 0 && std::isfinite(after[k])) x[k] = after[k];
+  }
+  return x;
+}
+
+std::optional<Sides> Equation::largest(const std::function<bool(const Sides&)>& holds) {
+  for (const Sides& within : {Sides{false, false}, {true, false}, {false, true}, {true, true}}) {
+    if (holds(within)) return within;
+  }
+  return std::nullopt;
+}
+
+std::string Equation::text_of(const Sides& within) const {
+  const Eigen::Vector2d inside = quadrant();
+  std::string text;
+  for (const std::size_t k : {0U, 1U}) {
+    if (!within[k]) continue;
+    text += fmt::format("{}{} {} 0", text.empty() ? "" : ", ", names[k],
+                        inside[static_cast<Eigen::Index>(k)] < 0 ? "<" : ">");
+  }
+  return text;
+}
+
+bool Equation::contains(const Sides& within, const Eigen::Vector2d& x) const {
+  const Eigen::Vector2d inside = quadrant();
+  return (!within[0] || x[0] * inside[0] > 0) && (!within[1] || x[1] * inside[1] > 0);
+}
+
+std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& formulas, const Sides& within) const {
   using namespace kinds_of_equation;
   std::mt19937 random(7);
   constexpr double least = 0.2, most = 2.6;
@@ -39,15 +73,21 @@ std::vector<Eigen::Vector2d> Equation::points(const std::vector<Expression>& for
     return value == 0 || (std::abs(value) > 1 / usual && std::abs(value) < usual);
   };
   const bool of_two_sizes = !is_usual(start[0]) || !is_usual(start[1]);
+  const Eigen::Vector2d inside = quadrant();
+  const auto have_values = [&](const Eigen::Vector2d& x) {
+    return std::ranges::all_of(formulas, [&](const E& e) { return std::isfinite(e({x[0], x[1]})); });
+  };
   for (int i = 0; i < tries && all.size() < enough; ++i) {
     Eigen::Vector2d x;
     for (const Eigen::Index k : {0, 1}) {
-      const bool minus = quadrant ? start[k] < 0 : random() % 2 == 0;
+      const bool minus = within[static_cast<std::size_t>(k)] ? inside[k] < 0 : random() % 2 == 0;
       const double unit = start[k] == 0 || (of_two_sizes && i % 2 == 1) ? 1 : std::abs(start[k]);
       x[k] = (minus ? -unit : unit) * std::exp(size(random));
     }
-    const auto has_value = [&](const E& e) { return std::isfinite(e({x[0], x[1]})); };
-    if (std::ranges::all_of(formulas, has_value)) all.push_back(x);
+    if (have_values(x)) all.push_back(x);
+  }
+  for (const Eigen::Vector2d& x : beside_kinks) {
+    if (contains(within, x) && have_values(x)) all.push_back(x);
   }
   return all;
 }
@@ -66,38 +106,112 @@ bool Equation::vanishes(const Expression& formula, double error) const {
 }
 
 bool Equation::is_free_of(const Expression& formula, std::size_t variable) const {
-  return vanishes(formula.derivative(variable)) && vanishes(formula - formula.with(variable, Number(13, 10)));
+  const std::array<Expression, 2> shift{variable == 0 ? 1 : 0, variable == 1 ? 1 : 0};
+  return vanishes(formula.derivative(variable)) && vanishes(formula - formula.with(variable, Number(13, 10))) &&
+         keeps_jumps(formula, shift);
 }
 
-std::vector<Expression> signs_in(const Expression& e) {
+namespace kinds_of_equation {
+
+/// Returns the arguments of all parts of a formula that are one of the functions.
+std::vector<Expression> arguments_in(const Expression& e, std::initializer_list<std::string_view> functions) {
   std::vector<Expression> all;
   e.replaced([&](const Expression& part) -> std::optional<Expression> {
-    if (is_function(part, "sign") && std::ranges::count(all, part.parts()[0]) == 0) all.push_back(part.parts()[0]);
+    for (const std::string_view name : functions) {
+      if (is_function(part, name) && std::ranges::count(all, part.parts()[0]) == 0) all.push_back(part.parts()[0]);
+    }
     return std::nullopt;
   });
   return all;
 }
 
-bool jumps_at(const Expression& e, const Expression& z) {
+}  // namespace kinds_of_equation
+
+Continuations continuations_of(const Expression& e, const Expression& z) {
   const auto side = [&](int sign) {
-    return e.replaced([&](const Expression& part) {
-      return is_function(part, "sign") && part.parts()[0] == z ? std::optional(Expression(sign)) : std::nullopt;
+    return e.replaced([&](const Expression& part) -> std::optional<Expression> {
+      if (part.parts().empty() || !(part.parts()[0] == z)) return std::nullopt;
+      if (is_function(part, "sign")) return Expression(sign);
+      return is_function(part, "abs") ? std::optional(sign * z) : std::nullopt;
     });
   };
-  const Expression above = side(1), below = side(-1), by_x = z.derivative(0), by_y = z.derivative(1);
-  // Newton's method goes along the gradient of z to a zero.
+  return {side(1), side(-1)};
+}
+
+std::vector<Expression> borders_in(const Expression& e) { return kinds_of_equation::arguments_in(e, {"sign", "abs"}); }
+
+std::vector<Expression> signs_in(const Expression& e) { return kinds_of_equation::arguments_in(e, {"sign"}); }
+
+namespace kinds_of_equation {
+
+/// Returns points with z = 0, found by Newton's method along the gradient of z.
+std::vector<Eigen::Vector2d> zeros_of(const Expression& z) {
+  const Expression by_x = z.derivative(0), by_y = z.derivative(1);
+  std::vector<Eigen::Vector2d> all;
   for (Eigen::Vector2d x : {Eigen::Vector2d(0.37, 0.81), {-0.53, 0.29}, {1.31, -0.7}, {-2.1, -1.7}}) {
     constexpr int steps = 20;
-    constexpr double zero = 1e-12, error = 1e-9;
+    constexpr double zero = 1e-12;
     for (int i = 0; i < steps; ++i) {
       const Eigen::Vector2d slope(by_x({x[0], x[1]}), by_y({x[0], x[1]}));
       x -= z({x[0], x[1]}) / slope.squaredNorm() * slope;
     }
-    const double here = above({x[0], x[1]}), there = below({x[0], x[1]});
-    if (std::abs(z({x[0], x[1]})) <= zero && std::abs(here - there) > error * (std::abs(here) + std::abs(there)))
-      return true;
+    const double size = 1 + std::abs(x[0] * by_x({x[0], x[1]})) + std::abs(x[1] * by_y({x[0], x[1]}));
+    if (std::abs(z({x[0], x[1]})) <= zero * size) all.push_back(x);
   }
-  return false;
+  return all;
+}
+
+/// Returns points on both sides of places where e jumps or has a kink.
+std::vector<Eigen::Vector2d> beside_kinks_of(const Expression& e) {
+  constexpr double near = 1e-3;
+  std::vector<Eigen::Vector2d> all;
+  for (const Expression& z : borders_in(e)) {
+    const Expression by_x = z.derivative(0), by_y = z.derivative(1);
+    for (const Eigen::Vector2d& x : zeros_of(z)) {
+      const Eigen::Vector2d across = Eigen::Vector2d(by_x({x[0], x[1]}), by_y({x[0], x[1]})).stableNormalized();
+      for (const double side : {-near, near}) all.push_back(x + side * (1 + x.stableNorm()) * across);
+    }
+  }
+  return all;
+}
+
+}  // namespace kinds_of_equation
+
+std::vector<Eigen::Vector2d> jumps_at(const Expression& e, const Expression& z) {
+  const Continuations sides = continuations_of(e, z);
+  std::vector<Eigen::Vector2d> all = kinds_of_equation::zeros_of(z);
+  std::erase_if(all, [&](const Eigen::Vector2d& x) {
+    constexpr double error = 1e-9;
+    const double here = sides.above({x[0], x[1]}), there = sides.below({x[0], x[1]});
+    return !(std::abs(here - there) > error * (std::abs(here) + std::abs(there)));
+  });
+  return all;
+}
+
+bool keeps_jumps(const Expression& e, const std::array<Expression, 2>& X) {
+  constexpr double zero = 1e-9;
+  return std::ranges::all_of(signs_in(e), [&](const Expression& z) {
+    const Expression by_x = z.derivative(0), by_y = z.derivative(1);
+    return std::ranges::all_of(jumps_at(e, z), [&](const Eigen::Vector2d& at) {
+      const std::array<double, 2> x{at[0], at[1]};
+      const double along_x = X[0](x) * by_x(x), along_y = X[1](x) * by_y(x);
+      return std::abs(along_x + along_y) <= zero * (std::abs(along_x) + std::abs(along_y));
+    });
+  });
+}
+
+bool Equation::is_separable() const {
+  using namespace kinds_of_equation;
+  const Expression& R = slope;
+  if (!vanishes(R * R.derivative(0).derivative(1) - R.derivative(0) * R.derivative(1))) return false;
+  // On both sides of a jump or kink, R must be the same function of y times functions of x, or the reverse.
+  return std::ranges::all_of(borders_in(R), [&](const Expression& z) {
+    const auto [above, below] = continuations_of(R, z);
+    if (vanishes(above - below)) return true;
+    if (z.has(0) && z.has(1)) return false;
+    const Expression ratio = above.is_zero() || below.is_zero() ? Expression(1) : above / below;
+    return is_free_of(ratio, z.has(0) ? 1 : 0);
+  });
 }
 
 std::optional<Number> Equation::constant(const Expression& formula) const {
@@ -127,20 +241,44 @@ Number snapped(double value, double error) {
   return Number(value);
 }
 
-bool Equation::is_integral(const Expression& H, bool quadrant) const {
+Expression exact(double value) {
+  const Number fraction = snapped(value, 1e-13 * (1 + std::abs(value)));
+  if (fraction.is_exact()) return fraction;
+  constexpr int most_below = 12, most_whole = 6;
+  constexpr double most_square = 100, rounding = 4e-15;
+  for (int below = 1; below <= most_below; ++below) {
+    for (int i = 0; i <= 2 * most_whole; ++i) {
+      const int whole = i % 2 == 0 ? -i / 2 : (i + 1) / 2;
+      const double rest = value * below - whole, square = std::rint(rest * rest);
+      if (square < 2 || square > most_square) continue;
+      if (!(std::abs(rest * rest - square) <= rounding * (square + whole * whole + std::abs(rest)))) continue;
+      const Expression root = power(Expression(Number(static_cast<long long>(square))), Number(1, 2));
+      return (whole + (rest < 0 ? -root : root)) / below;
+    }
+  }
+  return Number::inexact(value);
+}
+
+bool Equation::is_integral(const Expression& H, const Sides& within) const {
   using namespace kinds_of_equation;
   const Expression by_x = H.derivative(0), by_y = H.derivative(1);
-  const auto at = points({H, by_x, by_y, f[0], f[1]}, quadrant);
-  constexpr double error = 1e-12;
-  double largest = 0;
+  const auto at = points({H, by_x, by_y, f[0], f[1]}, within);
+  constexpr double error = 1e-12, least = 1e-9;
+  bool changes = false;  // rounding alone leaves a gradient
   for (const auto& x : at) {
     const std::array<double, 2> here{x[0], x[1]};
     const double first = f[0](here), second = f[1](here);
-    const double size = std::abs(first) * size_at(by_x, here) + std::abs(second) * size_at(by_y, here);
+    const double size_x = size_at(by_x, here), size_y = size_at(by_y, here);
+    const double size = std::abs(first) * size_x + std::abs(second) * size_y;
     if (!(std::abs(first * by_x(here) + second * by_y(here)) <= error * size)) return false;
-    largest = std::max(largest, std::abs(by_x(here)) + std::abs(by_y(here)));
+    changes |= std::abs(by_x(here)) > least * size_x || std::abs(by_y(here)) > least * size_y;
   }
-  return at.size() >= enough && largest > 0;
+  return at.size() >= enough && changes && std::ranges::none_of(signs_in(H), [&](const Expression& z) {
+           const Continuations rate = continuations_of(f[0] * z.derivative(0) + f[1] * z.derivative(1), z);
+           return std::ranges::any_of(jumps_at(H, z), [&](const Eigen::Vector2d& x) {
+             return contains(within, x) && rate.above({x[0], x[1]}) * rate.below({x[0], x[1]}) > 0;
+           });
+         });
 }
 
 std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vector2d& start) {
@@ -156,6 +294,7 @@ std::optional<Equation> equation_of(const FormulaField& system, const Eigen::Vec
   } catch (const std::length_error&) {
     return std::nullopt;
   }
+  equation.beside_kinks = kinds_of_equation::beside_kinks_of(equation.slope);
   return equation;
 }
 
@@ -223,7 +362,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     for (const E& each : f) {
       for (const E& z : signs_in(each)) {
         const E by_u = z.derivative(0), by_v = z.derivative(1);
-        if (jumps_at(across ? f[0] * by_u + f[1] * by_v : f[0] * by_v - f[1] * by_u, z)) return false;
+        if (!jumps_at(across ? f[0] * by_u + f[1] * by_v : f[0] * by_v - f[1] * by_u, z).empty()) return false;
       }
     }
     return true;
@@ -257,10 +396,12 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     }
     return kinds;
   }
-  add_kind("rotation", [&] { return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R); });
+  add_kind("rotation", [&] {
+    return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R) && keeps_jumps(R, {-y, x});
+  });
   const E by_x = R.derivative(0), by_y = R.derivative(1);
   if (first) add("autonomous", [&] { return equation.is_free_of(R, 0); });
-  if (!second) add_kind("separable", [&] { return vanishes(R * by_y.derivative(0) - by_x * by_y); });
+  if (!second) add_kind("separable", [&] { return equation.is_separable(); });
   // A polynomial of a degree below n is determined by n values. Derivatives alone do not see kinks, as of |y|.
   const auto is_polynomial = [&](const std::vector<int>& at) {
     std::vector<E> terms{R};
@@ -271,8 +412,9 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     }
     return vanishes(E::sum(terms));
   };
+  const auto smooth_in_y = [&] { return keeps_jumps(R, {0, 1}) && keeps_jumps(by_y, {0, 1}); };
   const bool linear = second || add_kind("linear", [&] {
-                        return vanishes(by_y.derivative(1)) && is_polynomial({1, -2});
+                        return vanishes(by_y.derivative(1)) && is_polynomial({1, -2}) && smooth_in_y();
                       });
   if (!linear) {
     std::optional<Number> n;
@@ -281,12 +423,15 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       if (!vanishes(W)) n = equation.constant(y * W.derivative(1) / W);
       if (n && !(*n == Number(1))) {
         const E rest = (R - W / (E(*n) - 1)) / y;
-        if (!vanishes(rest - rest.with(1, 1))) n.reset();
+        // y = 0 separates equations with y^n
+        if (!vanishes(rest - rest.with(1, 1)) || !keeps_jumps(rest, {0, y}) || !keeps_jumps(W, {0, y})) n.reset();
       }
       return true;
     });
     if (n && !(*n == Number(1)) && !(*n == Number(0))) name_kind(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
-    add_kind("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
+    add_kind("Riccati", [&] {
+      return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}) && smooth_in_y();
+    });
   }
   // Derivatives do not see jumps, so that finite maps are tried, too.
   const auto maps = [&](const std::array<double, 2>& factors, const std::array<double, 2>& shifts, double factor) {
@@ -298,7 +443,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     });
   };
   const bool homogeneous = !second && add_kind("homogeneous", [&] {
-    return vanishes(x * by_x + y * by_y) && maps({2, 2}, {0, 0}, 1);
+    return vanishes(x * by_x + y * by_y) && keeps_jumps(R, {x, y}) && maps({2, 2}, {0, 0}, 1);
   });
   if (!homogeneous) {
     std::optional<Number> m;
@@ -307,7 +452,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       if (!vanishes(below)) m = equation.constant((R + x * by_x) / below);
       return true;
     });
-    if (m && maps({2, std::exp2(m->value())}, {0, 0}, std::exp2(m->value() - 1))) {
+    if (m && keeps_jumps(R, {x, *m * y}) && maps({2, std::exp2(m->value())}, {0, 0}, std::exp2(m->value() - 1))) {
       name_kind(fmt::format("isobaric ({})", scaling_text(names[0], 1, names[1], *m)));
     }
   }
@@ -316,7 +461,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     if (!vanishes(by_y)) c = equation.constant(-by_x / by_y);
     return true;
   });
-  if (c && !(*c == Number(0)) && maps({1, 1}, {1, c->value()}, 1)) {
+  if (c && !(*c == Number(0)) && keeps_jumps(R, {1, *c}) && maps({1, 1}, {1, c->value()}, 1)) {
     name_kind(fmt::format("shift along a direction (1, {})", E(*c).text({}, 6)));
   }
   if (second) return kinds;
@@ -324,12 +469,18 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     const auto [above, below] = fraction_of(R);
     const E M = first ? -above : f[1], N = first ? below : -f[0];
     const E curl = M.derivative(1) - N.derivative(0);
+    // At a jump the part of (M, N) along it must be continuous. A factor of (M, N) may jump with the integrating
+    // factor.
+    const auto jumps = [&](const E& along_x, const E& along_y) {
+      return std::ranges::any_of(signs_in(R), [&](const E& z) {
+        return !jumps_at(along_x * z.derivative(1) - along_y * z.derivative(0), z).empty();
+      });
+    };
     if (vanishes(curl)) {
-      const bool jumps = std::ranges::any_of(
-          signs_in(R), [&](const E& z) { return jumps_at(M * z.derivative(1) - N * z.derivative(0), z); });
-      if (first && !jumps) kinds.emplace_back("exact");
+      if (first && !jumps(M, N)) kinds.emplace_back("exact");
       return true;
     }
+    if (jumps(M, N) && jumps(-R, 1) && jumps(-1, 1 / R)) return false;
     const E of_x = curl / N, of_y = curl / M;
     if (equation.is_free_of(of_x, 1)) name_kind("integrating factor of " + names[0]);
     if (equation.is_free_of(of_y, 0)) name_kind("integrating factor of " + names[1]);

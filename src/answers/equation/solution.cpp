@@ -95,7 +95,7 @@ std::optional<std::array<E, 2>> separated(const Equation& equation) {
     if (!mixed) return {{E::product(of_x), E::product(of_y)}};
   }
   const E& R = equation.slope;
-  if (!equation.vanishes(R * R.derivative(0).derivative(1) - R.derivative(0) * R.derivative(1))) return std::nullopt;
+  if (!equation.is_separable()) return std::nullopt;
   for (const Number& a : {Number(0), Number(1), Number(2), Number(1, 2), Number(-1)}) {
     for (const Number& b : {Number(0), Number(1), Number(2), Number(1, 2), Number(-1)}) {
       const E corner = R.with(0, a).with(1, b);
@@ -144,7 +144,9 @@ struct Linear {
 /// Returns the linear equation of an equation dz/ds = R that is linear in z or of Bernoulli's kind.
 std::optional<Linear> linear_form(const Equation& equation, const E& R, std::size_t z) {
   const E at = E::variable(z), by = R.derivative(z);
+  const auto along = [&](const E& rate) { return std::array<E, 2>{z == 0 ? rate : E(0), z == 1 ? rate : E(0)}; };
   if (equation.vanishes(by.derivative(z))) {
+    if (!keeps_jumps(R, along(1)) || !keeps_jumps(by, along(1))) return std::nullopt;
     const E a = tidied(by.with(z, 0)), b = tidied(R.with(z, 0));
     // A formula without a value at z = 0 is expanded first.
     if (std::isfinite(a({0.37, 0.59})) && !a.has(z)) return {{a, b, 1}};
@@ -154,8 +156,13 @@ std::optional<Linear> linear_form(const Equation& equation, const E& R, std::siz
   }
   const E W = at * by - R;
   const auto n = equation.constant(at * W.derivative(z) / W);
-  if (!n || *n == Number(1) || *n == Number(0)) return std::nullopt;
-  const E b = tidied(W.with(z, 1) / (E(*n) - 1)), a = tidied(R.with(z, 1) - b), k = 1 - E(*n);
+  if (!n || *n == Number(1) || *n == Number(0) || !keeps_jumps(R, along(at)) || !keeps_jumps(by, along(at)))
+    return std::nullopt;
+  // z = 1 or -1, on the side of the start; |z|^n of other n is that of z = 1
+  const bool minus = n->is_whole() && equation.quadrant()[static_cast<Eigen::Index>(z)] < 0;
+  const E one = minus ? -1 : 1, raised = minus ? power(one, *n) : 1;
+  const E b = tidied(W.with(z, one) / (raised * (E(*n) - 1))), a = tidied((R.with(z, one) - b * raised) / one);
+  const E k = 1 - E(*n);
   return {{k * a, k * b, k}};
 }
 
@@ -328,17 +335,19 @@ std::string field_text(const std::array<E, 2>& X, const std::vector<std::string>
   return text;
 }
 
-/// Returns true if a formula in q, after q is replaced, equals dq/dp along orbits.
-bool agrees(const Equation& equation, const Coordinates& c) {
+/// Returns true if a formula in q, after q is replaced, equals dq/dp along orbits in a part of the plane.
+bool agrees(const Equation& equation, const Coordinates& c, const Sides& within) {
   const auto rate = [&](const E& e) { return e.derivative(0) + equation.slope * e.derivative(1); };
   const E of_q = rate(c.q), of_p = rate(c.p);
-  const E difference = c.dq_dp ? of_q - c.dq_dp->with(2, c.q) * of_p : of_p - c.dp_dq->with(2, c.q) * of_q;
-  const auto at = equation.points({equation.slope, of_q, of_p, difference}, true);
+  const E& left = c.dq_dp ? c.q : c.p;
+  const E right = c.dq_dp ? c.dq_dp->with(2, c.q) * of_p : c.dp_dq->with(2, c.q) * of_q;
+  const E by_x = left.derivative(0), by_y = equation.slope * left.derivative(1), difference = by_x + by_y - right;
+  const auto at = equation.points({equation.slope, of_q, of_p, difference}, within);
   constexpr std::size_t fewest = 20;
   return at.size() >= fewest && std::ranges::all_of(at, [&](const Eigen::Vector2d& point) {
            const double here[]{point[0], point[1]};
-           const double size = std::abs(of_q(here)) + std::abs(of_p(here));
-           return std::abs(difference(here)) <= 1e-9 * (1 + size);
+           const double size = std::abs(by_x(here)) + std::abs(by_y(here)) + std::abs(right(here));
+           return std::abs(difference(here)) <= 1e-9 * size;
          });
 }
 
@@ -496,7 +505,9 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
                             const std::array<E, 2>& place) -> std::optional<Coordinates> {
     if (c.dq_dp) c.dq_dp = tidied(*c.dq_dp);
     if (c.dp_dq) c.dp_dq = tidied(*c.dp_dq);
-    if (!agrees(equation, c)) return std::nullopt;
+    const auto within = Equation::largest([&](const Sides& part) { return agrees(equation, c, part); });
+    if (!within || !keeps_jumps(R, X)) return std::nullopt;
+    c.within = *within;
     c.symmetry = map + ";  X = " + field_text(X, names);
     Eigen::Matrix2d turn;
     turn << 0, -1, 1, 0;
@@ -510,7 +521,7 @@ std::optional<Coordinates> coordinates_of(const Equation& equation, const reduct
     if (!c.dt_dp) c.dt_dp = 1 / tidied(rate.with(0, place[0]).with(1, place[1]));
     c.dt_dp = tidied(*c.dt_dp);
     const E error = c.dt_dp->with(2, c.q).with(3, c.p) * rate - 1;
-    const auto at = equation.points({equation.slope, error}, true);
+    const auto at = equation.points({equation.slope, error}, c.within);
     const auto vanishes = [&](const Eigen::Vector2d& here) { return std::abs(error({here[0], here[1]})) < 1e-9; };
     if (at.empty() || !std::ranges::all_of(at, vanishes)) c.dt_dp.reset();
     return c;
@@ -615,11 +626,8 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
     try {
       const Maybe H = way();
       if (!H || !(H->has(0) || H->has(1))) return;
-      if (equation.is_integral(*H)) {
-        result = {*H, *H};
-      } else if (equation.is_integral(*H, true)) {
-        result = {*H, *H, {}, true};
-      }
+      const auto within = Equation::largest([&](const Sides& part) { return equation.is_integral(*H, part); });
+      if (within) result = {*H, *H, {}, *within};
     } catch (const std::exception&) {
       // a formula became too long, or has no value
     }
@@ -696,7 +704,7 @@ std::optional<IntegralFormula> integral_of(const Equation& equation, const std::
   result->solvable = result->H;
   for (E other : {summed, tidied(summed), tidied(result->H)}) {
     if (other.text(names).starts_with('-')) other = -other;
-    if (other.size() < result->H.size() && equation.is_integral(other, result->quadrant)) result->H = other;
+    if (other.size() < result->H.size() && equation.is_integral(other, result->within)) result->H = other;
   }
   return result;
 }
@@ -711,9 +719,14 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
     const Number simple = snapped(C);
     // A multiple of pi is exact, so that all compilers print the same.
     const double turns = std::round(C / std::numbers::pi) * std::numbers::pi;
-    E left = H, right = simple.below() > 0 && simple.below() <= 12 && std::abs(simple.value() - C) < exact ? simple
-                        : std::abs(turns - C) < exact * std::abs(C) ? Number::inexact(turns)
-                                                                    : Number::inexact(C);
+    // On the side of the start, sign(z) is a number.
+    E left = H.replaced([&](const E& part) -> Maybe {
+      const double at = is_function(part, "sign") ? part.parts()[0]({x0, y0}) : 0;
+      return at == 0 ? std::nullopt : Maybe(at < 0 ? -1 : 1);
+    });
+    E right = simple.below() > 0 && simple.below() <= 12 && std::abs(simple.value() - C) < exact ? simple
+              : std::abs(turns - C) < exact * std::abs(C) ? Number::inexact(turns)
+                                                          : Number::inexact(C);
     constexpr int most_steps = 30;
     for (int step = 0; step < most_steps && !(left == y); ++step) {
       if (!left.has(1)) return std::nullopt;
@@ -725,6 +738,14 @@ std::optional<Expression> solved_for_y(const Equation& equation, const Expressio
         if (with_y.size() == 1) continue;
         if (const auto all = coefficients(left, 1, 1); all && all->size() == 2) {
           right = (right - (*all)[0]) / (*all)[1];
+          left = y;
+          continue;
+        }
+        if (const auto all = coefficients(left, 1, 2); all && all->size() == 3) {
+          const E &a = (*all)[2], &b = (*all)[1], c = (*all)[0] - right;
+          const E root = power(tidied(b * b - 4 * a * c), Number(1, 2));
+          const int side = (2 * a * y + b)({x0, y0}) < 0 ? -1 : 1;
+          right = (side * root - b) / (2 * a);
           left = y;
           continue;
         }

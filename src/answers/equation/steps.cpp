@@ -14,8 +14,9 @@ namespace contensou::answers {
 std::string Steps::separated(int digits) const {
   if (!coordinates) return "";
   const bool of_q = coordinates->dq_dp.has_value();
-  return fmt::format("d{0}/d{1} = {2}", names[of_q ? 2 : 3], names[of_q ? 3 : 2],
-                     text(of_q ? *coordinates->dq_dp : *coordinates->dp_dq, digits));
+  return fmt::format("d{0}/d{1} = {2}{3}{4}", names[of_q ? 2 : 3], names[of_q ? 3 : 2],
+                     text(of_q ? *coordinates->dq_dp : *coordinates->dp_dq, digits),
+                     separated_where.empty() ? "" : ",  for ", separated_where);
 }
 
 std::string Steps::broken_at(const Eigen::Vector2d& x) const {
@@ -62,7 +63,7 @@ std::vector<Expression> Steps::jumps() const {
   };
   integral->H.replaced(look);
   for (const Expression& z : signs_in(integral->H)) {
-    if (jumps_at(integral->H, z)) add(z);
+    if (std::ranges::any_of(jumps_at(integral->H, z), holds_at)) add(z);
   }
   return places;
 }
@@ -83,7 +84,7 @@ double Steps::constant(const Eigen::Vector2d& start, const std::function<reducti
       }
     }
     const double side = part.parts()[0]({(*after)[0], (*after)[1]});
-    stays |= side == 0 && jumps_at(integral->H, part.parts()[0]);
+    stays |= side == 0 && !jumps_at(integral->H, part.parts()[0]).empty();
     return Expression(side > 0 ? 1 : -1);
   });
   return stays ? std::numeric_limits<double>::quiet_NaN() : H(here);
@@ -92,43 +93,75 @@ double Steps::constant(const Eigen::Vector2d& start, const std::function<reducti
 namespace {
 
 using Eigen::Vector2d;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the constant solutions with |y| up to 1000, those nearest to the start if there are many.
 ///
 /// Values cannot tell 0 from terms that rounding hides. A zero y of F is therefore a solution only if F does not
-/// contain x, if a factor of F without x vanishes, or if F becomes 0 when a fraction is put for y.
+/// contain x, if a factor of F without x vanishes, or if F becomes 0 when a fraction is put for y. A factor can be the
+/// power of a base, as in sqrt(2 - y^2): next to the zero of the base, rounding leaves no zero of F.
 /// @param slope  F as a formula
-std::vector<ConstantSolution> constant_solutions(const Expression& slope, const Vector2d& start, bool autonomous) {
+Constants constant_solutions(const Expression& slope, const Vector2d& start, bool autonomous) {
   const auto at = [&](const Expression& e, double y) { return e({start[0] + 0.2371, y}); };
-  std::vector<Expression> factors;
+  std::vector<Expression> bases;  // without x
   const Expression above = fraction_of(slope).above;
   for (const Expression& factor : factors_of(above)) {
     const Expression base = base_and_exponent(factor).first;
-    if (base.with(0, 1) == base) factors.push_back(base);
+    if (!base.has(0) && base.has(1)) bases.push_back(base);
   }
+  // On one side F may have no value, as y^(2/3).
+  const auto size = [&](const Expression& e, double y) {
+    const double value = std::abs(at(e, y));
+    return std::isfinite(value) ? value : infinity;
+  };
+  const auto beside = [&](const Expression& e, double y, double step) {
+    step *= 1 + std::abs(y);
+    return std::min(size(e, y - step), size(e, y + step));
+  };
+  constexpr double step = 1e-3;
   const auto vanishes = [&](const Expression& e, double y) {
-    constexpr double zero = 1e-9, step = 1e-3;
-    // On one side F may have no value, as y^(2/3).
-    const auto size = [&](double there) {
-      const double value = std::abs(at(e, there));
-      return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
-    };
-    const double beside = step * (1 + std::abs(y)), least = std::min(size(y - beside), size(y + beside));
-    return size(y) <= zero * least && least > 0 && std::isfinite(least);
+    constexpr double zero = 1e-9;
+    const double least = beside(e, y, step);
+    return size(e, y) <= zero * least && least > 0 && std::isfinite(least);
+  };
+  const auto is_zero_of_base = [&](double y) {
+    constexpr double smaller = 0.6;  // a thousandth of the distance, with an exponent of 1/12 or more
+    const double last = beside(slope, y, step * step * step), middle = beside(slope, y, step * step);
+    return std::ranges::any_of(bases, [&](const Expression& e) { return vanishes(e, y); }) && last < smaller * middle &&
+           middle < smaller * beside(slope, y, step);
   };
   const auto stays = [&](double y) {
-    return vanishes(slope, y) && (autonomous || slope.with(1, snapped(y)).is_zero() ||
-                                  std::ranges::any_of(factors, [&](const Expression& e) { return vanishes(e, y); }));
+    return (vanishes(slope, y) && (autonomous || slope.with(1, snapped(y)).is_zero())) || is_zero_of_base(y);
   };
   // The equilibria of (x', y') = (x, F(x0, y)) have the places and the stability of the zeros at one x.
-  const reduction::SmoothField across([&](const Vector2d& x) { return Vector2d(x[0], at(slope, x[1])); });
+  const auto zeros = [&](const Expression& e, double reach) {
+    const reduction::SmoothField across([&](const Vector2d& x) { return Vector2d(x[0], at(e, x[1])); });
+    return find_equilibria(across, Vector2d(-1, -reach), Vector2d(1, reach)).points;
+  };
+  const auto side = [&](double y) { return at(slope, y) > 0 ? 1 : at(slope, y) < 0 ? -1 : 0; };
   constexpr std::size_t many = 6, most = 7;
-  std::vector<ConstantSolution> all;
+  Constants found;
+  auto& all = found.all;
   for (double last = -1; const double reach : {2., 16., 128., 1024.}) {
     if (all.size() > many) break;
-    for (const auto& each : find_equilibria(across, Vector2d(-1, -reach), Vector2d(1, reach)).points) {
+    std::vector<reduction::Equilibrium> places = zeros(slope, reach);
+    for (const Expression& base : bases) {
+      for (reduction::Equilibrium& each : zeros(base, reach)) {
+        const double near = step * (1 + std::abs(each.x[1]));
+        const int before = side(each.x[1] - near), after = side(each.x[1] + near);
+        each.kind = before > 0 && after < 0   ? "saddle"
+                    : before < 0 && after > 0 ? "unstable node"
+                    : before * after > 0      ? "saddle-node"
+                                              : "";
+        places.push_back(each);
+      }
+    }
+    for (const auto& each : places) {
       const double y = each.x[1];
-      if (std::abs(y) <= last || !stays(y)) continue;
+      constexpr double same = 1e-6;
+      const bool known = std::ranges::any_of(
+          all, [&](const ConstantSolution& other) { return std::abs(other.y - y) <= same * (1 + std::abs(y)); });
+      if (std::abs(y) <= last || known || !stays(y)) continue;
       all.push_back({y, !autonomous                    ? ""
                         : each.kind == "saddle"        ? "stable"
                         : each.kind == "unstable node" ? "unstable"
@@ -139,32 +172,50 @@ std::vector<ConstantSolution> constant_solutions(const Expression& slope, const 
   }
   const auto distance = [&](const ConstantSolution& each) { return std::abs(each.y - start[1]); };
   std::ranges::sort(all, {}, distance);
+  found.complete = all.size() <= many;
   all.resize(std::min(all.size(), most), {});
   std::ranges::sort(all, {}, &ConstantSolution::y);
-  return all;
+  return found;
 }
 
 /// Returns the solutions on which the separated equation dq/dp = G(q) has G = 0 and which no C gives, as formulas in x:
 /// y = k pi x for y' = y/x + tan(y/x), where q = y/x and G = tan(q). The formulas are put into the equation.
-std::vector<Expression> lost_solutions(const Equation& equation, const Coordinates& c,
-                                       const std::optional<IntegralFormula>& integral, const Vector2d& start) {
-  constexpr double zero = 1e-9, linear = 1e-12, beside = 1.01;
-  const Expression y = Expression::variable(1);
-  std::vector<Expression> all;
-  if (!c.dq_dp || c.q == y) return all;
-  const double below = c.q({start[0], 0}), slope = c.q({start[0], 1}) - below, there = c.q({start[0], start[1]});
-  if (!(std::abs(below + slope * start[1] - there) <= linear * (1 + std::abs(there))) || slope == 0) return all;
-  for (const ConstantSolution& each : constant_solutions(c.dq_dp->with(2, y), {0, there}, true)) {
-    Equation through = equation;
-    through.start = {start[0], (each.y - below) / slope};
-    const auto curve = solved_for_y(through, c.q);
-    if (!curve || !curve->has(0)) continue;
-    // On a solution with a C, H has this value at all x. Rounding can hide that ln 0 is infinite.
-    const auto C = [&](double x) { return integral->H({x, (*curve)({x, 0})}); };
-    if (integral && std::abs(C(start[0]) - C(beside * start[0])) <= zero * (1 + std::abs(C(start[0])))) continue;
-    if (equation.vanishes(curve->derivative(0) - equation.slope.with(1, *curve))) all.push_back(*curve);
+Curves lost_solutions(const Equation& equation, const Coordinates& c, const std::optional<IntegralFormula>& integral,
+                      const Vector2d& start) {
+  constexpr double zero = 1e-9;
+  const double beside = start[0] == 0 ? 0.01 : 1.01 * start[0];
+  const Expression y = Expression::variable(1), slope = c.q.derivative(1);
+  Curves found;
+  if (!c.dq_dp || c.q == y || slope.has(1) || slope.is_zero()) return found;
+  const auto solves = [&](const Expression& curve) {
+    const Expression by_x = curve.derivative(0);
+    const auto at = equation.points({curve, by_x, equation.slope.with(1, curve)}, c.within);
+    return !at.empty() && std::ranges::all_of(at, [&](const Vector2d& point) {
+      const double x = point[0], here = curve({x, 0}), rate = by_x({x, 0}), expected = equation.slope({x, here});
+      // On the border of the domain, as y = x of sqrt(x^2 - y^2), rounding has a root.
+      constexpr double root = 1e-6;
+      return std::abs(rate - expected) <= root * (std::abs(rate) + std::abs(expected) + std::abs(here / x));
+    });
+  };
+  // On a solution with a C, H has this value at all x. On a lost one ln 0 or 1/0 is infinite, which rounding can hide.
+  const auto has_C = [&](const Expression& curve) {
+    const auto C = [&](double x, double off) {
+      return integral->H({x, curve({x, 0}) + off * (1 + std::abs(curve({x, 0})))});
+    };
+    constexpr double step = 1e-3;
+    const double x0 = start[0], last = std::abs(C(x0, step * step * step) - C(x0, step * step));
+    const bool grows = !(last < std::abs(C(x0, step * step) - C(x0, step)) / 2);
+    return !grows && std::abs(C(x0, 0) - C(beside, 0)) <= zero * (1 + std::abs(C(x0, 0)));
+  };
+  const Constants values = constant_solutions(c.dq_dp->with(2, y), {0, c.q({start[0], start[1]})}, true);
+  found.complete = values.complete;
+  for (const ConstantSolution& each : values.all) {
+    const Expression curve = tidied((exact(each.y) - c.q.with(1, 0)) / slope);
+    if (!curve.has(0)) continue;
+    if (integral && has_C(curve)) continue;
+    if (solves(curve)) found.all.push_back(curve);
   }
-  return all;
+  return found;
 }
 
 }  // namespace
@@ -221,12 +272,13 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
     const auto ratio = equation->constant(*steps.factor / V);
     steps.factor = ratio ? tidied(*steps.factor / *ratio) : tidied(V);
   });
-  if (steps.integral && steps.integral->quadrant) {
-    const auto side = [&](std::size_t i) {
-      return fmt::format("{} {} 0", steps.names[i], around[static_cast<Eigen::Index>(i)] < 0 ? "<" : ">");
+  if (steps.integral) {
+    steps.where = equation->text_of(steps.integral->within);
+    steps.holds_at = [of = *equation, within = steps.integral->within](const Vector2d& x) {
+      return of.contains(within, x);
     };
-    steps.where = side(0) + ", " + side(1);
   }
+  if (steps.coordinates) steps.separated_where = equation->text_of(steps.coordinates->within);
   const bool is_system = system.equations == FormulaField::Equations::system;
   const std::string of = is_system ? std::string(of_orbits) : "";
   const bool separable = std::ranges::count(steps.kinds, of + "separable") > 0;

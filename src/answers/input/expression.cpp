@@ -381,6 +381,8 @@ Expression power(const Expression& base, const Expression& exponent) {
       return Expression::function("exp", base.parts()[0] * exponent);
     } else if (is_function(base, "abs") && is_even(exponent)) {
       return power(base.parts()[0], exponent);
+    } else if (is_function(base, "sign") && whole && !is_even(exponent)) {
+      return base;  // also 1/sign(x), which has no value at x = 0
     } else if (base.is(Kind::power)) {
       const auto [inner, first] = base_and_exponent(base);
       if (whole) return power(inner, first * exponent);
@@ -434,14 +436,16 @@ Expression Expression::function(std::string_view name, const Expression& x) {
     const Expression turned = function(name, -x);
     return rows[*row].parity < 0 ? -turned : turned;
   }
+  if ((name == "abs" || name == "sign") && x.is(Kind::product)) {
+    std::vector<Expression> each;
+    for (const Expression& factor : x.parts()) each.push_back(function(name, factor));
+    return product(each);
+  }
+  if (name == "sign" && x.is(Kind::power) && is_whole(x.parts()[1]) && !is_even(x.parts()[1]))
+    return function("sign", x.parts()[0]);
   if (name == "abs") {
     if (is_positive(x)) return x;
     if (x.is(Kind::power)) return power(function("abs", x.parts()[0]), x.parts()[1]);
-    if (x.is(Kind::product)) {
-      std::vector<Expression> sizes;
-      for (const Expression& factor : x.parts()) sizes.push_back(function("abs", factor));
-      return product(sizes);
-    }
     if (x.is(Kind::sum) && !(content(x) == Number(1))) return content(x) * function("abs", x * content(x).inverse());
   }
   if (name == "exp") {

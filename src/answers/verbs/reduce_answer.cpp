@@ -515,29 +515,85 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   return {orbit, error, stepped};
 }
 
-/// Returns x at which the orbit of y' = F(x, y) leaves the branch of the solution; infinity if it does not.
-double end_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2d& start) {
-  const Expression &branch = *steps.branch, slope = branch.derivative(0);
-  constexpr double nearly = 0.999, usual = 5, error = 1e-6;
-  const double last = std::isfinite(orbit.end_time()) ? nearly * orbit.end_time() : usual;
-  const auto is_on = [&](double time) {
-    try {
-      const Vector2d x = orbit.at(time);
-      return std::abs(branch({x[0], x[1]}) - x[1]) <= error * (1 + std::abs(x[1]));
-    } catch (const std::domain_error&) {
-      // The orbit gives no state. The branch ends where its slope leaves the equation.
-      const double x = start[0] + time, expected = steps.parts[1]({x, branch({x, 0})}), found = slope({x, 0});
-      return !(std::abs(found - expected) > error * (1 + std::abs(expected)));
-    }
-  };
-  constexpr int samples = 20, halvings = 20;
-  for (int i = 1; i <= samples; ++i) {
-    double on = last * (i - 1) / samples, off = last * i / samples;
-    if (is_on(off)) continue;
-    for (int k = 0; k < halvings; ++k) (is_on((on + off) / 2) ? on : off) = (on + off) / 2;
-    return start[0] + on;
+/// The values of x between which a branch y(x) satisfies y' = F(x, y); infinite where no end is found.
+struct Extent {
+  double from = -infinity, until = infinity;
+
+  std::string text(const std::string& x, const Digits& digits) const {
+    std::string text;
+    if (std::isfinite(from)) text += fmt::format(", from {} = {}", x, digits(from));
+    if (std::isfinite(until))
+      text += fmt::format("{} to {}{}", text.empty() ? ", up" : "", text.empty() ? x + " = " : "", digits(until));
+    return text;
   }
-  return infinity;
+};
+
+/// Returns where the branch comes to a pole of the equation, or its slope leaves the equation, as a root does beyond
+/// its zero.
+Extent extent_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2d& start) {
+  const Expression &branch = *steps.branch, slope = branch.derivative(0);
+  constexpr double nearly = 0.999, usual = 5.0731, error = 1e-8;  // no sample is a round number
+  std::vector<std::pair<Expression, bool>> divisors;              // with their signs at the start
+  steps.parts[1].replaced([&](const Expression& part) -> std::optional<Expression> {
+    const auto [base, exponent] = base_and_exponent(part);
+    const bool is_below = exponent.is(Expression::Kind::number) && exponent.number().value() < 0;
+    if (const double at = is_below ? base({start[0], start[1]}) : 0; at != 0) divisors.emplace_back(base, at > 0);
+    return std::nullopt;
+  });
+  const auto end = [&](double reach) {
+    const auto is_on = [&](double passed) {
+      const double x = start[0] + passed, y = branch({x, 0}), expected = steps.parts[1]({x, y}), found = slope({x, 0});
+      const auto passes = [&](const auto& divisor) { return divisor.first({x, y}) > 0 == divisor.second; };
+      return std::ranges::all_of(divisors, passes) && !std::isnan(y) &&
+             !(std::abs(found - expected) > error * (1 + std::abs(expected)));
+    };
+    constexpr int samples = 20, halvings = 40;
+    for (int i = 1; i <= samples; ++i) {
+      double on = reach * (i - 1) / samples, off = reach * i / samples;
+      if (is_on(off)) continue;
+      for (int k = 0; k < halvings; ++k) (is_on((on + off) / 2) ? on : off) = (on + off) / 2;
+      constexpr double rounding = 1e-7;
+      const double x = start[0] + on;
+      return std::abs(x) <= rounding * (std::abs(start[0]) + std::abs(on)) ? 0 : x;
+    }
+    return std::copysign(infinity, reach);
+  };
+  return {end(-usual), end(std::isfinite(orbit.end_time()) ? nearly * orbit.end_time() : usual)};
+}
+
+/// Largest relative change of H along steps in time up to the last time at which it was compared.
+struct Constancy {
+  double time, difference;
+
+  bool confirms() const {
+    constexpr double most = 1e-6;
+    return difference <= most;
+  }
+};
+/// Compares H with C along steps in time, before they leave the part of the plane in which H holds. Empty if the steps
+/// give no state.
+std::optional<Constancy> constancy(const Steps& formulas, const PlanarReduction& plane, const Vector2d& start,
+                                   double C) {
+  const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
+  constexpr double longest = 4, shortest = 1e-3;
+  constexpr int samples = 64;
+  const auto stays = [&](double time) {
+    for (int i = 1; i <= samples; ++i) {
+      if (!formulas.holds_at(steps.at(time * i / samples))) return false;
+    }
+    return true;
+  };
+  for (double time = longest; time > shortest; time /= 2) {
+    try {
+      if (!stays(time)) continue;
+      const Vector2d x = steps.at(time);
+      const double difference = std::abs(formulas.integral->H({x[0], x[1]}) - C) / std::max(1., std::abs(C));
+      if (std::isfinite(difference)) return Constancy{time, difference};
+    } catch (const std::domain_error&) {
+      // The steps do not reach this time.
+    }
+  }
+  return std::nullopt;
 }
 
 /// Writes the reduction as it stands on a blackboard, in the letters of the equation.
@@ -579,8 +635,8 @@ class Blackboard {
   /// @param method  words for a solution without a formula
   /// @param form    form of the inverse integrating factor, if this is the method
   /// @param C       value of H along the orbit, if it is known; else infinity or NaN
-  /// @param until   x up to which y is on the branch; infinity if it is up to the end of the orbit
-  void add_solution(double C, const std::string& method, std::string_view form, double until) {
+  /// @param extent  values of x at which y is on the branch
+  void add_solution(double C, const std::string& method, std::string_view form, const Extent& extent) {
     if (steps_.integral) {
       std::vector<std::string> jumps;
       for (const Expression& place : steps_.jumps()) jumps.push_back(shown(place) + " = 0");
@@ -590,8 +646,7 @@ class Blackboard {
                                   jumps.empty() ? "" : fmt::format(";  C jumps where {}", fmt::join(jumps, ", "))));
       if (steps_.branch) {
         add("",
-            fmt::format("{} = {}{}", steps_.names[1], shown(*steps_.branch),
-                        std::isfinite(until) ? fmt::format(", up to {} = {}", steps_.names[0], digits_(until)) : ""));
+            fmt::format("{} = {}{}", steps_.names[1], shown(*steps_.branch), extent.text(steps_.names[0], digits_)));
       }
     } else {
       add("solution", method);
@@ -609,15 +664,17 @@ class Blackboard {
 
   void add_constants() {
     std::vector<std::string> lines;
-    for (const auto& [y, stability] : steps_.constants) {
+    const auto more = [](bool complete) { return complete ? "" : "; and so on"; };
+    for (const auto& [y, stability] : steps_.constants.all) {
       lines.push_back(
-          fmt::format("{} = {}{}{}", steps_.names[1], digits_(y), stability.empty() ? "" : " is ", stability));
+          fmt::format("{} = {}{}{}", steps_.names[1], value(y), stability.empty() ? "" : " is ", stability));
     }
-    if (!lines.empty()) add("constant", fmt::format("{}", fmt::join(lines, "; ")));
+    if (!lines.empty()) add("constant", fmt::format("{}{}", fmt::join(lines, "; "), more(steps_.constants.complete)));
     lines.clear();
-    for (const Expression& y : steps_.lost) lines.push_back(fmt::format("{} = {}", steps_.names[1], shown(y)));
+    for (const Expression& y : steps_.lost.all) lines.push_back(fmt::format("{} = {}", steps_.names[1], shown(y)));
     if (lines.empty()) return;
-    add("lost", fmt::format("{}, where d{}/d{} = 0", fmt::join(lines, "; "), steps_.names[2], steps_.names[3]));
+    add("lost", fmt::format("{}{}, where d{}/d{} = 0", fmt::join(lines, "; "), more(steps_.lost.complete),
+                            steps_.names[2], steps_.names[3]));
   }
 
   void add_orbit(const Followed& followed, const Vector2d& start) {
@@ -657,28 +714,29 @@ class Blackboard {
     }
   }
 
-  /// Returns how far H of the integral changes along steps in time; empty if the steps give no state.
-  void add_constancy(const PlanarReduction& plane, const Vector2d& start, double C) {
-    if (!std::isfinite(C)) return;
-    const Expression& H = steps_.integral->H;
-    const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
-    constexpr double longest = 4, shortest = 1e-3;
-    for (double time = longest; time > shortest; time /= 2) {
-      try {
-        const Vector2d x = steps.at(time);
-        const double difference = std::abs(H({x[0], x[1]}) - C) / std::max(1., std::abs(C));
-        if (!std::isfinite(difference)) continue;
-        add("check", fmt::format("by steps to {}: C differs by {:.0e}", at(start, time), difference));
-        return;
-      } catch (const std::domain_error&) {
-        // The steps do not reach this time.
-      }
-    }
+  void add_constancy(const Constancy& found, const Vector2d& start) {
+    add("check", fmt::format("by steps to {}: C differs by {:.0e}{}", at(start, found.time), found.difference,
+                             found.confirms() ? "" : ", not confirmed"));
   }
 
   const std::string& text() const { return text_; }
 
  private:
+  /// Returns a number as a multiple of pi, with a root, or with digits.
+  std::string value(double y) const {
+    constexpr double most = 1000, rounding = 4e-16;
+    constexpr int most_below = 6;
+    for (int below = 1; below <= most_below; ++below) {
+      const double times = std::rint(y * below / pi);
+      if (times == 0 || std::abs(times) > most || std::abs(y * below - times * pi) > rounding * std::abs(y * below))
+        continue;
+      const std::string factor = times == 1 ? "" : times == -1 ? "-" : fmt::format("{}*", times);
+      return fmt::format("{}pi{}", factor, below == 1 ? "" : fmt::format("/{}", below));
+    }
+    const Expression shown_as = exact(y);
+    return shown_as.is(Expression::Kind::number) ? digits_(y) : shown(shown_as);
+  }
+
   std::string shown(const Expression& e) const { return steps_.text(e, digits_.count); }
 
   /// @param size  length of which rounding makes 1e-13
@@ -690,7 +748,11 @@ class Blackboard {
 
   /// Returns the time as text; for y' = F(x, y) the time is x.
   std::string at(const Vector2d& start, double time) const {
-    if (type_ == FormulaField::Equations::first) return steps_.names[0] + " = " + digits_(start[0] + time);
+    if (type_ == FormulaField::Equations::first) {
+      constexpr double rounding = 1e-15;
+      const double x = start[0] + time;
+      return steps_.names[0] + " = " + digits_(std::abs(x) <= rounding * std::abs(start[0]) ? 0 : x);
+    }
     return fmt::format("{} = {}", time_, digits_(time));
   }
 
@@ -757,7 +819,7 @@ class Blackboard {
     if (std::isfinite(limit) || std::ranges::count(steps_.kinds, "autonomous") == 0) return limit;
     const double slope = steps_.parts[1]({start[0], start[1]});
     double next = std::numeric_limits<double>::quiet_NaN();
-    for (const ConstantSolution& each : steps_.constants) {
+    for (const ConstantSolution& each : steps_.constants.all) {
       if (slope == 0 ? each.y == start[1] : (each.y - start[1]) * slope > 0 && !((each.y - next) * slope > 0))
         next = each.y;
     }
@@ -897,17 +959,24 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     }
   }
   if (cycle) answer.members["cycle"] = portraits::cycle_members<Json>(*cycle);
-  const double until = steps.branch && followed ? end_of_branch(steps, followed->orbit, start) : infinity;
+  const Extent extent = steps.branch && followed ? extent_of_branch(steps, followed->orbit, start) : Extent{};
   if (system.equations == FormulaField::Equations::first) {
     answer.members["constant_solutions"] = Json::array();
-    for (const auto& [y, stability] : steps.constants) {
+    for (const auto& [y, stability] : steps.constants.all) {
       answer.members["constant_solutions"].push_back(
           {{"y", y}, {"stability", stability.empty() ? Json() : Json(stability)}});
     }
     answer.members["lost_solutions"] = Json::array();
-    for (const Expression& y : steps.lost) answer.members["lost_solutions"].push_back(steps.text(y));
+    for (const Expression& y : steps.lost.all) answer.members["lost_solutions"].push_back(steps.text(y));
   }
-  const double C = steps.integral && given ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
+  // A constant solution is no member of the family H = C, even where H has a value on it, as asin(y) - x for y = 1.
+  const bool is_constant = std::ranges::any_of(steps.constants.all, [&](const ConstantSolution& each) {
+    constexpr double rounding = 1e-14;
+    return std::abs(start[1] - each.y) <= rounding * std::abs(each.y);
+  });
+  const double C =
+      steps.integral && given && !is_constant ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
+  const auto constant = !followed && std::isfinite(C) ? constancy(steps, plane, start, C) : std::nullopt;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
     Blackboard board(system, steps, digits);
     board.add_kinds();
@@ -920,14 +989,16 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
                                : plane.solved() ? "by quadrature along H = C"
                                                 : "none by quadrature: " + words_of(plane.why_not());
-    board.add_solution(C, method, plane.form(), until);
+    board.add_solution(C, method, plane.form(), extent);
     board.add_constants();
     if (at_rest) {
       board.add("end", "the start is the centre");
     } else if (followed) {
       board.add_orbit(*followed, start);
-    } else if (given) {
-      board.add_constancy(plane, start, C);
+    } else if (constant) {
+      board.add_constancy(*constant, start);
+    } else if (is_constant && given) {
+      board.add("end", "none: the start is on a constant solution");
     }
     if (cycle) {
       board.add("cycle", fmt::format("the orbit nears a limit cycle with the period {}{}", digits(cycle->period),
@@ -938,7 +1009,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     return board.text() + (details ? numbers(digits) : "");
   };
   answer = finished(answer, found, plane.solved() || steps.integral);
-  answer.passed &= !followed || !followed->refuted();
+  answer.passed &= !(followed && followed->refuted()) && !(constant && !constant->confirms());
   return answer;
 }
 
@@ -1092,12 +1163,13 @@ std::vector<FieldText> reduce_system_fields() {
          "state at the instant of --until: the time and the letters, with integral and by as in orbit --system"},
         {"JSON `equation` [...]", "", "all kinds of equation that hold; 'contensou help reduce' explains them"},
         {"JSON `steps` {`q`, `p`, `separated`}", "",
-         "coordinates q and p as formulas in the typed letters, and the separated equation, such as dq/dp = tan(q); "
+         "coordinates q and p as formulas in the typed letters, and the separated equation, such as dq/dp = tan(q), with the "
+         "part of the plane in which it holds; "
          "null if the equation has no such symmetry"},
         {"`integral_formula`, `integral`", "",
          "constant of the motion H as a formula in the typed letters, and in u and v; null if no formula is found"},
         {"`integral_where`", "",
-         "quadrant in which this formula was checked, such as x > 0, y > 0; null for the plane"},
+         "part of the plane in which this formula was checked, such as x > 0, y > 0; null for the plane"},
         {"JSON `tried` [{`form`, `singular_value`, `gap`, `cleared`}]", "",
          "forms of V in the order of the search, each with the smallest singular value of its equations and its gap. "
          "cleared: true if V was multiplied by the denominator of the equations"},
