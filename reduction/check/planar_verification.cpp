@@ -390,8 +390,12 @@ class PlanarExamination {
     const auto compare = [&](WorstError& worst, const PlanarReduction& plane, const Vector2d& x, double t,
                              const Vector2d& end, const Instant& at) {
       const double size = std::max({at.size, x.norm(), end.norm()});
-      const auto after = [&](double part) { return plane.part_of_orbit(x + part * size * Vector2d(0.6, 0.8)).at(t); };
+      const auto beside = [&](double part) { return Vector2d(x + part * size * Vector2d(0.6, 0.8)); };
+      const auto after = [&](double part) { return plane.part_of_orbit(beside(part)).at(t); };
       constexpr double near = 1e-8, far = 1e-6, most = 1e4, alike = 2;
+      // Nearer to a zero of the field than that, the changed states say nothing of this one.
+      const Vector2d f = plane.field()(x);
+      if (!((plane.field()(beside(far)) - f).norm() <= f.norm() / 2)) return;
       const auto found = known([&] {
         const Vector2d there = after(0);
         return std::array{(there - end).norm() / size, (after(near) - there).norm() / (near * size),

@@ -239,29 +239,38 @@ class Follower {
       return true;
     }
     constexpr double close = 0.1;
-    Vector2d rest = x_;
-    Matrix2d slopes = here.slopes;
-    Vector2d left = here.f;
+    Vector2d rest;
+    Matrix2d slopes;
+    Vector2d left;
     constexpr double clear = 1e-10;
     const bool slides = region_->slides();
-    const auto step_to_rest = [&](const Jet& at) {
-      // Zeros of the field form a line. Zeros of a sliding velocity always do: there the two fields are parallel.
-      const double norm = at.slopes.norm();
-      const bool line = slides || std::abs(at.slopes.determinant()) <= clear * norm * norm;
-      return line ? Vector2d(at.f / at.slopes.trace()) : newton_step(at);
+    const auto is_singular = [](const Matrix2d& matrix) {
+      return std::abs(matrix.determinant()) <= clear * matrix.squaredNorm();
     };
-    Vector2d way = step_to_rest(here);
-    if (!(way.norm() <= close * size_)) return false;
-    constexpr int steps = 8;
-    for (int i = 0; i == 0 || (i < steps && way.norm() > 4 * eps * rest.norm()); ++i) {
-      rest = region_->on_curve(rest - way);
-      const auto there = jet_of(field_, rest);
-      if (!there) return false;
-      slopes = there->slopes;
-      left = there->f;
-      way = step_to_rest(*there);
-      if (!(way.norm() <= (x_ - rest).norm())) return false;
-    }
+    // Along a line of zeros, the way to rest is that of the flow.
+    const auto finds_rest = [&](bool on_line) {
+      const auto step_to_rest = [&](const Jet& at) {
+        return on_line || is_singular(at.slopes) ? Vector2d(at.f / at.slopes.trace()) : newton_step(at);
+      };
+      rest = x_;
+      Vector2d way = step_to_rest(here);
+      if (!(way.norm() <= close * size_)) return false;
+      constexpr int steps = 8;
+      for (int i = 0; i == 0 || (i < steps && way.norm() > 4 * eps * rest.norm()); ++i) {
+        rest = region_->on_curve(rest - way);
+        const auto there = jet_of(field_, rest);
+        if (!there) return false;
+        slopes = there->slopes;
+        left = there->f;
+        way = step_to_rest(*there);
+        if (!(way.norm() <= (x_ - rest).norm())) return false;
+      }
+      return true;
+    };
+    // Zeros of a sliding velocity always form a line: there the two fields are parallel. Those of other fields show as
+    // a line at the zero.
+    if (!finds_rest(slides)) return false;
+    if (!slides && is_singular(slopes) && !is_singular(here.slopes) && !finds_rest(true)) return false;
     if (!region_->contains(rest)) return false;
     const Vector2d offset = x_ - rest;
     // Each component vanishes, also one that is tiny beside the other.

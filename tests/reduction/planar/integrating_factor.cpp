@@ -300,12 +300,27 @@ TEST_CASE("The ends of orbits and their times", "[factor]") {
   const Formulas saddle = [](Dual u, Dual v) { return std::array{-u, u * u + 2 * v}; };
   const Vector2d near_saddle = ends(saddle, {1, -0.25}, PlanarEnd::equilibrium, infinity).at(10);
   CHECK((near_saddle - Vector2d(std::exp(-10), -std::exp(-20) / 4)).norm() < 1e-11 * near_saddle.norm());
-  // Ends: a line of equilibria; a closed orbit.
-  ends(
-      [](Dual u, Dual v) {
-        return std::array{-2 * u * v, 2 * u * v - v};
-      },
-      {1.3, 0.7}, PlanarEnd::equilibrium, infinity);
+  // Ends: a line of equilibria, where u + v - (b/a) ln u is constant; a closed orbit. From a small v the last state
+  // that is followed is so near the line that only the zero itself shows that the line is one.
+  std::mt19937_64 random(6);
+  const auto among = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 20; ++i) {
+    const double a = among(0.3, 3), b = among(0.2, 2);
+    const Vector2d start(among(1.2, 4) * b / a, std::pow(10, among(-3, 0.3)));
+    CAPTURE(a, b, start);
+    const PlanarOrbit epidemic = ends(
+        [=](Dual u, Dual v) {
+          return std::array{-a * u * v, a * u * v - b * v};
+        },
+        start, PlanarEnd::equilibrium, infinity);
+    const auto H = [&](const Vector2d& x) { return x[0] + x[1] - b / a * std::log(x[0]); };
+    for (double time = 1; time < 300; time *= 1.3) {
+      const Vector2d x = epidemic.at(time);
+      CHECK(std::abs(H(x) - H(start)) < 1e-12 * (x[0] + x[1]) * (1 + b / a / x[0]));
+    }
+    CHECK(std::abs(epidemic.limit()[1]) < 1e-15);
+    CHECK(H({epidemic.limit()[0], 0}) == Approx(H(start)).epsilon(1e-12));
+  }
   const PlanarOrbit to_cycle = ends(hopf, {0.1, 0}, PlanarEnd::cycle, infinity);
   CHECK((to_cycle.at(100) - Vector2d(std::cos(100), std::sin(100))).norm() < 1e-10);
   // Ends: infinity in finite time; infinity after infinite time; a pole; the border at which a root has no value.
