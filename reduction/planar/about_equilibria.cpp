@@ -163,7 +163,15 @@ std::optional<Turn> ReturnMap::turn(double place, bool back) const {
     if (!(speed > 0)) return std::nullopt;
     Turn turn{place, system.part_of_orbit(start), {0}};
     Winding winding(turn.orbit, start, centre_, half_, widest, first * unit, still * unit);
-    for (int i = 0; i < most && winding.advance(); ++i) {
+    // An orbit that turns about another point goes to and fro as seen from this one.
+    constexpr int idle = 40;
+    int last_progress = 0;
+    double turned = 0;
+    for (int i = 0; i < most && i - last_progress < idle && winding.advance(); ++i) {
+      if (std::abs(winding.angle()) > turned) {
+        turned = std::abs(winding.angle());
+        last_progress = i;
+      }
       if (std::abs(winding.angle()) >= 2 * pi) {
         const auto across = [&](double t) { return cross(way_, winding.scaled(turn.orbit.at(t))); };
         turn.times.push_back(root_between(across, winding.before(), winding.time()));
@@ -319,10 +327,14 @@ void CycleSearch::about(const Vector2d& centre, const Vector2d& way, double reac
   int remaining = most_values;
   const ReturnMap map(field_, centre, half_, way, rough);
   const auto sample = [&](double place) {
-    const int allowed = *left_ = std::min(remaining, most_of_sample);
-    const Sample made{place, map.growth_either_way(place)};
-    remaining -= allowed - *left_;
-    return made;
+    const auto growth = [&](bool back) {
+      const int allowed = *left_ = std::min(remaining, most_of_sample);
+      const double grown = map.growth(place, back);
+      remaining -= allowed - *left_;
+      return grown;
+    };
+    const double forth = growth(false);
+    return Sample{place, std::isfinite(forth) ? forth : growth(true)};
   };
   // Every stride halves the distances, so that the values of the field last for a search that is at least coarse.
   std::vector<Sample> samples;

@@ -182,6 +182,24 @@ TEST_CASE("equal limit cycles about two foci are both found, also beside a loop 
   }
 }
 
+TEST_CASE("a stable and an unstable cycle about two foci are both found", "[planar]") {
+  // x' = y + y^2, y' = -x/2 + c y - x y + (1 + c) y^2 is reversed by (x, y) -> (-2 - x, -1 - y). From outside the
+  // unstable cycle motions run to the stable one and turn about the other focus.
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 8; ++i) {
+    const double c = std::uniform_real_distribution(0.19, 0.21)(random), sense = i % 2 == 0 ? 1 : -1;
+    CAPTURE(c, sense);
+    const PlanarField field = [=](const Vector2d& x) -> Vector2d {
+      return sense * Vector2d(x[1] + x[1] * x[1], -x[0] / 2 + c * x[1] - x[0] * x[1] + (1 + c) * x[1] * x[1]);
+    };
+    const std::vector<LimitCycle> found = cycles_of(field, 2.5, 3);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].stable != found[1].stable);
+    CHECK(found[0].period == Approx(found[1].period).epsilon(1e-9));
+    CHECK(found[0].multiplier * found[1].multiplier == Approx(1).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("a limit cycle that sticks has the multiplier 0", "[planar]") {
   // A block on a belt. It leaves the belt at x = 0.4 and sticks again at x = -0.335058894593 (SciPy's DOP853).
   const auto on_side = [](double sign) {
