@@ -47,9 +47,10 @@ struct RightSide {
 /// there the orbit crosses, slides or rests, see Region.
 class SteppedMotion final : public PlanarOrbit::Motion {
  public:
-  SteppedMotion(SmoothField field, const Vector2d& start, double tolerance)
+  SteppedMotion(SmoothField field, const Vector2d& start, double tolerance, std::size_t most_steps)
       : field_(std::move(field)),
         tolerance_(tolerance),
+        most_(most_steps),
         size_((start.isZero(0) ? sampled_about(field_, start) : start).lpNorm<Eigen::Infinity>()) {
     end = PlanarEnd::undecided;
     end_time = std::numeric_limits<double>::quiet_NaN();
@@ -148,15 +149,15 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   }
 
   void extend() const {
-    constexpr std::size_t most = 10'000, most_in_all = 300'000;  // between two jumps, and with all jumps
+    constexpr std::size_t most_in_all = 300'000;
     const State& last = states_.back();
     State next = last;
     const auto stop = [&](std::string_view reason) {
       throw std::domain_error(fmt::format("steps follow this orbit to the time {}, at ({}, {}), where {}", last.t,
                                           last.x[0], last.x[1], reason));
     };
-    if (states_.size() - piece_ > most) stop("10000 steps are made");
-    if (states_.size() > most_in_all) stop("300000 steps are made");
+    if (const bool in_piece = states_.size() - piece_ > most_; in_piece || states_.size() > most_in_all)
+      stop(fmt::format("{} steps are made", in_piece ? most_ : most_in_all));
     if (!last.region) stop(reason_);
     auto stepper = odeint::make_controlled(tolerance_ * 1e-3 * size_, tolerance_, Stepper());
     while (stepper.try_step(RightSide{last.region->field()}, next.x, next.t, step_) == odeint::fail) {
@@ -188,7 +189,9 @@ class SteppedMotion final : public PlanarOrbit::Motion {
   }
 
   SmoothField field_;
-  double tolerance_, size_;
+  double tolerance_;
+  std::size_t most_;  ///< steps between two jumps
+  double size_;
   mutable std::mutex guard_;
   mutable std::vector<State> states_;
   mutable double step_;
@@ -203,36 +206,39 @@ class SteppedMotion final : public PlanarOrbit::Motion {
 };
 
 struct SteppedSolution final : PlanarReduction::Solution {
-  SteppedSolution(SmoothField of, double relative) : Solution(std::move(of), ""), tolerance(relative) {}
+  SteppedSolution(SmoothField of, double relative, std::size_t most)
+      : Solution(std::move(of), ""), tolerance(relative), most_steps(most) {}
 
   double factor(const Vector2d&) const override { throw std::domain_error("no inverse integrating factor was found"); }
   double end_time_error(const Vector2d&, const PlanarOrbit&) const override {
     return std::numeric_limits<double>::quiet_NaN();
   }
   PlanarOrbit orbit(const Vector2d& start) const override {
-    auto motion = std::make_shared<SteppedMotion>(field, start, tolerance);
+    auto motion = std::make_shared<SteppedMotion>(field, start, tolerance, most_steps);
     motion->look_for_rest();
     return PlanarOrbit(std::move(motion));
   }
   PlanarOrbit part_of_orbit(const Vector2d& start) const override {
-    return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start, tolerance));
+    return PlanarOrbit(std::make_shared<const SteppedMotion>(field, start, tolerance, most_steps));
   }
   std::optional<double> first_integral(const Vector2d&) const override { return std::nullopt; }
   std::shared_ptr<const Solution> reversed() const override {
-    return std::make_shared<const SteppedSolution>(backward(field), tolerance);
+    return std::make_shared<const SteppedSolution>(backward(field), tolerance, most_steps);
   }
 
   double tolerance;
+  std::size_t most_steps;
 };
 
 }  // namespace
 
-std::shared_ptr<PlanarReduction::Solution> solved_by_steps(SmoothField field, double tolerance) {
-  return std::make_shared<SteppedSolution>(std::move(field), tolerance);
+std::shared_ptr<PlanarReduction::Solution> solved_by_steps(SmoothField field, double tolerance,
+                                                           std::size_t most_steps) {
+  return std::make_shared<SteppedSolution>(std::move(field), tolerance, most_steps);
 }
 
-PlanarReduction by_steps(SmoothField field, double tolerance) {
-  return PlanarReduction(solved_by_steps(std::move(field), tolerance));
+PlanarReduction by_steps(SmoothField field, double tolerance, std::size_t most_steps) {
+  return PlanarReduction(solved_by_steps(std::move(field), tolerance, most_steps));
 }
 
 }  // namespace contensou::reduction

@@ -94,7 +94,8 @@ inline double period_or_end(const PlanarOrbit& orbit) { return orbit.period().va
 std::shared_ptr<PlanarReduction::Solution> solved_by_factor(const SmoothField& field, const Eigen::Vector2d& start);
 
 /// Returns a solution by steps, as by_steps.
-std::shared_ptr<PlanarReduction::Solution> solved_by_steps(SmoothField field, double tolerance = 1e-12);
+std::shared_ptr<PlanarReduction::Solution> solved_by_steps(SmoothField field, double tolerance = 1e-12,
+                                                           std::size_t most_steps = 10'000);
 
 struct PlanarOrbit::Motion {
   virtual ~Motion() = default;

@@ -33,17 +33,16 @@ double last_time(const std::function<bool(double time)>& holds, double time) {
 
 /// The half of an orbit after the start, or before the start with reversed time.
 class HalfOrbit {
-  static constexpr double coarser = 1e-11;  ///< tolerance of the larger steps
+  static constexpr double finest = 1e-12, coarser = 1e-11;  ///< tolerances of the steps
+  static constexpr std::size_t most_steps = 300'000;        ///< some 0.5 s
 
  public:
   HalfOrbit(const PlanarReduction& plane, const Vector2d& start)
       : plane_(plane),
         start_(start),
-        orbit_(plane.orbit(start)),
         solved_(plane.solved()),
-        again_(
-            (solved_ ? reduction::by_steps(plane.field()) : reduction::by_steps(plane.field(), coarser)).orbit(start)) {
-  }
+        orbit_(solved_ ? plane.orbit(start) : reduction::by_steps(plane.field(), finest, most_steps).orbit(start)),
+        again_(reduction::by_steps(plane.field(), solved_ ? finest : coarser, most_steps).orbit(start)) {}
 
   /// Returns the state after a time; empty beyond the end.
   std::optional<ComputedState> at(double time) const {
@@ -142,8 +141,8 @@ class HalfOrbit {
   };
   PlanarReduction plane_;
   Vector2d start_;
+  bool solved_;  ///< the orbit is that of a quadrature, else of steps
   PlanarOrbit orbit_;
-  bool solved_;        ///< the orbit is that of a quadrature, else of steps
   PlanarOrbit again_;  ///< by steps: the second computation
   mutable std::vector<Part> parts_{{0, orbit_}};
   mutable double agreed_ = 0;  ///< time up to which the states agree

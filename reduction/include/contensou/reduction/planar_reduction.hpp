@@ -291,14 +291,16 @@ PlanarReduction by_factor(const SmoothField& field, const Eigen::Vector2d& start
 
 /// Returns a system whose orbits are integrated by Dormand-Prince 5(4), without reduction, for any planar field.
 ///
-/// Each step keeps the error below `tolerance`, relative to the state or to a thousandth of the start; an orbit has at
-/// most 10 000 steps. Orbits are cut where a switching function changes its sign; there they cross, slide or rest
-/// (R62). Other jumps are detected by the error estimate of this method; the estimate of Fehlberg 7(8) does not detect
-/// jumps. Tests and answers compare the quadratures with these orbits.
+/// Each step keeps the error below `tolerance`, relative to the state or to a thousandth of the start. Orbits are cut
+/// where a switching function changes its sign; there they cross, slide or rest (R62). Other jumps are detected by the
+/// error estimate of this method; the estimate of Fehlberg 7(8) does not detect jumps. Tests and answers compare the
+/// quadratures with these orbits.
 ///
+/// @param most_steps  largest number of steps between two jumps. A step takes about 1.5 us, and 40 bytes. An orbit has
+///                    at most 300 000 steps in all
 /// @return a system with an empty form, and neither factor nor first integral. Ends are undecided, except the rest of
 ///         an orbit that a switching curve stops within its first 2000 steps
-PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12);
+PlanarReduction by_steps(SmoothField field, double tolerance = 1e-12, std::size_t most_steps = 10'000);
 
 /// Returns the equations of motion (2.6) in the whole plane, planar_field, solved by a flow. The rays of the result are
 /// the invariant half-lines of PhasePlane.
