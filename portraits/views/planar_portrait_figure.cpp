@@ -38,6 +38,9 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
   Lines attracting{
       {}, {palette.comparison, 2.6}, slopes ? "solution that others approach" : "ray that orbits approach"};
   Lines others{{}, {palette.comparison, 2, true}, slopes ? "solution that others leave" : "ray that orbits leave"};
+  // A double ray attracts orbits from one side. Beside a line of equilibria orbits end before they come to a ray.
+  Lines plain{{}, others.stroke, slopes ? "invariant solution" : "invariant ray"};
+  const bool ends_before = std::ranges::any_of(plane.rays(), [](const auto& ray) { return ray.radial == 0; });
   for (const auto& ray : plane.rays()) {
     // Parts of switching curves and lines of equilibria are drawn as such.
     if (ray.order == 0 || ray.radial == 0) continue;
@@ -49,8 +52,9 @@ void add_rays(PanelLayers& layers, const PlanarPortrait& portrait, const Palette
       line.push_back({x[0], x[1]});
     }
     if (ray.to_centre) std::ranges::reverse(line);
-    (ray.attracts ? attracting : others).lines.push_back(std::move(line));
+    (ray.attracts ? attracting : ray.order == 2 || ends_before ? plain : others).lines.push_back(std::move(line));
   }
+  layers.add_invariant(std::move(plain));
   layers.add_invariant(std::move(others));
   layers.add_invariant(std::move(attracting));
 }
@@ -403,7 +407,14 @@ Figure draw(const PlanarPortrait& portrait, const PortraitStyle& style) {
               .first->second;
       marks.points.push_back(place_);
     };
-    for (const reduction::Equilibrium& each : portrait.equilibria.points) add(each, shown(portrait, each.x));
+    for (const reduction::Equilibrium& each : portrait.equilibria.points) {
+      // A mark that rounding moves out of the window would not be drawn.
+      constexpr double rounding = 1e-9;
+      const auto& [low, high] = portrait.window;
+      const Vector2d inside = each.x.cwiseMax(low).cwiseMin(high);
+      const bool outside = ((inside - each.x).cwiseAbs() - rounding * (high - low)).maxCoeff() > 0;
+      add(each, shown(portrait, outside ? each.x : inside));
+    }
     if (portrait.disc) {
       for (const reduction::Equilibrium& each : portrait.disc->at_infinity) add(each, {each.x[0], each.x[1]});
     }

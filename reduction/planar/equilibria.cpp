@@ -725,7 +725,8 @@ void compare_kinds(Equilibria& equilibria, const PlanarReduction& plane) {
       const double size = (equilibria.high - equilibria.low).norm();
       const std::string_view kind = without_star(plane.kind());
       if ((each.x - plane.centre()).norm() > same * size) continue;
-      if (kind.empty() || kind == "bordered" || kind == "degenerate" || kind == each.kind) continue;
+      if (kind == each.kind) each.kind = plane.kind();  // a star is a node
+      if (kind.empty() || kind == "bordered" || kind == "degenerate" || kind == without_star(each.kind)) continue;
       if (each.kind == "degenerate") {
         const bool none = kind == "cusp", saddle = kind == "saddle";
         if (kind != "mixed" && each.index == (none ? 0 : saddle ? -1 : 1)) each.kind = kind;

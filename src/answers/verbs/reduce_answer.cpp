@@ -338,7 +338,9 @@ void add_scaling(Answer& answer, const ScalingNames& names, const PlanarReductio
                       ray.order == 2   ? ", double"
                       : ray.order == 3 ? ", triple"
                                        : "",
-                      ray.attracts ? "attracts" : "repels",
+                      ray.attracts     ? "attracts"
+                      : ray.order == 2 ? "attracts on one side, repels on the other"
+                                       : "repels",
                       ray.radial == 0 ? "nowhere: its points are at rest"
                       : ray.to_centre ? "to the centre"
                                       : "away");
