@@ -248,6 +248,25 @@ std::string kind_of(const reduction::Equilibrium& point, const Digits& digits) {
                                          : real + " +- " + imaginary);
 }
 
+/// Returns the equilibria of a wider square, if none lies nearby, or if no start says which ones are meant. Many of
+/// them, as those of a pendulum, say no more than the nearest ones.
+reduction::Equilibria widened(const reduction::Equilibria& nearby, const reduction::SmoothField& field,
+                              const Vector2d& around, bool has_start) {
+  constexpr std::size_t many = 12;
+  constexpr double same = 1e-6;
+  reduction::Equilibria best = nearby;
+  for (const double times : {8, 64}) {
+    if (best.on_curve || (has_start && !best.points.empty())) break;
+    const reduction::Equilibria wider = reduction::find_equilibria(field, times * around);
+    const bool has_all = std::ranges::all_of(best.points, [&](const auto& each) {
+      const auto is_it = [&](const auto& other) { return (each.x - other.x).norm() < same * around.norm(); };
+      return std::ranges::any_of(wider.points, is_it);
+    });
+    if (has_all && wider.points.size() > best.points.size() && wider.points.size() <= many) best = wider;
+  }
+  return best;
+}
+
 /// Returns a text on the equilibria near the start, and the reversors.
 std::string text_of(const reduction::Equilibria& equilibria, const Digits& digits) {
   const auto part = [&](double x) { return digits(x + 0.0); };
@@ -909,9 +928,11 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     }
     answer.members["tried"] = tried;
   }
-  reduction::Equilibria equilibria = reduction::find_equilibria(field, around);
+  const reduction::Equilibria nearby = reduction::find_equilibria(field, around);
+  reduction::Equilibria equilibria =
+      system.equations == FormulaField::Equations::first ? nearby : widened(nearby, field, around, given.has_value());
   compare_kinds(equilibria, plane);
-  const auto switching = portraits::switching_parts(field, equilibria.low, equilibria.high);
+  const auto switching = portraits::switching_parts(field, nearby.low, nearby.high);
   portraits::leave_out_rests(equilibria, switching);
   answer.members.update(members_of_plane(equilibria));
   answer.members["switching"] = portraits::switching_member<Json>(switching);
@@ -1193,7 +1214,8 @@ std::vector<FieldText> reduce_system_fields() {
          "isolated points at which u and v do not change. eigenvalues [[re, im], [re, im]] of the equations linearised "
          "there; null if kind is not smooth. index: turns of (u', v') on a small circle; null if not known"},
         {"JSON `equilibria_within` [[U1, U2], [V1, V2]], `equilibria_complete`, `equilibria_curve`", "",
-         "within: ranges of u and v in which equilibria are sought and reversors compared, up to 2.5 max(|u0|, |v0|). "
+         "within: ranges of u and v in which equilibria are sought and reversors compared, up to 2.5 max(|u0|, |v0|), "
+         "or 8 or 64 times as far if none lies there. "
          "complete: false if the list may be short. curve: [u, v] of a point on a curve of equilibria, or null"},
         {"JSON `constant_solutions` [{`y`, `stability`}]", "",
          "solutions y = c of y' = F(x, y) that were found near the start. stability: null if F contains x"},
