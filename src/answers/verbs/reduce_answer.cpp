@@ -617,6 +617,32 @@ std::optional<Constancy> constancy(const Steps& formulas, const PlanarReduction&
   return std::nullopt;
 }
 
+/// Returns the equilibrium to which steps in time lead, forwards: they come so near that linear equations hold, and
+/// all of their solutions tend to the equilibrium. Empty if there is none, or if it is not reached.
+std::optional<Vector2d> sink_reached(const PlanarReduction& plane, const Vector2d& start) {
+  constexpr double tolerance = 1e-12, near = 1e-6, about = 0.02, clear = 1e-4;
+  constexpr int doublings = 40;
+  constexpr std::size_t most_steps = 50'000;
+  const PlanarOrbit steps = reduction::by_steps(plane.field(), tolerance, most_steps).orbit(start);
+  const double speed = plane.field()(start).norm();
+  double size = start.norm(), time = size / speed;
+  try {
+    for (int i = 0; i < doublings && std::isfinite(time); ++i, time *= 2) {
+      const Vector2d x = steps.at(time), half = Vector2d::Constant(about * size);
+      size = std::max(size, x.norm());
+      if (plane.field()(x).norm() > clear * speed) continue;
+      for (const reduction::Equilibrium& each : find_equilibria(plane.field(), x - half, x + half).points) {
+        if (!each.eigenvalues || (x - each.x).norm() > near * size) continue;
+        const auto [first, second] = *each.eigenvalues;
+        if (std::max(first.real(), second.real()) < -clear * each.slopes.norm()) return each.x;
+      }
+    }
+  } catch (const std::domain_error&) {
+    // The steps do not follow the motion so far.
+  }
+  return std::nullopt;
+}
+
 /// Writes the reduction as it stands on a blackboard, in the letters of the equation.
 class Blackboard {
  public:
@@ -709,6 +735,8 @@ class Blackboard {
     const std::string doubt = followed.doubt(digits_);
     add("end", doubt.empty() ? end_of(orbit, start) : "not decided: " + doubt);
   }
+
+  void add_sink(const Vector2d& x) { add("end", fmt::format("it tends to {}", place(x, x.norm()))); }
 
   /// Adds the places at which both right sides vanish.
   void add_equilibria(const reduction::Equilibria& equilibria) {
@@ -981,6 +1009,8 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
       if (!cycle && nears(field, each, start)) cycle = std::move(each);
     }
   }
+  const auto sink = given && !followed && !cycle ? sink_reached(plane, start) : std::nullopt;
+  if (sink) answer.members.update({{"end", name(PlanarEnd::equilibrium)}, {"tau_stop", infinity}});
   if (cycle) answer.members["cycle"] = portraits::cycle_members<Json>(*cycle);
   const Extent extent = steps.branch && followed ? extent_of_branch(steps, followed->orbit, start) : Extent{};
   if (system.equations == FormulaField::Equations::first) {
@@ -1023,6 +1053,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     } else if (is_constant && given) {
       board.add("end", "none: the start is on a constant solution");
     }
+    if (sink) board.add_sink(*sink);
     if (cycle) {
       board.add("cycle", fmt::format("the orbit nears a limit cycle with the period {}{}", digits(cycle->period),
                                      std::isnan(cycle->multiplier) ? "" : "; multiplier " + digits(cycle->multiplier)));
