@@ -329,6 +329,7 @@ TEST_CASE("known equations have the kinds of a textbook, and no others", "[table
       {"y' = cos(x + y)", {"shift along a direction (1, -1)"}},
       {"x'' = -sin(x)", {"autonomous", "conservative", "Hamiltonian"}},
       {"x'' = -x - 0.2*sign(x')", {"autonomous"}},
+      {"x'' = x'^2/x", {"autonomous"}},
       {"x'' = -sign(x)", {"autonomous", "conservative", "Hamiltonian", "isobaric (x -> a*x, x' -> a^(1/2)*x')"}},
       {"x' = sign(y); y' = -sign(x)", {"Hamiltonian", "orbits: separable", "orbits: homogeneous"}},
       {"y' = sign(0.5-y)", {"autonomous", "separable"}},

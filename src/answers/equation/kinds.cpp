@@ -396,7 +396,9 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     }
     return kinds;
   }
+  // A turn of x and x' maps motions of x'' = F to motions only if x'' = -x.
   add_kind("rotation", [&] {
+    if (second) return vanishes(f[1] + x);
     return vanishes(x * R.derivative(1) - y * R.derivative(0) - 1 - R * R) && keeps_jumps(R, {-y, x});
   });
   const E by_x = R.derivative(0), by_y = R.derivative(1);

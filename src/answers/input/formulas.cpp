@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <numbers>
 #include <span>
 #include <system_error>
@@ -434,6 +435,12 @@ class Parser {
     }
     if (const auto refused = shape_.refused.find(name); refused != shape_.refused.end()) {
       reject(place, fmt::format("{}: {}", quotation(name), refused->second));
+    }
+    static const std::map<std::string, std::string> written_as{
+        {"cot", "1/tan(x)"},    {"sec", "1/cos(x)"},    {"csc", "1/sin(x)"},       {"cbrt", "sign(x)*|x|^(1/3)"},
+        {"heaviside", "x > 0"}, {"Heaviside", "x > 0"}, {"floor", "rint(x - 1/2)"}};
+    if (const auto other = written_as.find(name); other != written_as.end() && next() == '(') {
+      reject(place, fmt::format("{} is no function; write {}", quotation(name), other->second));
     }
     std::vector<std::string> known;
     for (const Function& function : functions) known.emplace_back(function.name);

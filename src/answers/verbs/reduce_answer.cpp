@@ -1034,10 +1034,12 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
     Blackboard board(system, steps, digits);
     board.add_kinds();
     const bool has_centre = plane.scaling() != nullptr;
-    const std::string X =
-        found.generators.empty() || !has_centre
-            ? ""
-            : text_of(found.generators.front(), system.independent, digits, system.variables[0], system.variables[1]);
+    std::string X;
+    if (!found.generators.empty() && has_centre) {
+      Generator shown = found.generators.front();
+      if (system.equations == FormulaField::Equations::first) shown.time = 0;  // x is the time
+      X = text_of(shown, system.independent, digits, system.variables[0], system.variables[1]);
+    }
     board.add_coordinates(X);
     const std::string method = has_centre       ? "by quadrature: p - L(q) = C, where p = L(q) is one orbit"
                                : plane.solved() ? "by quadrature along H = C"
