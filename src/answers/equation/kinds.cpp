@@ -169,7 +169,7 @@ std::vector<Eigen::Vector2d> beside_kinks_of(const Expression& e) {
     const Expression by_x = z.derivative(0), by_y = z.derivative(1);
     for (const Eigen::Vector2d& x : zeros_of(z)) {
       const Eigen::Vector2d across = Eigen::Vector2d(by_x({x[0], x[1]}), by_y({x[0], x[1]})).stableNormalized();
-      for (const double side : {-near, near}) all.push_back(x + side * (1 + x.stableNorm()) * across);
+      for (const double side : {-near, near}) all.emplace_back(x + side * (1 + x.stableNorm()) * across);
     }
   }
   return all;
