@@ -1,6 +1,7 @@
 #include "answers/equation/equation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -183,7 +184,6 @@ Constants constant_solutions(const Expression& slope, const Vector2d& start, boo
 Curves lost_solutions(const Equation& equation, const Coordinates& c, const std::optional<IntegralFormula>& integral,
                       const Vector2d& start) {
   constexpr double zero = 1e-9;
-  const double beside = start[0] == 0 ? 0.01 : 1.01 * start[0];
   const Expression y = Expression::variable(1), slope = c.q.derivative(1);
   Curves found;
   if (!c.dq_dp || c.q == y || slope.has(1) || slope.is_zero()) return found;
@@ -203,9 +203,13 @@ Curves lost_solutions(const Equation& equation, const Coordinates& c, const std:
       return integral->H({x, curve({x, 0}) + off * (1 + std::abs(curve({x, 0})))});
     };
     constexpr double step = 1e-3;
-    const double x0 = start[0], last = std::abs(C(x0, step * step * step) - C(x0, step * step));
-    const bool grows = !(last < std::abs(C(x0, step * step) - C(x0, step)) / 2);
-    return !grows && std::abs(C(x0, 0) - C(beside, 0)) <= zero * (1 + std::abs(C(x0, 0)));
+    const double unit = 1 + std::abs(start[0]);
+    return std::ranges::any_of(std::array{unit, -unit}, [&](double way) {
+      const double x0 = start[0] + 0.2371 * way, x1 = start[0] + 0.2839 * way;
+      const double last = std::abs(C(x0, step * step * step) - C(x0, step * step));
+      return last < std::abs(C(x0, step * step) - C(x0, step)) / 2 &&
+             std::abs(C(x0, 0) - C(x1, 0)) <= zero * (1 + std::abs(C(x0, 0)));
+    });
   };
   const Constants values = constant_solutions(c.dq_dp->with(2, y), {0, c.q({start[0], start[1]})}, true);
   found.complete = values.complete;

@@ -107,6 +107,7 @@ std::optional<E> power_of_number(const Number& base, const Number& exponent) {
     for (Whole i = 0; i < std::abs(exponent.above()); ++i) raised = raised * base;
     return exponent.value() < 0 ? raised.inverse() : raised;
   }
+  if (base == Number(0) && exponent.value() > 0) return Number(0);
   if (base.value() <= 0 || exponent.below() > 12) return std::nullopt;
   const auto above = exact_root(base.above(), exponent.below()), below = exact_root(base.below(), exponent.below());
   if (above && below) return power(Number(*above, *below), Number(exponent.above()));

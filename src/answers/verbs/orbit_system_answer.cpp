@@ -37,9 +37,11 @@ class HalfOrbit {
   static constexpr std::size_t most_steps = 300'000;        ///< some 0.5 s
 
  public:
-  HalfOrbit(const PlanarReduction& plane, const Vector2d& start)
+  /// @param moves  true for y' = F(x, y): x goes on also at a centre, where F has no value
+  HalfOrbit(const PlanarReduction& plane, const Vector2d& start, bool moves)
       : plane_(plane),
         start_(start),
+        moves_(moves),
         solved_(plane.solved()),
         orbit_(solved_ ? plane.orbit(start) : reduction::by_steps(plane.field(), finest, most_steps).orbit(start)),
         again_(reduction::by_steps(plane.field(), solved_ ? finest : coarser, most_steps).orbit(start)) {}
@@ -49,10 +51,11 @@ class HalfOrbit {
     if (time == 0) return ComputedState{start_, solved_};
     // Within the error of the end time the state at infinity has no digits.
     constexpr double error = 1e-12;
-    if (end() == PlanarEnd::infinity && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
+    const bool ends = end() == PlanarEnd::infinity || (moves_ && end() == PlanarEnd::centre);
+    if (ends && time >= (1 - error) * orbit_.end_time()) return std::nullopt;
     if (const auto x = followed(time)) return agrees(time) ? std::optional(ComputedState{*x, solved_}) : std::nullopt;
     // A quadrature that does not reach this time leaves it to the steps, unless the orbit ends earlier or divides.
-    if (!solved_ || !goes_on(time) || !orbit_.unique()) return std::nullopt;
+    if (!solved_ || !goes_on(time) || !orbit_.unique() || !agrees(time)) return std::nullopt;
     const auto x = state(again_, time);
     return x ? std::optional(ComputedState{*x, false}) : std::nullopt;
   }
@@ -111,9 +114,9 @@ class HalfOrbit {
     }
   }
 
-  /// Returns false if steps in time, or for an unsolved field larger steps, lead to another state before a time. Along
-  /// unstable orbits, as y = x of y' = y^2 + 1 - x^2, rounding grows until another orbit is followed; later both may
-  /// follow the same one.
+  /// Returns false if steps in time, or where there is no quadrature larger steps, lead to another state before a time.
+  /// Along unstable orbits, as y = x of y' = y^2 + 1 - x^2, rounding grows until another orbit is followed; later both
+  /// may follow the same one.
   bool agrees(double time) const {
     constexpr double periods = 3, between = 16;
     const double until = orbit_.period() ? std::min(time, periods * *orbit_.period()) : time;
@@ -127,8 +130,14 @@ class HalfOrbit {
 
   /// Returns true if both states are equal, or one state a little earlier or later.
   bool agrees_at(double time) const {
-    const double same = solved_ ? 1e-8 : 1e-6;
-    const auto here = followed(time), there = state(again_, time);
+    auto here = followed(time);
+    const auto there = state(again_, time);
+    const bool by_quadrature = solved_ && here;
+    if (solved_ && !here) {
+      if (!larger_) larger_ = reduction::by_steps(plane_.field(), coarser, most_steps).orbit(start_);
+      here = state(*larger_, time);
+    }
+    const double same = by_quadrature ? 1e-8 : 1e-6;
     if (!here || !there) return true;
     const double difference = (*here - *there).stableNorm();
     return difference <= same * std::max(start_.stableNorm(), here->stableNorm()) ||
@@ -141,9 +150,12 @@ class HalfOrbit {
   };
   PlanarReduction plane_;
   Vector2d start_;
+  bool moves_;
   bool solved_;  ///< the orbit is that of a quadrature, else of steps
   PlanarOrbit orbit_;
-  PlanarOrbit again_;  ///< by steps: the second computation
+  PlanarOrbit again_;                               ///< by steps: the second computation
+  mutable std::optional<PlanarOrbit> larger_ = {};  ///< by larger steps, for times that the quadrature does not reach
+
   mutable std::vector<Part> parts_{{0, orbit_}};
   mutable double agreed_ = 0;  ///< time up to which the states agree
 };
@@ -154,6 +166,7 @@ std::string words_of_end(const HalfOrbit& half, double last, double time) {
     case PlanarEnd::infinity:
       return "it goes to infinity";
     case PlanarEnd::border:
+    case PlanarEnd::centre:
       return "it comes to a pole, a jump or an edge of the equations";
     default:
       return "it ends";
@@ -189,7 +202,7 @@ std::string time_letter(const StartedSystem& system) {
 Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& asked) {
   const Vector2d& start = system.start;
   const PlanarReduction plane = reduction::reduce(system.field, start);
-  const HalfOrbit after(plane, start);
+  const HalfOrbit after(plane, start, system.is_first_order());
   std::optional<HalfOrbit> before;
   const double origin = system.is_first_order() ? start[0] : 0;
   Eigen::ArrayXd instants = asked.at;
@@ -205,7 +218,7 @@ Answer orbit_system_answer(const StartedSystem& system, const SystemInstants& as
   std::vector<ComputedState> states;
   for (const double instant : instants) {
     const double time = instant - origin;
-    if (time < 0 && !before) before.emplace(plane.reversed(), start);
+    if (time < 0 && !before) before.emplace(plane.reversed(), start, system.is_first_order());
     const HalfOrbit& half = time < 0 ? *before : after;
     const auto state = half.at(std::abs(time));
     if (!state) {

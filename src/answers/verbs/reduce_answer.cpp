@@ -553,33 +553,59 @@ struct Extent {
 /// its zero.
 Extent extent_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2d& start) {
   const Expression &branch = *steps.branch, slope = branch.derivative(0);
-  constexpr double nearly = 0.999, usual = 5.0731, error = 1e-8;  // no sample is a round number
-  std::vector<std::pair<Expression, bool>> divisors;              // with their signs at the start
-  steps.parts[1].replaced([&](const Expression& part) -> std::optional<Expression> {
-    const auto [base, exponent] = base_and_exponent(part);
-    const bool is_below = exponent.is(Expression::Kind::number) && exponent.number().value() < 0;
-    if (const double at = is_below ? base({start[0], start[1]}) : 0; at != 0) divisors.emplace_back(base, at > 0);
-    return std::nullopt;
-  });
-  const auto end = [&](double reach) {
-    const auto is_on = [&](double passed) {
-      const double x = start[0] + passed, y = branch({x, 0}), expected = steps.parts[1]({x, y}), found = slope({x, 0});
-      const auto passes = [&](const auto& divisor) { return divisor.first({x, y}) > 0 == divisor.second; };
-      return std::ranges::all_of(divisors, passes) && !std::isnan(y) &&
-             !(std::abs(found - expected) > error * (1 + std::abs(expected)));
-    };
-    constexpr int samples = 20, halvings = 40;
+  constexpr double beyond = 1.0131, usual = 5.0731, error = 1e-8;  // no sample is a round number
+  using Divisors = std::vector<std::pair<Expression, bool>>;       // with their signs at the start
+  const auto divisors_of = [&](const Expression& e) {
+    Divisors found;
+    e.replaced([&](const Expression& part) -> std::optional<Expression> {
+      const auto [base, exponent] = base_and_exponent(part);
+      const bool is_tan = is_function(part, "tan");
+      const bool is_below = exponent.is(Expression::Kind::number) && exponent.number().value() < 0;
+      const Expression divisor = is_tan ? Expression::function("cos", part.parts()[0]) : base;
+      const double at = is_below || is_tan ? divisor({start[0], start[1]}) : 0;
+      if (at != 0) found.emplace_back(divisor, at > 0);
+      return std::nullopt;
+    });
+    return found;
+  };
+  const Divisors of_equation = divisors_of(steps.parts[1]);
+  const auto y_at = [&](double passed) { return branch({start[0] + passed, 0}); };
+  const auto keeps_signs = [&](const Divisors& divisors, double passed) {
+    const double x = start[0] + passed, y = y_at(passed);
+    return std::ranges::all_of(divisors, [&](const auto& each) { return each.first({x, y}) > 0 == each.second; });
+  };
+  const auto is_solution = [&](double passed) {
+    const double x = start[0] + passed, y = y_at(passed), expected = steps.parts[1]({x, y}), found = slope({x, 0});
+    return keeps_signs(of_equation, passed) && !std::isnan(y) && !std::isnan(expected) &&
+           !(std::abs(found - expected) > error * (1 + std::abs(expected)));
+  };
+  constexpr int samples = 20, halvings = 50;
+  // Returns the last place up to which a condition holds; empty if it holds everywhere.
+  const auto last = [&](double reach, const auto& holds) -> std::optional<double> {
     for (int i = 1; i <= samples; ++i) {
       double on = reach * (i - 1) / samples, off = reach * i / samples;
-      if (is_on(off)) continue;
-      for (int k = 0; k < halvings; ++k) (is_on((on + off) / 2) ? on : off) = (on + off) / 2;
-      constexpr double rounding = 1e-7;
-      const double x = start[0] + on;
-      return std::abs(x) <= rounding * (std::abs(start[0]) + std::abs(on)) ? 0 : x;
+      if (holds(off)) continue;
+      for (int k = 0; k < halvings; ++k) (holds((on + off) / 2) ? on : off) = (on + off) / 2;
+      return on;
     }
-    return std::copysign(infinity, reach);
+    return std::nullopt;
   };
-  return {end(-usual), end(std::isfinite(orbit.end_time()) ? nearly * orbit.end_time() : usual)};
+  const auto end = [&](double reach) {
+    std::optional<double> nearest = last(reach, is_solution);
+    for (const auto& divisor : divisors_of(branch)) {
+      const auto pole = last(reach, [&](double passed) { return keeps_signs({divisor}, passed); });
+      // The branch grows towards a pole, and not towards a zero that its numerator shares.
+      constexpr double near = 1e-4, farther = 1e-3, grows = 1.5;
+      const bool is_pole =
+          pole && std::abs(y_at(*pole - near * reach)) > grows * std::abs(y_at(*pole - farther * reach));
+      if (is_pole && !(nearest && std::abs(*nearest) < std::abs(*pole))) nearest = pole;
+    }
+    if (!nearest) return std::copysign(infinity, reach);
+    constexpr double at_start = 1e-4, rounding = 1e-7;
+    const double x = std::abs(*nearest) <= at_start * std::abs(reach) ? start[0] : start[0] + *nearest;
+    return std::abs(x) <= rounding * (1 + std::abs(start[0])) ? 0 : x;
+  };
+  return {end(-usual), end(std::isfinite(orbit.end_time()) ? beyond * orbit.end_time() : usual)};
 }
 
 /// Largest relative change of H along steps in time up to the last time at which it was compared.
