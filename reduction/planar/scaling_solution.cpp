@@ -152,7 +152,8 @@ void ScalingSolution::leave_doubtful_open() {
     const auto divides = [&](const Approach& side, const Approach& other) {
       const double along = side.radial().factor;
       const bool continues = end.rates && std::abs(end.rates->radial - along) <= close * std::abs(along);
-      return joins(side) && (!other.exists() || leaves(other) || !continues);
+      // Where the field ends at the ray, the ray alone continues.
+      return joins(side) && ((other.exists() && leaves(other)) || !continues);
     };
     const bool before = divides(end.before, end.after), after = divides(end.after, end.before);
     if (before) end.before.leave_open();
