@@ -494,7 +494,8 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
       // The reduction ends here, but steps in time may continue the orbit.
       const PlanarEnd end = motion.end();
       const bool ends = end == PlanarEnd::border || end == PlanarEnd::infinity || end == PlanarEnd::rest;
-      if (std::exchange(stepped, true) || ends) break;
+      // Where rounding decides, as beside a saddle, steps continue another orbit.
+      if (std::exchange(stepped, true) || ends || motion.undecided().starts_with("rounding")) break;
       motion = way.by_steps.part_of_orbit(here);
       time = 0;
       step = 1e-3 * near / speed;
