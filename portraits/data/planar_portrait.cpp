@@ -337,8 +337,8 @@ class TimedTracer final : public PlanarTracer {
               bool in_disc = false)
       : PlanarTracer(plane, window),
         in_disc_(in_disc),
-        forth_{plane, reduction::by_steps(plane.field()), {}},
-        back_{plane.reversed(), forth_.by_steps.reversed(), {}} {
+        forth_{plane, reduction::by_steps(plane.field()), {}, {}},
+        back_{plane.reversed(), forth_.by_steps.reversed(), {}, {}} {
     for (const reduction::LimitCycle& cycle : cycles) {
       for (const Vector2d& x : cycle.line) {
         for_cells_about(cell_of(x, coarse), 12, [&](int cell) { beside_cycle_.insert(cell); });
@@ -347,8 +347,10 @@ class TimedTracer final : public PlanarTracer {
         const Vector2d step = cycle.line[i] - cycle.line[i - 1];
         const int pieces = 1 + static_cast<int>(2 * fine * step.cwiseQuotient(window.sides()).norm());
         for (int k = 0; k < pieces; ++k) {
-          for_cells_about(cell_of(cycle.line[i - 1] + step * k / pieces, fine), 3,
-                          [&](int cell) { (cycle.stable ? forth_ : back_).cycles.insert(cell); });
+          Way& way = cycle.stable ? forth_ : back_;
+          const int here = cell_of(cycle.line[i - 1] + step * k / pieces, fine);
+          for_cells_about(here, 3, [&](int cell) { way.cycles.insert(cell); });
+          for_cells_about(here, 1, [&](int cell) { way.on_cycles.insert(cell); });
         }
       }
     }
@@ -388,7 +390,7 @@ class TimedTracer final : public PlanarTracer {
   /// A system, its orbits by steps in time, and the fine cells about the limit cycles that its motions near.
   struct Way {
     PlanarReduction plane, by_steps;
-    std::unordered_set<int> cycles;
+    std::unordered_set<int> cycles, on_cycles;  ///< fine cells beside limit cycles that attract, and on them
   };
 
   int cell_of(const Vector2d& x, int cells) const {
@@ -408,10 +410,11 @@ class TimedTracer final : public PlanarTracer {
     if (!from_here) line = follow(back_, x);
     std::ranges::reverse(line);
     line.push_back({x[0], x[1]});
-    std::ranges::copy(follow(forth_, x), std::back_inserter(line));
+    std::ranges::copy(follow(forth_, x, false, from_here), std::back_inserter(line));
     return line;
   }
-  Polyline follow(const Way& way, const Vector2d& x, bool is_ordinary = false) const;
+  /// @param onto_cycle  true: a motion is followed until it and a limit cycle are one line
+  Polyline follow(const Way& way, const Vector2d& x, bool is_ordinary = false, bool onto_cycle = false) const;
 
   bool in_disc_;
   Way forth_, back_;
@@ -456,7 +459,7 @@ class Crowding {
 };
 
 /// Follows a motion until it is some window sides beyond the window, because it may return from nearer places.
-Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary) const {
+Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary, bool onto_cycle) const {
   const Vector2d f = way.plane.field()(x);
   const Vector2d sides = window_.sides();
   const double speed = f.cwiseQuotient(sides).norm();
@@ -481,7 +484,8 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
   // An orbit that tends to a closed orbit visits the same cells of the picture again and again.
   constexpr int turns = 3;
   std::unordered_map<int, std::pair<int, int>> visits;  // index of the last point in a cell, and number of visits
-  bool apart = !way.cycles.contains(cell_of(x, fine));
+  const auto& cycles = onto_cycle ? way.on_cycles : way.cycles;
+  bool apart = !cycles.contains(cell_of(x, fine));
   Crowding crowding;
   for (int i = 0; i < most && time < last; ++i) {
     const double next = std::min(time + step, last);
@@ -512,7 +516,7 @@ Polyline TimedTracer::follow(const Way& way, const Vector2d& x, bool is_ordinary
     }
     // The cycle itself is drawn, so the orbit ends before it covers the cycle.
     const int cell = cell_of(there, fine);
-    const bool at_cycle = way.cycles.contains(cell);
+    const bool at_cycle = cycles.contains(cell);
     if (apart && at_cycle) break;
     apart = !at_cycle;
     if (beyond == 0) {
