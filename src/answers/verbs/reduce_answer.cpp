@@ -572,7 +572,7 @@ Extent extent_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vect
   const auto y_at = [&](double passed) { return branch({start[0] + passed, 0}); };
   const auto keeps_signs = [&](const Divisors& divisors, double passed) {
     const double x = start[0] + passed, y = y_at(passed);
-    return std::ranges::all_of(divisors, [&](const auto& each) { return each.first({x, y}) > 0 == each.second; });
+    return std::ranges::all_of(divisors, [&](const auto& each) { return (each.first({x, y}) > 0) == each.second; });
   };
   const auto is_solution = [&](double passed) {
     const double x = start[0] + passed, y = y_at(passed), expected = steps.parts[1]({x, y}), found = slope({x, 0});
