@@ -437,8 +437,8 @@ class Parser {
       reject(place, fmt::format("{}: {}", quotation(name), refused->second));
     }
     static const std::map<std::string, std::string> written_as{
-        {"cot", "1/tan(x)"},    {"sec", "1/cos(x)"},    {"csc", "1/sin(x)"},       {"cbrt", "sign(x)*|x|^(1/3)"},
-        {"heaviside", "x > 0"}, {"Heaviside", "x > 0"}, {"floor", "rint(x - 1/2)"}};
+        {"cot", "(1/tan(x))"},           {"sec", "(1/cos(x))"},    {"csc", "(1/sin(x))"},
+        {"cbrt", "(sign(x)*|x|^(1/3))"}, {"heaviside", "(x > 0)"}, {"Heaviside", "(x > 0)"}};
     if (const auto other = written_as.find(name); other != written_as.end() && next() == '(') {
       reject(place, fmt::format("{} is no function; write {}", quotation(name), other->second));
     }

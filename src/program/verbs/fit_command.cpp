@@ -48,7 +48,8 @@ NoiseByName parse_noise(const std::string& typed) {
     const std::string_view unit = name == stop ? "s" : name == slide ? "m" : fit::observable_kinds()[place].unit;
     const std::string value = each.substr(sign + 1);
     // An angle without a unit is in radians here, in contrast to angles of other options.
-    const bool has_unit = !is_constant(value) && std::isalpha(static_cast<unsigned char>(value.back())) != 0;
+    const bool has_unit =
+        !value.empty() && !is_constant(value) && std::isalpha(static_cast<unsigned char>(value.back()));
     const double sd = unit == "rad" && has_unit ? parse_quantity(value, "deg") * (std::numbers::pi / 180)
                                                 : parse_quantity(value, unit);
     if (!(sd > 0)) throw NotAllowed("a standard deviation is > 0, in {}", unit);
