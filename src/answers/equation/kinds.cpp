@@ -106,9 +106,7 @@ bool Equation::vanishes(const Expression& formula, double error) const {
 }
 
 bool Equation::is_free_of(const Expression& formula, std::size_t variable) const {
-  const std::array<Expression, 2> shift{variable == 0 ? 1 : 0, variable == 1 ? 1 : 0};
-  return vanishes(formula.derivative(variable)) && vanishes(formula - formula.with(variable, Number(13, 10))) &&
-         keeps_jumps(formula, shift);
+  return vanishes(formula.derivative(variable)) && vanishes(formula - formula.with(variable, Number(13, 10)));
 }
 
 namespace kinds_of_equation {
@@ -414,9 +412,8 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     }
     return vanishes(E::sum(terms));
   };
-  const auto smooth_in_y = [&] { return keeps_jumps(R, {0, 1}) && keeps_jumps(by_y, {0, 1}); };
   const bool linear = second || add_kind("linear", [&] {
-                        return vanishes(by_y.derivative(1)) && is_polynomial({1, -2}) && smooth_in_y();
+                        return vanishes(by_y.derivative(1)) && is_polynomial({1, -2});
                       });
   if (!linear) {
     std::optional<Number> n;
@@ -426,16 +423,14 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       if (n && !(*n == Number(1))) {
         const E rest = (R - W / (E(*n) - 1)) / y;
         // y = 0 separates equations with y^n
-        if (!vanishes(rest - rest.with(1, 1)) || !keeps_jumps(rest, {0, y}) || !keeps_jumps(W, {0, y})) n.reset();
+        if (!vanishes(rest - rest.with(1, 1)) || !keeps_jumps(W, {0, y})) n.reset();
       }
       return true;
     });
     if (n && !(*n == Number(1)) && !(*n == Number(0))) name_kind(fmt::format("Bernoulli (n = {})", E(*n).text({}, 6)));
-    add_kind("Riccati", [&] {
-      return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}) && smooth_in_y();
-    });
+    add_kind("Riccati", [&] { return vanishes(by_y.derivative(1).derivative(1)) && is_polynomial({1, -1, 2}); });
   }
-  // Derivatives do not see jumps, so that finite maps are tried, too.
+  // Derivatives do not see jumps, so that finite maps are tried, too, also beside the jumps.
   const auto maps = [&](const std::array<double, 2>& factors, const std::array<double, 2>& shifts, double factor) {
     constexpr double error = 1e-9;
     return std::ranges::all_of(equation.points({R}), [&](const Eigen::Vector2d& at) {
@@ -445,7 +440,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     });
   };
   const bool homogeneous = !second && add_kind("homogeneous", [&] {
-    return vanishes(x * by_x + y * by_y) && keeps_jumps(R, {x, y}) && maps({2, 2}, {0, 0}, 1);
+    return vanishes(x * by_x + y * by_y) && maps({2, 2}, {0, 0}, 1);
   });
   if (!homogeneous) {
     std::optional<Number> m;
@@ -454,7 +449,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
       if (!vanishes(below)) m = equation.constant((R + x * by_x) / below);
       return true;
     });
-    if (m && keeps_jumps(R, {x, *m * y}) && maps({2, std::exp2(m->value())}, {0, 0}, std::exp2(m->value() - 1))) {
+    if (m && maps({2, std::exp2(m->value())}, {0, 0}, std::exp2(m->value() - 1))) {
       name_kind(fmt::format("isobaric ({})", scaling_text(names[0], 1, names[1], *m)));
     }
   }
@@ -463,7 +458,7 @@ std::vector<std::string> kinds_of(const Equation& equation) {
     if (!vanishes(by_y)) c = equation.constant(-by_x / by_y);
     return true;
   });
-  if (c && !(*c == Number(0)) && keeps_jumps(R, {1, *c}) && maps({1, 1}, {1, c->value()}, 1)) {
+  if (c && !(*c == Number(0)) && maps({1, 1}, {1, c->value()}, 1)) {
     name_kind(fmt::format("shift along a direction (1, {})", E(*c).text({}, 6)));
   }
   if (second) return kinds;
