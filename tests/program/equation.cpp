@@ -255,7 +255,7 @@ TEST_CASE("kinds, coordinates and H of a field that jumps hold across the jump, 
           ++reduced;
         }
         if (found.integral) {
-          INFO("H = " << found.text(found.integral->H) << " for " << found.where);
+          INFO("H = " << found.text(found.integral->H) << " for " << found.where());
           const Expression& H = found.integral->H;
           const FormulaField border = parse_planar_system("dv/du = " + z, {});
           for (int i = 0; i < 20; ++i) {
@@ -302,7 +302,7 @@ TEST_CASE("C of a start at a jump is that of the motion from there", "[invariant
     const Vector2d later = plane.orbit(start).at(1);
     CHECK(found.integral->H({later[0], later[1]}) == Approx(C).epsilon(1e-9));
     // Motions cross x' = 0, where this H jumps.
-    CHECK(found.where == (x0 > 0 ? "x' < 0" : "x' > 0"));
+    CHECK(found.where() == (x0 > 0 ? "x' < 0" : "x' > 0"));
     CHECK(found.jumps().empty());
     // The body stays at the jump if the force of the spring is less than friction.
     const Vector2d rest(friction / 2, 0);

@@ -168,18 +168,20 @@ struct Curves {
 /// Returns a number as a fraction or as (k + sqrt(n))/m with small whole numbers, if it equals one up to rounding.
 Expression exact(double value);
 
+/// The values of x between which a formula y(x) satisfies y' = F(x, y); infinite where no end is found.
+struct Extent {
+  double from, until;
+};
+
 /// The reduction of an equation as formulas in its own letters. A part that is not certain is empty.
 struct Steps {
   std::vector<std::string> names;  ///< the two variables, then q and p
+  std::optional<Equation> equation = {};
   std::vector<std::string> kinds = {};
   std::optional<Coordinates> coordinates = {};
-  std::string separated_where = {};  ///< part in which the coordinates were checked; empty for the plane
   std::optional<IntegralFormula> integral = {};
-  std::string where = {};  ///< part in which H was checked, such as "x > 0, y > 0"; empty for the plane
-  std::function<bool(const Eigen::Vector2d& x)> holds_at = {};  ///< true in this part
   std::optional<Expression> branch = {};  ///< y as a formula in x along the orbit of the start, for y' = F(x, y)
   std::optional<Expression> factor = {};  ///< inverse integrating factor V, that of H if H is known
-  std::vector<Expression> parts = {};     ///< the right sides
   Constants constants = {};               ///< those that were found of y' = F(x, y)
   Curves lost = {};                       ///< solutions with dq/dp = 0 that no C gives
 
@@ -187,6 +189,15 @@ struct Steps {
 
   /// Returns the separated equation, such as "dq/dp = tan(q)", and where it holds; empty without coordinates.
   std::string separated(int digits = 0) const;
+
+  /// Returns the part of the plane in which H was checked, such as "x > 0, y > 0"; empty for the plane.
+  std::string where() const { return equation->text_of(integral->within); }
+  bool holds_at(const Eigen::Vector2d& x) const { return equation->contains(integral->within, x); }
+
+  /// Returns where the branch through the start comes to a pole, or its slope leaves the equation, as that of a root
+  /// does beyond its zero.
+  /// @param end  x at which the orbit ends, or infinity
+  Extent extent(const Eigen::Vector2d& start, double end) const;
 
   /// Returns the formulas at whose zeros H may jump, so that C has another value on the other side: the denominators of
   /// arguments of atan, cos(z) for tan(z) in these arguments, and arguments of sign.

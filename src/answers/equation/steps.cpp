@@ -15,9 +15,10 @@ namespace contensou::answers {
 std::string Steps::separated(int digits) const {
   if (!coordinates) return "";
   const bool of_q = coordinates->dq_dp.has_value();
+  const std::string where = equation->text_of(coordinates->within);
   return fmt::format("d{0}/d{1} = {2}{3}{4}", names[of_q ? 2 : 3], names[of_q ? 3 : 2],
-                     text(of_q ? *coordinates->dq_dp : *coordinates->dp_dq, digits),
-                     separated_where.empty() ? "" : ",  for ", separated_where);
+                     text(of_q ? *coordinates->dq_dp : *coordinates->dp_dq, digits), where.empty() ? "" : ",  for ",
+                     where);
 }
 
 std::string Steps::broken_at(const Eigen::Vector2d& x) const {
@@ -38,7 +39,9 @@ std::string Steps::broken_at(const Eigen::Vector2d& x) const {
     }
     return std::nullopt;
   };
-  for (const Expression& part : parts) part.replaced(look);
+  if (equation) {
+    for (const Expression& part : equation->f) part.replaced(look);
+  }
   return reason;
 }
 
@@ -64,7 +67,7 @@ std::vector<Expression> Steps::jumps() const {
   };
   integral->H.replaced(look);
   for (const Expression& z : signs_in(integral->H)) {
-    if (std::ranges::any_of(jumps_at(integral->H, z), holds_at)) add(z);
+    if (std::ranges::any_of(jumps_at(integral->H, z), [&](const auto& x) { return holds_at(x); })) add(z);
   }
   return places;
 }
@@ -222,7 +225,74 @@ Curves lost_solutions(const Equation& equation, const Coordinates& c, const std:
   return found;
 }
 
+/// A divisor in a formula, and its sign at a start.
+struct Divisor {
+  Expression value;
+  bool positive;
+
+  bool keeps_sign(double x, double y) const { return (value({x, y}) > 0) == positive; }
+};
+
+/// Returns the divisors in a formula, and cos(z) for tan(z).
+std::vector<Divisor> divisors_in(const Expression& e, const Vector2d& start) {
+  std::vector<Divisor> found;
+  e.replaced([&](const Expression& part) -> std::optional<Expression> {
+    const auto [base, exponent] = base_and_exponent(part);
+    const bool is_tan = is_function(part, "tan");
+    if (!is_tan && !(exponent.is(Expression::Kind::number) && exponent.number().value() < 0)) return std::nullopt;
+    const Expression divisor = is_tan ? Expression::function("cos", part.parts()[0]) : base;
+    const double at = divisor({start[0], start[1]});
+    if (at != 0) found.push_back({divisor, at > 0});
+    return std::nullopt;
+  });
+  return found;
+}
+
+/// Returns how far a condition holds from 0 on; empty if it holds at all samples.
+std::optional<double> extent_of(double reach, const std::function<bool(double passed)>& holds) {
+  constexpr int samples = 20, halvings = 50;
+  for (int i = 1; i <= samples; ++i) {
+    double on = reach * (i - 1) / samples, off = reach * i / samples;
+    if (holds(off)) continue;
+    for (int k = 0; k < halvings; ++k) (holds((on + off) / 2) ? on : off) = (on + off) / 2;
+    return on;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+Extent Steps::extent(const Vector2d& start, double end) const {
+  const Expression &F = equation->slope, slope = branch->derivative(0);
+  const std::vector<Divisor> of_F = divisors_in(F, start), of_branch = divisors_in(*branch, start);
+  const auto y_at = [&](double passed) { return (*branch)({start[0] + passed, 0}); };
+  const auto keeps_sign = [&](const Divisor& divisor, double passed) {
+    return divisor.keeps_sign(start[0] + passed, y_at(passed));
+  };
+  const auto is_solution = [&](double passed) {
+    constexpr double error = 1e-8;
+    const double x = start[0] + passed, y = y_at(passed), expected = F({x, y}), found = slope({x, 0});
+    return std::ranges::all_of(of_F, [&](const Divisor& each) { return keeps_sign(each, passed); }) && !std::isnan(y) &&
+           !std::isnan(expected) && !(std::abs(found - expected) > error * (1 + std::abs(expected)));
+  };
+  const auto last = [&](double reach) {
+    std::optional<double> nearest = extent_of(reach, is_solution);
+    for (const Divisor& divisor : of_branch) {
+      const auto pole = extent_of(reach, [&](double passed) { return keeps_sign(divisor, passed); });
+      // The branch grows towards a pole, and not towards a zero that its numerator shares.
+      constexpr double near = 1e-4, farther = 1e-3, grows = 1.5;
+      const bool is_pole =
+          pole && std::abs(y_at(*pole - near * reach)) > grows * std::abs(y_at(*pole - farther * reach));
+      if (is_pole && !(nearest && std::abs(*nearest) < std::abs(*pole))) nearest = pole;
+    }
+    if (!nearest) return std::copysign(infinity, reach);
+    constexpr double at_start = 1e-4, rounding = 1e-7;
+    const double x = std::abs(*nearest) <= at_start * std::abs(reach) ? start[0] : start[0] + *nearest;
+    return std::abs(x) <= rounding * (1 + std::abs(start[0])) ? 0 : x;
+  };
+  constexpr double beyond = 1.0131, usual = 5.0731;  // no sample is a round number
+  return {last(-usual), last(std::isfinite(end) ? beyond * (end - start[0]) : usual)};
+}
 
 Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& found, const std::string& factor,
                bool cleared, const std::optional<Eigen::Vector2d>& start, const Eigen::Vector2d& around) {
@@ -230,9 +300,8 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
   const auto is_taken = [&](const std::string& name) { return std::ranges::count(system.variables, name) > 0; };
   const bool taken = is_taken("q") || is_taken("p");
   steps.names.insert(steps.names.end(), {taken ? "Q" : "q", taken ? "P" : "p"});
-  const auto equation = equation_of(system, around);
+  const auto& equation = steps.equation = equation_of(system, around);
   if (!equation) return steps;
-  steps.parts = {equation->f[0], equation->f[1]};
   const auto attempt = [](const std::function<void()>& part) {
     try {
       part();
@@ -276,13 +345,6 @@ Steps steps_of(const FormulaField& system, const reduction::PlanarSymmetries& fo
     const auto ratio = equation->constant(*steps.factor / V);
     steps.factor = ratio ? tidied(*steps.factor / *ratio) : tidied(V);
   });
-  if (steps.integral) {
-    steps.where = equation->text_of(steps.integral->within);
-    steps.holds_at = [of = *equation, within = steps.integral->within](const Vector2d& x) {
-      return of.contains(within, x);
-    };
-  }
-  if (steps.coordinates) steps.separated_where = equation->text_of(steps.coordinates->within);
   const bool is_system = system.equations == FormulaField::Equations::system;
   const std::string of = is_system ? std::string(of_orbits) : "";
   const bool separable = std::ranges::count(steps.kinds, of + "separable") > 0;

@@ -382,6 +382,7 @@ void add_scaling(Answer& answer, const ScalingNames& names, const PlanarReductio
 /// Adds to the answer the reduction as formulas.
 void add_steps(Answer& answer, const Steps& steps) {
   const auto& c = steps.coordinates;
+  const std::string where = steps.integral ? steps.where() : "";
   answer.members.update({{"variables", {steps.names[0], steps.names[1]}},
                          {"equation", steps.kinds},
                          {"steps",
@@ -389,7 +390,7 @@ void add_steps(Answer& answer, const Steps& steps) {
                            {"p", c ? Json(steps.text(c->p)) : Json()},
                            {"separated", c ? Json(steps.separated()) : Json()}}},
                          {"integral_formula", steps.integral ? Json(steps.text(steps.integral->H)) : Json()},
-                         {"integral_where", steps.where.empty() ? Json() : Json(steps.where)}});
+                         {"integral_where", where.empty() ? Json() : Json(where)}});
 }
 
 /// Adds to the answer a solution by the inverse integrating factor V, for a system without a scaling.
@@ -410,9 +411,7 @@ void add_factor(Answer& answer, const PlanarReduction& plane, const Steps& steps
   add_text(answer, [=](const Digits&) { return lines; });
 }
 
-/// Distance between the state by the solution and the state by steps in time, at 95 % of a finite end time, after three
-/// periods, or else at t = 5. It is divided by the distance from 0 of the start or of the state by steps, whichever is
-/// farther from 0. If one of the two gives no state then, the states are compared at half the time, and so on.
+/// The difference of a solution from steps in time.
 struct BySteps {
   double time, difference;
   double error;  ///< estimated error of the steps, from steps with another tolerance
@@ -422,25 +421,58 @@ struct BySteps {
     return difference <= std::max(rounding, margin * error);
   }
 };
-std::optional<BySteps> by_steps(const PlanarReduction& plane, const PlanarOrbit& orbit, const Vector2d& start) {
-  constexpr double share = 0.95, usual = 5, periods = 3, coarser = 1e-11;
-  double time = orbit.period()                    ? periods * *orbit.period()
-                : std::isfinite(orbit.end_time()) ? share * orbit.end_time()
-                                                  : usual;
+
+/// Compares a solution with steps in time at a time. If it has no state there, it is compared at half the time, and so
+/// on.
+/// @param compared  returns the difference from the first motion, and that of the second motion from the first
+std::optional<BySteps> by_steps(const PlanarReduction& plane, const Vector2d& start, double time,
+                                const std::function<std::array<double, 2>(double time, const PlanarOrbit& steps,
+                                                                          const PlanarOrbit& coarse)>& compared) {
+  constexpr double coarser = 1e-11;
   const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
   const PlanarOrbit coarse = reduction::by_steps(plane.field(), coarser).orbit(start);
   constexpr int halvings = 20;
   for (int i = 0; i <= halvings && time > 0; ++i, time /= 2) {
     try {
-      const Vector2d here = orbit.at(time), there = steps.at(time), again = coarse.at(time);
-      const double size = std::max(start.stableNorm(), there.stableNorm());
-      const BySteps compared{time, (here - there).stableNorm() / size, (again - there).stableNorm() / size};
-      if (std::isfinite(compared.difference) && std::isfinite(compared.error)) return compared;
+      const auto [difference, error] = compared(time, steps, coarse);
+      if (std::isfinite(difference) && std::isfinite(error)) return BySteps{time, difference, error};
     } catch (const std::domain_error&) {
-      // One of the three does not reach this time.
+      // One of the motions does not reach this time.
     }
   }
   return std::nullopt;
+}
+
+/// Compares states at 95 % of a finite end time, after three periods, or else at t = 5. Their distance is divided by
+/// the distance from 0 of the start or of the state by steps, whichever is farther from 0.
+std::optional<BySteps> states_by_steps(const PlanarReduction& plane, const PlanarOrbit& orbit, const Vector2d& start) {
+  constexpr double share = 0.95, usual = 5, periods = 3;
+  const double time = orbit.period()                    ? periods * *orbit.period()
+                      : std::isfinite(orbit.end_time()) ? share * orbit.end_time()
+                                                        : usual;
+  return by_steps(plane, start, time, [&](double t, const PlanarOrbit& steps, const PlanarOrbit& coarse) {
+    const Vector2d here = orbit.at(t), there = steps.at(t), again = coarse.at(t);
+    const double size = std::max(start.stableNorm(), there.stableNorm());
+    return std::array{(here - there).stableNorm() / size, (again - there).stableNorm() / size};
+  });
+}
+
+/// Compares H with C at t = 4, or before the steps leave the part of the plane in which H holds.
+std::optional<BySteps> values_by_steps(const PlanarReduction& plane, const Steps& formulas, const Vector2d& start,
+                                       double C) {
+  constexpr double longest = 4;
+  constexpr int samples = 64;
+  return by_steps(plane, start, longest, [&](double t, const PlanarOrbit& steps, const PlanarOrbit& coarse) {
+    for (int i = 1; i <= samples; ++i) {
+      if (!formulas.holds_at(steps.at(t * i / samples))) return std::array{infinity, infinity};
+    }
+    const auto H = [&](const PlanarOrbit& orbit) {
+      const Vector2d x = orbit.at(t);
+      return formulas.integral->H({x[0], x[1]});
+    };
+    const double size = std::max(1., std::abs(C));
+    return std::array{std::abs(H(steps) - C) / size, std::abs(H(coarse) - H(steps)) / size};
+  });
 }
 
 /// The orbit of the start, its end, and the comparison with steps in time.
@@ -467,7 +499,7 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
   Json& members = answer.members;
   const PlanarOrbit orbit = plane.orbit(start);
   const PlanarEnd end = orbit.end();
-  const Followed followed{orbit, 0, by_steps(plane, orbit, start)};
+  const Followed followed{orbit, 0, states_by_steps(plane, orbit, start)};
   const auto& stepped = followed.stepped;
   const bool doubtful = !followed.doubt({6}).empty();
   const bool unknown = end == PlanarEnd::border || end == PlanarEnd::undecided || doubtful;
@@ -534,113 +566,6 @@ Followed add_end(Answer& answer, const PlanarReduction& plane, const Vector2d& s
     return end_text(digits) + text;
   });
   return {orbit, error, stepped};
-}
-
-/// The values of x between which a branch y(x) satisfies y' = F(x, y); infinite where no end is found.
-struct Extent {
-  double from = -infinity, until = infinity;
-
-  std::string text(const std::string& x, const Digits& digits) const {
-    std::string text;
-    if (std::isfinite(from)) text += fmt::format(", from {} = {}", x, digits(from));
-    if (std::isfinite(until))
-      text += fmt::format("{} to {}{}", text.empty() ? ", up" : "", text.empty() ? x + " = " : "", digits(until));
-    return text;
-  }
-};
-
-/// Returns where the branch comes to a pole of the equation, or its slope leaves the equation, as a root does beyond
-/// its zero.
-Extent extent_of_branch(const Steps& steps, const PlanarOrbit& orbit, const Vector2d& start) {
-  const Expression &branch = *steps.branch, slope = branch.derivative(0);
-  constexpr double beyond = 1.0131, usual = 5.0731, error = 1e-8;  // no sample is a round number
-  using Divisors = std::vector<std::pair<Expression, bool>>;       // with their signs at the start
-  const auto divisors_of = [&](const Expression& e) {
-    Divisors found;
-    e.replaced([&](const Expression& part) -> std::optional<Expression> {
-      const auto [base, exponent] = base_and_exponent(part);
-      const bool is_tan = is_function(part, "tan");
-      const bool is_below = exponent.is(Expression::Kind::number) && exponent.number().value() < 0;
-      const Expression divisor = is_tan ? Expression::function("cos", part.parts()[0]) : base;
-      const double at = is_below || is_tan ? divisor({start[0], start[1]}) : 0;
-      if (at != 0) found.emplace_back(divisor, at > 0);
-      return std::nullopt;
-    });
-    return found;
-  };
-  const Divisors of_equation = divisors_of(steps.parts[1]);
-  const auto y_at = [&](double passed) { return branch({start[0] + passed, 0}); };
-  const auto keeps_signs = [&](const Divisors& divisors, double passed) {
-    const double x = start[0] + passed, y = y_at(passed);
-    return std::ranges::all_of(divisors, [&](const auto& each) { return (each.first({x, y}) > 0) == each.second; });
-  };
-  const auto is_solution = [&](double passed) {
-    const double x = start[0] + passed, y = y_at(passed), expected = steps.parts[1]({x, y}), found = slope({x, 0});
-    return keeps_signs(of_equation, passed) && !std::isnan(y) && !std::isnan(expected) &&
-           !(std::abs(found - expected) > error * (1 + std::abs(expected)));
-  };
-  constexpr int samples = 20, halvings = 50;
-  // Returns the last place up to which a condition holds; empty if it holds everywhere.
-  const auto last = [&](double reach, const auto& holds) -> std::optional<double> {
-    for (int i = 1; i <= samples; ++i) {
-      double on = reach * (i - 1) / samples, off = reach * i / samples;
-      if (holds(off)) continue;
-      for (int k = 0; k < halvings; ++k) (holds((on + off) / 2) ? on : off) = (on + off) / 2;
-      return on;
-    }
-    return std::nullopt;
-  };
-  const auto end = [&](double reach) {
-    std::optional<double> nearest = last(reach, is_solution);
-    for (const auto& divisor : divisors_of(branch)) {
-      const auto pole = last(reach, [&](double passed) { return keeps_signs({divisor}, passed); });
-      // The branch grows towards a pole, and not towards a zero that its numerator shares.
-      constexpr double near = 1e-4, farther = 1e-3, grows = 1.5;
-      const bool is_pole =
-          pole && std::abs(y_at(*pole - near * reach)) > grows * std::abs(y_at(*pole - farther * reach));
-      if (is_pole && !(nearest && std::abs(*nearest) < std::abs(*pole))) nearest = pole;
-    }
-    if (!nearest) return std::copysign(infinity, reach);
-    constexpr double at_start = 1e-4, rounding = 1e-7;
-    const double x = std::abs(*nearest) <= at_start * std::abs(reach) ? start[0] : start[0] + *nearest;
-    return std::abs(x) <= rounding * (1 + std::abs(start[0])) ? 0 : x;
-  };
-  return {end(-usual), end(std::isfinite(orbit.end_time()) ? beyond * orbit.end_time() : usual)};
-}
-
-/// Largest relative change of H along steps in time up to the last time at which it was compared.
-struct Constancy {
-  double time, difference;
-
-  bool confirms() const {
-    constexpr double most = 1e-6;
-    return difference <= most;
-  }
-};
-/// Compares H with C along steps in time, before they leave the part of the plane in which H holds. Empty if the steps
-/// give no state.
-std::optional<Constancy> constancy(const Steps& formulas, const PlanarReduction& plane, const Vector2d& start,
-                                   double C) {
-  const PlanarOrbit steps = reduction::by_steps(plane.field()).orbit(start);
-  constexpr double longest = 4, shortest = 1e-3;
-  constexpr int samples = 64;
-  const auto stays = [&](double time) {
-    for (int i = 1; i <= samples; ++i) {
-      if (!formulas.holds_at(steps.at(time * i / samples))) return false;
-    }
-    return true;
-  };
-  for (double time = longest; time > shortest; time /= 2) {
-    try {
-      if (!stays(time)) continue;
-      const Vector2d x = steps.at(time);
-      const double difference = std::abs(formulas.integral->H({x[0], x[1]}) - C) / std::max(1., std::abs(C));
-      if (std::isfinite(difference)) return Constancy{time, difference};
-    } catch (const std::domain_error&) {
-      // The steps do not reach this time.
-    }
-  }
-  return std::nullopt;
 }
 
 /// Returns the equilibrium to which steps in time lead, forwards: they come so near that linear equations hold, and
@@ -711,15 +636,22 @@ class Blackboard {
   /// @param extent  values of x at which y is on the branch
   void add_solution(double C, const std::string& method, std::string_view form, const Extent& extent) {
     if (steps_.integral) {
+      const std::string where = steps_.where();
       std::vector<std::string> jumps;
       for (const Expression& place : steps_.jumps()) jumps.push_back(shown(place) + " = 0");
-      add("solution", fmt::format("{} = C{}{}{}", shown(steps_.integral->H),
-                                  std::isfinite(C) ? ",  C = " + digits_(C) : std::string(),
-                                  steps_.where.empty() ? "" : ",  for " + steps_.where,
-                                  jumps.empty() ? "" : fmt::format(";  C jumps where {}", fmt::join(jumps, ", "))));
+      add("solution",
+          fmt::format("{} = C{}{}{}", shown(steps_.integral->H),
+                      std::isfinite(C) ? ",  C = " + digits_(C) : std::string(), where.empty() ? "" : ",  for " + where,
+                      jumps.empty() ? "" : fmt::format(";  C jumps where {}", fmt::join(jumps, ", "))));
       if (steps_.branch) {
-        add("",
-            fmt::format("{} = {}{}", steps_.names[1], shown(*steps_.branch), extent.text(steps_.names[0], digits_)));
+        const auto& [from, until] = extent;
+        const std::string &x = steps_.names[0],
+                          begin = std::isfinite(from) ? fmt::format("from {} = {}", x, digits_(from)) : "";
+        const std::string end = std::isfinite(until)
+                                    ? fmt::format("{}{}", begin.empty() ? "up to " + x + " = " : " to ", digits_(until))
+                                    : "";
+        add("", fmt::format("{} = {}{}{}{}", steps_.names[1], shown(*steps_.branch),
+                            begin.empty() && end.empty() ? "" : ", ", begin, end));
       }
     } else {
       add("solution", method);
@@ -789,7 +721,8 @@ class Blackboard {
     }
   }
 
-  void add_constancy(const Constancy& found, const Vector2d& start) {
+  /// @param found  comparison of H with C
+  void add_constancy(const BySteps& found, const Vector2d& start) {
     add("check", fmt::format("by steps to {}: C differs by {:.0e}{}", at(start, found.time), found.difference,
                              found.confirms() ? "" : ", not confirmed"));
   }
@@ -892,7 +825,7 @@ class Blackboard {
   double limit_of(const PlanarOrbit& orbit, const Vector2d& start) const {
     const double limit = orbit.limit()[1];
     if (std::isfinite(limit) || std::ranges::count(steps_.kinds, "autonomous") == 0) return limit;
-    const double slope = steps_.parts[1]({start[0], start[1]});
+    const double slope = steps_.equation->slope({start[0], start[1]});
     double next = std::numeric_limits<double>::quiet_NaN();
     for (const ConstantSolution& each : steps_.constants.all) {
       if (slope == 0 ? each.y == start[1] : (each.y - start[1]) * slope > 0 && !((each.y - next) * slope > 0))
@@ -911,7 +844,7 @@ class Blackboard {
     constexpr double before = 1e-6, steep = 1e3;
     try {
       const Vector2d x = orbit.at(time * (1 - before));
-      return steps_.parts.empty() || std::abs(steps_.parts[1]({x[0], x[1]})) > steep;
+      return !steps_.equation || std::abs(steps_.equation->slope({x[0], x[1]})) > steep;
     } catch (const std::domain_error&) {
       return true;
     }
@@ -1038,7 +971,8 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   const auto sink = given && !followed && !cycle ? sink_reached(plane, start) : std::nullopt;
   if (sink) answer.members.update({{"end", name(PlanarEnd::equilibrium)}, {"tau_stop", infinity}});
   if (cycle) answer.members["cycle"] = portraits::cycle_members<Json>(*cycle);
-  const Extent extent = steps.branch && followed ? extent_of_branch(steps, followed->orbit, start) : Extent{};
+  const Extent extent = steps.branch ? steps.extent(start, followed ? start[0] + followed->orbit.end_time() : infinity)
+                                     : Extent{-infinity, infinity};
   if (system.equations == FormulaField::Equations::first) {
     answer.members["constant_solutions"] = Json::array();
     for (const auto& [y, stability] : steps.constants.all) {
@@ -1055,7 +989,7 @@ Answer reduce_answer(const FormulaField& system, const reduction::SmoothField& f
   });
   const double C =
       steps.integral && given && !is_constant ? steps.constant(start, [&] { return plane.orbit(start); }) : infinity;
-  const auto constant = !followed && std::isfinite(C) ? constancy(steps, plane, start, C) : std::nullopt;
+  const auto constant = !followed && std::isfinite(C) ? values_by_steps(plane, steps, start, C) : std::nullopt;
   answer.text = [=, numbers = answer.text](const Digits& digits) {
     Blackboard board(system, steps, digits);
     board.add_kinds();
