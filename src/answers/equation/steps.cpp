@@ -142,35 +142,35 @@ Constants constant_solutions(const Expression& slope, const Vector2d& start, boo
     const reduction::SmoothField across([&](const Vector2d& x) { return Vector2d(x[0], at(e, x[1])); });
     return find_equilibria(across, Vector2d(-1, -reach), Vector2d(1, reach)).points;
   };
-  const auto side = [&](double y) { return at(slope, y) > 0 ? 1 : at(slope, y) < 0 ? -1 : 0; };
+  const auto of_kind = [](std::string_view kind) -> std::string_view {
+    return kind == "saddle"          ? "stable"
+           : kind == "unstable node" ? "unstable"
+           : kind == "saddle-node"   ? "stable on one side"
+                                     : "";
+  };
+  const auto of_sides = [&](double y) -> std::string_view {
+    const double near = step * (1 + std::abs(y)), before = at(slope, y - near), after = at(slope, y + near);
+    return before > 0 && after < 0   ? "stable"
+           : before < 0 && after > 0 ? "unstable"
+           : before * after > 0      ? "stable on one side"
+                                     : "";
+  };
   constexpr std::size_t many = 6, most = 7;
   Constants found;
   auto& all = found.all;
   for (double last = -1; const double reach : {2., 16., 128., 1024.}) {
     if (all.size() > many) break;
-    std::vector<reduction::Equilibrium> places = zeros(slope, reach);
+    std::vector<ConstantSolution> places;
+    for (const auto& each : zeros(slope, reach)) places.push_back({each.x[1], of_kind(each.kind)});
     for (const Expression& base : bases) {
-      for (reduction::Equilibrium& each : zeros(base, reach)) {
-        const double near = step * (1 + std::abs(each.x[1]));
-        const int before = side(each.x[1] - near), after = side(each.x[1] + near);
-        each.kind = before > 0 && after < 0   ? "saddle"
-                    : before < 0 && after > 0 ? "unstable node"
-                    : before * after > 0      ? "saddle-node"
-                                              : "";
-        places.push_back(each);
-      }
+      for (const auto& each : zeros(base, reach)) places.push_back({each.x[1], of_sides(each.x[1])});
     }
-    for (const auto& each : places) {
-      const double y = each.x[1];
+    for (const ConstantSolution& each : places) {
+      const double y = each.y;
       constexpr double same = 1e-6;
       const bool known = std::ranges::any_of(
-          all, [&](const ConstantSolution& other) { return std::abs(other.y - y) <= same * (1 + std::abs(y)); });
-      if (std::abs(y) <= last || known || !stays(y)) continue;
-      all.push_back({y, !autonomous                    ? ""
-                        : each.kind == "saddle"        ? "stable"
-                        : each.kind == "unstable node" ? "unstable"
-                        : each.kind == "saddle-node"   ? "stable on one side"
-                                                       : ""});
+          all, [&](const auto& other) { return std::abs(other.y - y) <= same * (1 + std::abs(y)); });
+      if (std::abs(y) > last && !known && stays(y)) all.push_back({y, autonomous ? each.stability : ""});
     }
     last = reach;
   }
@@ -277,6 +277,14 @@ Extent Steps::extent(const Vector2d& start, double end) const {
   };
   const auto last = [&](double reach) {
     std::optional<double> nearest = extent_of(reach, is_solution);
+    // Farther out, formulas overflow: there an equation that jumps is seen, and a missing value says nothing.
+    constexpr double farther_out = 10;
+    if (!nearest && !std::isfinite(end)) {
+      nearest = extent_of(farther_out * reach, [&](double passed) {
+        const double y = y_at(passed);
+        return std::isnan(y) || std::isnan(F({start[0] + passed, y})) || is_solution(passed);
+      });
+    }
     for (const Divisor& divisor : of_branch) {
       const auto pole = extent_of(reach, [&](double passed) { return keeps_sign(divisor, passed); });
       // The branch grows towards a pole, and not towards a zero that its numerator shares.
